@@ -9,11 +9,11 @@
 #include "frame/effects.h"
 #include "propagation/carrier.h"
 #include "radar/antenna.h"
+#include "radar/detection.h"
 #include "radar/measurement_sigma.h"
 #include "radar/monopulse.h"
 #include "radar/radar_equation.h"
 #include "radar/resolution.h"
-#include "radar/swerling.h"
 #include "text/field.h"
 
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };

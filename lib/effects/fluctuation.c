@@ -14,8 +14,8 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
     struct random_address address = draw_address_in(scan->address, reception->echo->id);
     double uniform[4];
     random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
-    return effect_scale(reception, swerling_amplitude_factor(
-                                       sensor->fluctuation, sensor->fluctuation_sigma_db, uniform));
+    return effect_scale(reception, detection_fluctuation(sensor->fluctuation,
+                                                         sensor->fluctuation_sigma_db, uniform));
 }
 
 const struct effect effect_fluctuation = {

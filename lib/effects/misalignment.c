@@ -1,7 +1,7 @@
 /* A yaw error of the mount, and a bias by the radome (MODEL 14.8). */
 #include "effects/effect.h"
 
-#include "radar/boresight_error.h"
+#include "radar/antenna.h"
 
 static bool described(const struct effect_scan *scan)
 {
@@ -18,7 +18,7 @@ static bool turn_azimuth(const struct effect_scan *scan, struct effect_measureme
         .bias_phase_rad = sensor->radome_phase_rad,
     };
     double azimuth_rad = measurement->azimuth_rad;
-    measurement->azimuth_rad = boresight_error_reported_rad(&error, azimuth_rad);
+    measurement->azimuth_rad = antenna_reported_rad(&error, azimuth_rad);
     return measurement->azimuth_rad != azimuth_rad;
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "propagation/road_mirror.h"
+#include "propagation/reflection.h"
 
 static bool described(const struct effect_scan *scan)
 {
@@ -20,7 +20,7 @@ static bool described(const struct effect_scan *scan)
 static void begin(const struct effect_scan *scan, double *constants)
 {
     struct material_permittivity permittivity =
-        material_permittivity(MATERIAL_CONCRETE, scan->sensor->carrier_hz);
+        reflection_permittivity(MATERIAL_CONCRETE, scan->sensor->carrier_hz);
     bool asphalt = scan->frame->conditions.road == ROAD_ASPHALT;
     constants[0] = asphalt ? 5 : permittivity.real;
     constants[1] = asphalt ? 0.25 : permittivity.loss;
@@ -43,12 +43,12 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
     if (!(echo->height_m > 0))
         return false;
     const double *constants = scan->constants[EFFECT_TWO_RAY];
-    const struct road_mirror_road road = {{constants[0], constants[1]}, constants[2]};
-    const struct road_mirror_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
-                                          road_distance_m(sensor, echo)};
-    return effect_scale(
-        reception, road_mirror_amplitude_factor(&road, sensor->polarization,
-                                                units_wavelength_m(sensor->carrier_hz), &ends));
+    const struct two_ray_road road = {{constants[0], constants[1]}, constants[2]};
+    const struct two_ray_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
+                                      road_distance_m(sensor, echo)};
+    return effect_scale(reception,
+                        reflection_two_ray_factor(&road, sensor->polarization,
+                                                  units_wavelength_m(sensor->carrier_hz), &ends));
 }
 
 const struct effect effect_two_ray = {

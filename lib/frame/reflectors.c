@@ -92,7 +92,7 @@ static const struct field mirror_fields[] = {
     {OPTIONAL_REAL(
         struct mirror_plane, reflection, 1e-6, 1,
         "part of an amplitude that is reflected, at all angles; absent: the material's")},
-    {OPTIONAL_CHOICE(struct mirror_plane, material, material_names,
+    {OPTIONAL_CHOICE(struct mirror_plane, material, reflection_material_names,
                      "whose permittivity reflects by angle and polarization; absent: reflection")},
     {OPTIONAL_REAL(struct mirror_plane, profile_radius_m, 1e-3, 1e6,
                    "of curvature from below to above; absent: straight")},

@@ -8,7 +8,7 @@
 
 #include "geometry/directivity.h"
 #include "geometry/motion.h"
-#include "propagation/material.h"
+#include "propagation/reflection.h"
 #include "text/field.h"
 
 /* The part of an object at a point that moves against the body. */
@@ -33,7 +33,7 @@ struct point_reflector {
 };
 
 /* A flat side, which mirrors the radar's wave back from the foot of the perpendicular. Its ERCS is
- * constant, or, for a sensor with curved_sides, that of its curvature (curved_surface.h). Its outer
+ * constant, or, for a sensor with curved_sides, that of its curvature (reflection.h). Its outer
  * face is to the right of from -> to: sides run counter-clockwise around the outline. */
 struct plane_reflector {
     const char *name;

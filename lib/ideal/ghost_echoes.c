@@ -7,8 +7,7 @@
 #include "geometry/specular_point.h"
 #include "ideal/line_of_sight.h"
 #include "ideal/sight_margins.h"
-#include "propagation/curved_surface.h"
-#include "propagation/material.h"
+#include "propagation/reflection.h"
 
 /* A path has so many bounces if it takes the mirror one way, or both ways. */
 enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
@@ -56,7 +55,7 @@ static void add_face(const struct look *look, const struct look_body *body, size
         .along =
             motion_box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y),
         .plane = plane,
-        .permittivity = material_permittivity(plane->material, look->sensor->carrier_hz),
+        .permittivity = reflection_permittivity(plane->material, look->sensor->carrier_hz),
         .in_view = in_view,
         .joints = arena_get(look->frame->arena, sizeof(struct mirror_joints)),
     };
@@ -312,7 +311,7 @@ static double material_part(const struct look *look, const struct mirror_face *f
 {
     bool upright = look->sensor->polarization == POLARIZATION_VERTICAL;
     double _Complex reflected =
-        material_reflection(&face->permittivity, upright ? MATERIAL_TE : MATERIAL_TM, cosine);
+        reflection_fresnel(&face->permittivity, upright ? MATERIAL_TE : MATERIAL_TM, cosine);
     return elementary_hypot(creal(reflected), cimag(reflected));
 }
 
@@ -329,8 +328,7 @@ static double bounce_factor(const struct look *look, const struct ghost_candidat
     double profile_m = plane->profile_radius_m > 0 ? plane->profile_radius_m : (double)INFINITY;
     double part =
         plane->material == MATERIAL_NONE ? plane->reflection : material_part(look, face, cosine);
-    return part *
-           curved_surface_divergence(radius_m, profile_m, cosine, share * (1 - share) * way_m);
+    return part * reflection_divergence(radius_m, profile_m, cosine, share * (1 - share) * way_m);
 }
 
 /* Adds the ghosts of a candidate, on all three paths or, unless one_way is true, on

@@ -9,7 +9,7 @@
 #include "geometry/predicates.h"
 #include "geometry/specular_point.h"
 #include "ideal/sight_margins.h"
-#include "propagation/curved_surface.h"
+#include "propagation/reflection.h"
 
 /* No leg of an echo is longer than this times the sensor's range: a ghost in range that returns
  * straight is at most twice that far away by the mirror. */
@@ -286,7 +286,7 @@ double look_plane_ercs(const struct look *look, const struct plane_reflector *pl
     if (!curved)
         return plane->ercs;
     double radius_m = plane->radius_m > 0 ? plane->radius_m : (double)INFINITY;
-    double ercs = curved_surface_ercs(plane->profile_radius_m, radius_m, range_m);
+    double ercs = reflection_curved_ercs(plane->profile_radius_m, radius_m, range_m);
     if (ercs != plane->ercs)
         *effects |= EFFECT_BIT(EFFECT_CURVATURE);
     return ercs;

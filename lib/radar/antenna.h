@@ -63,3 +63,17 @@ double antenna_azimuth_rad(const struct antenna *antenna, double delta, double s
  * least two rows, sums >= 0, in no row both amplitudes zero, and azimuth and delta/sum that ascend
  * strictly. *row becomes the first row at fault, counted from 0, or count if rows are missing. */
 const char *antenna_table_fault(const struct antenna_row *rows, size_t count, size_t *row);
+
+/* Azimuth error of a misaligned sensor behind a bumper (MODEL 14.8). It looks to the right of where
+ * it believes by the yaw error; the bumper, as a radome, bends the beam by the bias, with periods
+ * of 20 to 40 degrees in practice. */
+struct boresight_error {
+    double yaw_error_rad;
+    double bias_rad;
+    double bias_period_rad; /* > 0 unless bias_rad is 0 */
+    double bias_phase_rad;
+};
+
+/* The reported azimuth, in (-pi, pi]. Without yaw error and bias it is azimuth_rad itself, if that
+ * is in this interval. */
+double antenna_reported_rad(const struct boresight_error *error, double azimuth_rad);

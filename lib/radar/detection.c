@@ -9,6 +9,34 @@
 /* What a Gaussian number is beyond 3 deviations with, where the log-normal law is cut. */
 #define BEYOND_CUT 0.00134989803163
 
+static double log_normal_mean_db(double sigma_db)
+{
+    return -LN_10 / 20 * sigma_db * sigma_db;
+}
+
+/* A standard Gaussian number by Box and Muller, cut at 3 from above. */
+static double cut_gaussian(const double uniform[4])
+{
+    double radius = sqrt(-2 * elementary_log(uniform[0]));
+    return elementary_min(radius * elementary_sincos_turns(uniform[1]).cos, 3);
+}
+
+double detection_fluctuation(enum fluctuation_law law, double sigma_db, const double uniform[4])
+{
+    switch (law) {
+    case FLUCTUATION_SWERLING_1:
+        return sqrt(-elementary_log(uniform[0]));
+    case FLUCTUATION_SWERLING_3:
+        return sqrt(-(elementary_log(uniform[0]) + elementary_log(uniform[1])) / 2);
+    case FLUCTUATION_LOG_NORMAL:
+        return units_amplitude_from_db(log_normal_mean_db(sigma_db) +
+                                       sigma_db * cut_gaussian(uniform));
+    case FLUCTUATION_NONE:
+        break;
+    }
+    return 1;
+}
+
 /* (1 - exp(-x))/x. */
 static double mean_decay(double x)
 {
@@ -32,11 +60,6 @@ double detection_in_noise(double amplitude, double threshold, double noise)
         sum += (i == 0 || i == steps ? 0.5 : 1) * beyond * mean_decay(rho2 / power);
     }
     return elementary_max(0, elementary_min(1, 1 - threshold / power * sum / steps));
-}
-
-static double log_normal_mean_db(double sigma_db)
-{
-    return -LN_10 / 20 * sigma_db * sigma_db;
 }
 
 /* How likely a fluctuating power is, per decibel. */

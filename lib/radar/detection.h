@@ -1,11 +1,26 @@
-/* Probability that a sensor detects an echo of given amplitude.
+/* Swerling's fluctuation of echoes, and the probability of their detection.
  *
- * An echo of the mean amplitude A, fluctuating by the factor f (radar/swerling.h), is detected if
- * A f meets one threshold and |A f + n| another, n being complex Gaussian noise (MODEL 14.14). A
- * steady echo passes the second with Marcum's Q(sqrt 2 A/noise, sqrt 2 T/noise). */
+ * From scan to scan an echo fluctuates by a factor f on its amplitude, the square of which is a
+ * random power of mean 1, by the laws of MODEL 14.14: Swerling 1 for many equal scatterers,
+ * Swerling 3 for one that dominates many, and a log-normal law that is cut (3GPP TR 38.901), which
+ * lowers its mean to 0.997 for 3.41 dB. Swerling's cases 2 and 4 change from look to look; here a
+ * scan is one look, so that they are the same as 1 and 3.
+ *
+ * An echo of the mean amplitude A is detected if A f meets one threshold and |A f + n| another, n
+ * being complex Gaussian noise. A steady echo passes the second with Marcum's
+ * Q(sqrt 2 A/noise, sqrt 2 T/noise). */
 #pragma once
 
-#include "radar/swerling.h"
+enum fluctuation_law {
+    FLUCTUATION_NONE,
+    FLUCTUATION_SWERLING_1,
+    FLUCTUATION_SWERLING_3,
+    FLUCTUATION_LOG_NORMAL,
+};
+
+/* The factor f, from four independent uniform numbers in (0, 1). sigma_db >= 0 is s of the log-normal
+ * law. Exactly 1 for FLUCTUATION_NONE, and for the log-normal law with 0 dB. */
+double detection_fluctuation(enum fluctuation_law law, double sigma_db, const double uniform[4]);
 
 /* All amplitudes are linear and of one unit. */
 struct detection_law {

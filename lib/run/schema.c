@@ -191,7 +191,7 @@ void schema_write(size_t index, struct text *text)
     indent(1, text);
     write_text_member("$schema", "https://json-schema.org/draft/2020-12/schema", text);
     text_add_word(text, ",");
-    bool varied = schemas[index].record == &scenario_record; /* by text/variation.h */
+    bool varied = schemas[index].record == &scenario_record; /* by document_draw */
     write_record(schemas[index].record, varied, 1, text);
     if (varied)
         write_laws(text);

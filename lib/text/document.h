@@ -1,11 +1,12 @@
-/* JSON documents for people: found, read and checked. jansson checks their text; the reader of
- * records (record_text.h) reads what it says.
+/* JSON documents for people: found, read, checked and drawn. jansson checks their text; the reader
+ * of records (record_text.h) reads what it says.
  *
  * A bare name (no slash, no dot) is <kind>/<name>.json in $GLINT_DATA, then in ../share/glint and
  * in ../../data beside the executable, then in ./data; anything else is a path. Every fault of a
  * document is DIAG_CONFIG, and so is a GLINT_DATA that is no folder. */
 #pragma once
 
+#include "base/random.h"
 #include "base/text.h"
 #include "text/field.h"
 
@@ -78,3 +79,14 @@ const char *document_line(const char *path, const struct text *bytes, const char
                           struct arena *arena, struct diag *diag);
 int document_take(const char *path, const char *line, const struct record *record, void *base,
                   struct arena *arena, struct diag *diag);
+
+/* The line of a document with a draw in the place of every distribution. Any value may be an object
+ * with one member that names a law:
+ *
+ *     {"uniform": [low, high]}  {"normal": [mean, sd]}  {"choice": [value, value, ...]}
+ *
+ * A choice takes any values, and they may hold distributions themselves. A normal draw is at most
+ * 8.57 sd from the mean. Each draw is at the given address, with the hash of the member's path
+ * ("objects[1].speed_mps") in its item. NULL after a message that begins with the member. */
+const char *document_draw(const char *line, struct random_address address, struct arena *arena,
+                          struct diag *diag);

@@ -5,7 +5,6 @@
 #include "base/units.h"
 #include "frame/frame_check.h"
 #include "text/document.h"
-#include "text/variation.h"
 
 static const struct field segment_fields[] = {
     {FIELD_REAL_IN(struct segment, duration_s, 0, 1e6, "the next segment begins after this time")},
@@ -406,7 +405,7 @@ struct scenario *scenario_draw(const struct scenario_document *document,
                                struct diag *diag)
 {
     struct scenario *scenario = arena_get(arena, sizeof *scenario);
-    const char *line = variation_draw(document->line, address, arena, diag);
+    const char *line = document_draw(document->line, address, arena, diag);
     if (line == NULL) {
         diag_prefix(diag, "%s: ", document->path);
         return NULL;

@@ -72,7 +72,7 @@ double scenario_time_s(const struct scenario *scenario, int64_t number);
 /* The object of this id; NULL if there is none. */
 const struct actor *scenario_object(const struct scenario *scenario, const char *id);
 
-/* The document of a scenario, whose values may be distributions (text/variation.h). */
+/* The document of a scenario, whose values may be distributions (document_draw). */
 struct scenario_document {
     const char *path;
     const char *line;
@@ -82,7 +82,7 @@ struct scenario_document {
 int scenario_read(const char *name, struct scenario_document *document, struct arena *arena,
                   struct diag *diag);
 
-/* A scene of the document, whose values are drawn at the address (text/variation.h), checked and
+/* A scene of the document, whose values are drawn at the address (document_draw), checked and
  * shifted to the origin of its frames. ego: in place of the scenario's own, unless NULL. All of it
  * lies in the arena; NULL after a message (DIAG_CONFIG). */
 struct scenario *scenario_draw(const struct scenario_document *document,

@@ -9,7 +9,7 @@
 #include "geometry/obstruction.h"
 #include "ideal/direct_echoes.h"
 #include "ideal/ghost_echoes.h"
-#include "propagation/curved_surface.h"
+#include "propagation/reflection.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -419,9 +419,9 @@ static void a_material_mirrors_by_angle_and_polarization(void **state)
             struct mirror_plane *mirror = scene->frame.reflectors.items[1].mirrors.items;
             mirror->reflection = 0;
             mirror->material = material;
-            struct material_permittivity permittivity = material_permittivity(material, 77e9);
-            double _Complex part = material_reflection(
-                &permittivity, upright == 1 ? MATERIAL_TE : MATERIAL_TM, cosine);
+            struct material_permittivity permittivity = reflection_permittivity(material, 77e9);
+            double _Complex part =
+                reflection_fresnel(&permittivity, upright == 1 ? MATERIAL_TE : MATERIAL_TM, cosine);
             assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
             assert_near(ghost_of(scene, PATH_WALL_OBJECT_WALL)->ercs,
                         creal(part) * creal(part) + cimag(part) * cimag(part), 1e-13);
@@ -440,7 +440,7 @@ static void a_curved_mirror_spreads_the_wave_at_every_bounce(void **state)
     mirror->radius_m = 20;
     mirror->profile_radius_m = 1.5;
     paths_of(scene);
-    double divergence = curved_surface_divergence(20, 1.5, 10 / sqrt(1000), 0.4 * 0.6 * sqrt(1000));
+    double divergence = reflection_divergence(20, 1.5, 10 / sqrt(1000), 0.4 * 0.6 * sqrt(1000));
     assert_true(divergence < 0.5);
     assert_near(ghost_of(scene, PATH_OBJECT_WALL)->ercs, divergence * flat_one_way, 1e-14);
     assert_near(ghost_of(scene, PATH_WALL_OBJECT)->ercs, divergence * flat_one_way, 1e-14);

@@ -112,7 +112,7 @@ static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
             double uniform[4], noise[4];
             random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
             random_gaussian(&address, RANDOM_POINTERS, 0, noise);
-            double steady = amplitude * swerling_amplitude_factor(laws[i / 2], 3.41, uniform);
+            double steady = amplitude * detection_fluctuation(laws[i / 2], 3.41, uniform);
             double part = detection.noise * sqrt(0.5);
             found += steady >= 2 && hypot(steady + part * noise[0], part * noise[1]) >= 2;
         }

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "radar/swerling.h"
+#include "radar/detection.h"
 
 enum { DRAWS = 400000 };
 
@@ -14,7 +14,7 @@ static double power_at(enum fluctuation_law law, double sigma_db, uint32_t index
 {
     double uniform[4];
     random_uniform(&ADDRESS, RANDOM_PHASE, index, uniform);
-    double factor = swerling_amplitude_factor(law, sigma_db, uniform);
+    double factor = detection_fluctuation(law, sigma_db, uniform);
     return factor * factor;
 }
 
@@ -166,7 +166,7 @@ static void no_draw_is_beyond_the_extreme_ones(void **state)
         double least = HUGE_VAL, most = 0;
         for (int k = 0; k < 49; k++) {
             double uniform[4] = {extremes[k / 7], extremes[k % 7]};
-            double factor = swerling_amplitude_factor(rows[i].law, 3, uniform);
+            double factor = detection_fluctuation(rows[i].law, 3, uniform);
             least = fmin(least, factor);
             most = fmax(most, factor);
         }

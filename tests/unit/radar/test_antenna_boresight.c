@@ -2,7 +2,7 @@
 
 #include "base/units.h"
 #include "propagation/ground_return.h"
-#include "radar/boresight_error.h"
+#include "radar/antenna.h"
 #include "sample.h"
 
 #define DEGREE (PI / 180)
@@ -16,8 +16,7 @@ static void a_yaw_error_shifts_the_far_more(void **state)
     (void)state;
     static const double cases[][2] = {{10, 0.174551}, {30, 0.523652}, {100, 1.745506}};
     for (size_t i = 0; i < COUNT(cases); i++)
-        assert_close(cases[i][0] * tan(boresight_error_reported_rad(&ONE_DEGREE, 0)), cases[i][1],
-                     5e-7);
+        assert_close(cases[i][0] * tan(antenna_reported_rad(&ONE_DEGREE, 0)), cases[i][1], 5e-7);
 }
 
 /* MODEL 14.8: at 30 m/s what stands has another range rate than its reported azimuth says. */
@@ -28,7 +27,7 @@ static void the_standing_world_contradicts_a_yaw_error(void **state)
     struct vec2 speed_mps = {30, 0}, ahead = {1, 0};
     for (size_t i = 0; i < COUNT(cases); i++) {
         double azimuth_rad = cases[i][0] * DEGREE;
-        double reported_rad = boresight_error_reported_rad(&ONE_DEGREE, azimuth_rad);
+        double reported_rad = antenna_reported_rad(&ONE_DEGREE, azimuth_rad);
         assert_close(ground_return_range_rate_mps(speed_mps, ahead, reported_rad) -
                          ground_return_range_rate_mps(speed_mps, ahead, azimuth_rad),
                      cases[i][1], 5e-7);
@@ -43,13 +42,13 @@ static void a_radome_bends_with_its_period(void **state)
                                       {18, -0.5}, {30, 0.5}, {-6, -0.5}, {-22, 0.25}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         double azimuth_rad = cases[i][0] * DEGREE;
-        double bent_rad = boresight_error_reported_rad(&radome, azimuth_rad) - azimuth_rad;
+        double bent_rad = antenna_reported_rad(&radome, azimuth_rad) - azimuth_rad;
         assert_close(bent_rad / DEGREE, cases[i][1], 1e-13);
     }
     radome.bias_phase_rad = 90 * DEGREE;
     radome.yaw_error_rad = -2 * DEGREE;
-    assert_close(boresight_error_reported_rad(&radome, 0) / DEGREE, -1.5, 1e-14);
-    assert_close(boresight_error_reported_rad(&radome, 8 * DEGREE) / DEGREE, 5.75, 1e-14);
+    assert_close(antenna_reported_rad(&radome, 0) / DEGREE, -1.5, 1e-14);
+    assert_close(antenna_reported_rad(&radome, 8 * DEGREE) / DEGREE, 5.75, 1e-14);
 }
 
 static void error_and_bias_add_up_at_most(void **state)
@@ -64,8 +63,7 @@ static void error_and_bias_add_up_at_most(void **state)
         double most_possible_rad = fabs(one.yaw_error_rad) + fabs(one.bias_rad);
         double most_rad = 0;
         for (double azimuth_rad = -1.5; azimuth_rad < 1.5; azimuth_rad += 0.003)
-            most_rad =
-                fmax(most_rad, fabs(boresight_error_reported_rad(&one, azimuth_rad) - azimuth_rad));
+            most_rad = fmax(most_rad, fabs(antenna_reported_rad(&one, azimuth_rad) - azimuth_rad));
         assert_true(most_rad <= most_possible_rad + 1e-15);
         assert_close(most_rad, most_possible_rad, 2e-5);
     }
@@ -76,9 +74,9 @@ static void a_true_sensor_reports_the_azimuth_itself(void **state)
     (void)state;
     struct boresight_error none = {0};
     for (double azimuth_rad = -3.1; azimuth_rad < 3.1; azimuth_rad += 0.01)
-        assert_close(boresight_error_reported_rad(&none, azimuth_rad), azimuth_rad, 0);
+        assert_close(antenna_reported_rad(&none, azimuth_rad), azimuth_rad, 0);
     /* Over the back it comes round. */
-    assert_close(boresight_error_reported_rad(&ONE_DEGREE, PI), -PI + DEGREE, 1e-15);
+    assert_close(antenna_reported_rad(&ONE_DEGREE, PI), -PI + DEGREE, 1e-15);
 }
 
 int main(void)

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "text/variation.h"
+#include "text/document.h"
 
 #define DRAWS 20000
 
@@ -32,7 +32,7 @@ static int remove_bench(void **state)
 static const char *drawn(struct bench *bench, const char *line, int64_t scene)
 {
     struct random_address address = {.seed = 7, .scene = (uint64_t)scene};
-    const char *text = variation_draw(line, address, &bench->arena, &bench->diag);
+    const char *text = document_draw(line, address, &bench->arena, &bench->diag);
     if (text == NULL)
         fail_msg("%s", bench->diag.text);
     return text;
@@ -145,7 +145,7 @@ static void a_wrong_distribution_is_refused_by_its_member(void **state)
         char line[128];
         snprintf(line, sizeof line, "{\"a\":[{\"b\":%s}]}", wrong[i]);
         bench->diag = (struct diag){0};
-        assert_null(variation_draw(line, (struct random_address){0}, &bench->arena, &bench->diag));
+        assert_null(document_draw(line, (struct random_address){0}, &bench->arena, &bench->diag));
         assert_int_equal(bench->diag.code, DIAG_CONFIG);
         assert_memory_equal(bench->diag.text, "a[0].b: {", 9);
         assert_non_null(strstr(bench->diag.text, "; expected {"));

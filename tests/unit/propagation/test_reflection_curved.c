@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "propagation/curved_surface.h"
+#include "propagation/reflection.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -14,7 +14,7 @@ static double dbsm(double cross_section_m2)
 static void cross_sections_are_those_of_geometrical_optics(void **state)
 {
     (void)state;
-    assert_close(curved_surface_cross_section_m2(0.5, 0.5, 5), 0.649089391, 5e-10);
+    assert_close(reflection_curved_cross_section_m2(0.5, 0.5, 5), 0.649089391, 5e-10);
     static const struct {
         double radius_1_m, radius_2_m, range_m, dbsm, tolerance;
     } cases[] = {
@@ -30,8 +30,8 @@ static void cross_sections_are_those_of_geometrical_optics(void **state)
         {1.5, 20, 50, 18.1531, 5e-5},
     };
     for (size_t i = 0; i < COUNT(cases); i++)
-        assert_close(dbsm(curved_surface_cross_section_m2(cases[i].radius_1_m, cases[i].radius_2_m,
-                                                          cases[i].range_m)),
+        assert_close(dbsm(reflection_curved_cross_section_m2(
+                         cases[i].radius_1_m, cases[i].radius_2_m, cases[i].range_m)),
                      cases[i].dbsm, cases[i].tolerance);
 }
 
@@ -41,8 +41,8 @@ static void a_rail_is_lit_along_a_line(void **state)
     (void)state;
     for (double range_m = 0.5; range_m < 200; range_m *= 1.5) {
         double rail_m2 = PI * 0.04 * range_m * range_m / (0.04 + range_m);
-        assert_near(curved_surface_cross_section_m2(HUGE_VAL, 0.04, range_m), rail_m2, 1e-15);
-        assert_near(curved_surface_cross_section_m2(1e9, 0.04, range_m), rail_m2, 3e-7);
+        assert_near(reflection_curved_cross_section_m2(HUGE_VAL, 0.04, range_m), rail_m2, 1e-15);
+        assert_near(reflection_curved_cross_section_m2(1e9, 0.04, range_m), rail_m2, 3e-7);
     }
 }
 
@@ -57,8 +57,8 @@ static void no_radius_and_no_range_is_too_large_or_too_small(void **state)
         double range_m = pow(10, sample_between(&sample, -12, 6));
         long double a = (long double)r1, b = (long double)r2, r = (long double)range_m;
         long double exact = 3.14159265358979323846L * a * b * r * r / ((a + r) * (b + r));
-        assert_near(curved_surface_cross_section_m2(r1, r2, range_m), (double)exact, 1e-15);
-        assert_near(curved_surface_ercs(r1, r2, range_m), (double)sqrtl(exact / 10), 1e-15);
+        assert_near(reflection_curved_cross_section_m2(r1, r2, range_m), (double)exact, 1e-15);
+        assert_near(reflection_curved_ercs(r1, r2, range_m), (double)sqrtl(exact / 10), 1e-15);
     }
 }
 
@@ -67,9 +67,9 @@ static void nothing_is_zero_and_never_nan(void **state)
     (void)state;
     static const double radii_m[] = {0, 1e-300, 1, 1e9, HUGE_VAL};
     for (size_t i = 0; i < COUNT(radii_m); i++) {
-        assert_close(curved_surface_cross_section_m2(radii_m[i], 0, 0), 0, 0);
-        assert_close(curved_surface_cross_section_m2(0, radii_m[i], 7), 0, 0);
-        assert_close(curved_surface_ercs(radii_m[i], radii_m[i], 0), 0, 0);
+        assert_close(reflection_curved_cross_section_m2(radii_m[i], 0, 0), 0, 0);
+        assert_close(reflection_curved_cross_section_m2(0, radii_m[i], 7), 0, 0);
+        assert_close(reflection_curved_ercs(radii_m[i], radii_m[i], 0), 0, 0);
     }
 }
 
@@ -83,9 +83,9 @@ static void a_wave_mirrored_straight_back_is_the_echo(void **state)
         double r1 = pow(10, sample_between(&sample, -2, 4));
         double r2 = pow(10, sample_between(&sample, -2, 4));
         double range_m = sample_between(&sample, 0.1, 200);
-        double divergence = curved_surface_divergence(r1, r2, 1, range_m / 2);
+        double divergence = reflection_divergence(r1, r2, 1, range_m / 2);
         assert_near(PI * range_m * range_m * divergence * divergence,
-                    curved_surface_cross_section_m2(r1, r2, range_m), 2e-15);
+                    reflection_curved_cross_section_m2(r1, r2, range_m), 2e-15);
     }
 }
 
@@ -93,11 +93,11 @@ static void a_wave_mirrored_straight_back_is_the_echo(void **state)
 static void curvature_in_the_plane_of_incidence_spreads_grazing_waves_most(void **state)
 {
     (void)state;
-    assert_near(curved_surface_divergence(20, HUGE_VAL, 0.25, 10), 1 / sqrt(1 + 4), 1e-15);
-    assert_near(curved_surface_divergence(HUGE_VAL, 20, 0.25, 10), 1 / sqrt(1 + 0.25), 1e-15);
-    assert_near(curved_surface_divergence(20, 20, 0.25, 10), 1 / sqrt(5 * 1.25), 1e-15);
-    assert_close(curved_surface_divergence(HUGE_VAL, HUGE_VAL, 1e-9, 1e6), 1, 0);
-    assert_close(curved_surface_divergence(1e-3, 1e-3, 1, 0), 1, 0);
+    assert_near(reflection_divergence(20, HUGE_VAL, 0.25, 10), 1 / sqrt(1 + 4), 1e-15);
+    assert_near(reflection_divergence(HUGE_VAL, 20, 0.25, 10), 1 / sqrt(1 + 0.25), 1e-15);
+    assert_near(reflection_divergence(20, 20, 0.25, 10), 1 / sqrt(5 * 1.25), 1e-15);
+    assert_close(reflection_divergence(HUGE_VAL, HUGE_VAL, 1e-9, 1e6), 1, 0);
+    assert_close(reflection_divergence(1e-3, 1e-3, 1, 0), 1, 0);
 }
 
 int main(void)

@@ -1,17 +1,17 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "propagation/road_mirror.h"
+#include "propagation/reflection.h"
 #include "sample.h"
 
 #define DEGREE (PI / 180)
 
-static const struct road_mirror_road ASPHALT = {{5, 0.25}, 1e-3};
-static const struct road_mirror_road SMOOTH = {{5, 0.25}, 0};
+static const struct two_ray_road ASPHALT = {{5, 0.25}, 1e-3};
+static const struct two_ray_road SMOOTH = {{5, 0.25}, 0};
 
-static struct road_mirror_ends ends_at(double distance_m)
+static struct two_ray_ends ends_at(double distance_m)
 {
-    return (struct road_mirror_ends){0.5, 0.6, 0, distance_m};
+    return (struct two_ray_ends){0.5, 0.6, 0, distance_m};
 }
 
 static double size(double _Complex reflection)
@@ -21,10 +21,10 @@ static double size(double _Complex reflection)
 
 static double point_db(double reflection, double carrier_hz, double distance_m)
 {
-    struct road_mirror_ends ends = ends_at(distance_m);
-    struct road_mirror_paths paths = road_mirror_paths(&ends);
+    struct two_ray_ends ends = ends_at(distance_m);
+    struct two_ray_paths paths = reflection_two_ray_paths(&ends);
     return units_amplitude_db(
-        road_mirror_point_factor(&paths, reflection, units_wavelength_m(carrier_hz)));
+        reflection_two_ray_point_factor(&paths, reflection, units_wavelength_m(carrier_hz)));
 }
 
 /* MODEL 14.10. */
@@ -50,28 +50,28 @@ static void fading_is_as_published(void **state)
 static void without_a_way_the_bounced_wave_loses_nothing_by_spreading(void **state)
 {
     (void)state;
-    struct road_mirror_ends ends = {0, 0, 0, 0};
-    struct road_mirror_paths paths = road_mirror_paths(&ends);
-    assert_close(road_mirror_point_factor(&paths, -0.5, 0.004), 0.25, 1e-15);
-    assert_close(road_mirror_point_factor(&paths, 0.5, 0.004), 2.25, 1e-15);
+    struct two_ray_ends ends = {0, 0, 0, 0};
+    struct two_ray_paths paths = reflection_two_ray_paths(&ends);
+    assert_close(reflection_two_ray_point_factor(&paths, -0.5, 0.004), 0.25, 1e-15);
+    assert_close(reflection_two_ray_point_factor(&paths, 0.5, 0.004), 2.25, 1e-15);
 }
 
 static void path_difference_is_as_published(void **state)
 {
     (void)state;
-    struct road_mirror_ends ends = ends_at(10);
-    assert_close(road_mirror_paths(&ends).difference_m, 0.059818099, 5.1e-10);
+    struct two_ray_ends ends = ends_at(10);
+    assert_close(reflection_two_ray_paths(&ends).difference_m, 0.059818099, 5.1e-10);
 }
 
 static void path_difference_keeps_its_digits_far_away(void **state)
 {
     (void)state;
     for (double distance_m = 1; distance_m < 1e7; distance_m *= 1.7) {
-        struct road_mirror_ends ends = ends_at(distance_m);
+        struct two_ray_ends ends = ends_at(distance_m);
         long double direct = hypotl((long double)distance_m, 0.5L - (long double)0.6);
         long double bounced = hypotl((long double)distance_m, 0.5L + (long double)0.6);
         long double expected = 4 * 0.5L * (long double)0.6 / (direct + bounced);
-        struct road_mirror_paths paths = road_mirror_paths(&ends);
+        struct two_ray_paths paths = reflection_two_ray_paths(&ends);
         assert_near(paths.difference_m, (double)expected, 1e-15);
         assert_near(paths.direct_m, (double)direct, 4e-16);
         assert_near(paths.bounced_m, (double)bounced, 4e-16);
@@ -89,8 +89,9 @@ static void echoes_fade_where_the_paths_differ_by_whole_waves(void **state)
     for (size_t i = 0; i < 2; i++) {
         double wavelength_m = units_wavelength_m(rows[i].carrier_hz);
         for (int n = 1; n <= 3; n++) {
-            struct road_mirror_ends ends = ends_at(rows[i].null_m[n - 1]);
-            assert_near(road_mirror_paths(&ends).difference_m / wavelength_m, (double)n, 2e-3);
+            struct two_ray_ends ends = ends_at(rows[i].null_m[n - 1]);
+            assert_near(reflection_two_ray_paths(&ends).difference_m / wavelength_m, (double)n,
+                        2e-3);
             assert_true(point_db(-1, rows[i].carrier_hz, rows[i].null_m[n - 1]) < -30);
         }
         assert_close(point_db(-1, rows[i].carrier_hz, 2 * rows[i].null_m[0]), 20 * log10(4), 0.01);
@@ -109,9 +110,9 @@ static void reflection_is_fresnels(void **state)
                 {90, 0.382432, 0.382432}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         double sine = sin(rows[i].grazing_deg * DEGREE);
-        assert_close(size(road_mirror_reflection(&SMOOTH, POLARIZATION_HORIZONTAL, 0.004, sine)),
+        assert_close(size(reflection_road(&SMOOTH, POLARIZATION_HORIZONTAL, 0.004, sine)),
                      rows[i].horizontal, 5.1e-7);
-        assert_close(size(road_mirror_reflection(&SMOOTH, POLARIZATION_VERTICAL, 0.004, sine)),
+        assert_close(size(reflection_road(&SMOOTH, POLARIZATION_VERTICAL, 0.004, sine)),
                      rows[i].vertical, 5.1e-7);
     }
 }
@@ -121,7 +122,7 @@ static void reflection_agrees_with_complex_arithmetic(void **state)
     (void)state;
     uint64_t sample = 6;
     for (int i = 0; i < 10000; i++) {
-        struct road_mirror_road road = {
+        struct two_ray_road road = {
             {sample_between(&sample, 1.01, 40), sample_between(&sample, 0, 40)},
             sample_between(&sample, 0, 2e-3)};
         double sine = sample_between(&sample, 0, 1), wavelength_m = 0.004;
@@ -132,12 +133,11 @@ static void reflection_agrees_with_complex_arithmetic(void **state)
         double _Complex horizontal = rough * (sine - r) / (sine + r);
         double _Complex vertical = rough * (permittivity * sine - r) / (permittivity * sine + r);
         assert_close(
-            size(road_mirror_reflection(&road, POLARIZATION_HORIZONTAL, wavelength_m, sine) -
-                 horizontal),
+            size(reflection_road(&road, POLARIZATION_HORIZONTAL, wavelength_m, sine) - horizontal),
             0, 1e-14);
-        assert_close(size(road_mirror_reflection(&road, POLARIZATION_VERTICAL, wavelength_m, sine) -
-                          vertical),
-                     0, 1e-14);
+        assert_close(
+            size(reflection_road(&road, POLARIZATION_VERTICAL, wavelength_m, sine) - vertical), 0,
+            1e-14);
     }
 }
 
@@ -146,14 +146,15 @@ static void a_bounced_wave_is_late_by_the_path_difference(void **state)
     (void)state;
     uint64_t sample = 5;
     for (int i = 0; i < 10000; i++) {
-        struct road_mirror_paths paths = {10, sample_between(&sample, 10, 12),
-                                          sample_between(&sample, 0, 0.1), 0};
+        struct two_ray_paths paths = {10, sample_between(&sample, 10, 12),
+                                      sample_between(&sample, 0, 0.1), 0};
         double _Complex reflection = sample_between(&sample, -0.7, 0.7) +
                                      sample_between(&sample, -0.7, 0.7) * (double _Complex)I;
         double phase = -2 * PI * paths.difference_m / 0.004;
         double _Complex late = cos(phase) + sin(phase) * (double _Complex)I;
         double _Complex sum = 1 + reflection * (paths.direct_m / paths.bounced_m) * late;
-        assert_close(road_mirror_point_factor(&paths, reflection, 0.004), pow(size(sum), 2), 1e-12);
+        assert_close(reflection_two_ray_point_factor(&paths, reflection, 0.004), pow(size(sum), 2),
+                     1e-12);
     }
 }
 
@@ -161,7 +162,7 @@ static void grazing_waves_come_back_turned_over(void **state)
 {
     (void)state;
     for (int v = 0; v < 2; v++) {
-        double _Complex reflection = road_mirror_reflection(
+        double _Complex reflection = reflection_road(
             &ASPHALT, v ? POLARIZATION_VERTICAL : POLARIZATION_HORIZONTAL, 0.004, 0);
         assert_close(creal(reflection), -1, 1e-15);
         assert_close(cimag(reflection), 0, 1e-15);
@@ -178,10 +179,8 @@ static void roughness_scatters_as_published(void **state)
     double sine = sin(5 * DEGREE);
     for (size_t i = 0; i < 2; i++) {
         double wavelength_m = units_wavelength_m(rows[i].carrier_hz);
-        double rough =
-            size(road_mirror_reflection(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, sine));
-        double smooth =
-            size(road_mirror_reflection(&SMOOTH, POLARIZATION_VERTICAL, wavelength_m, sine));
+        double rough = size(reflection_road(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, sine));
+        double smooth = size(reflection_road(&SMOOTH, POLARIZATION_VERTICAL, wavelength_m, sine));
         assert_close(rough / smooth, rows[i].share, 5.1e-7);
     }
 }
@@ -194,7 +193,7 @@ static void the_mean_is_as_published(void **state)
         double reflection, mean_db;
     } rows[] = {{1, 7.781513}, {0.9, 6.898503}, {0.7, 5.051635}, {0.5, 3.143940}, {0, 0}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        assert_close(units_amplitude_db(road_mirror_mean_factor(rows[i].reflection)),
+        assert_close(units_amplitude_db(reflection_two_ray_mean_factor(rows[i].reflection)),
                      rows[i].mean_db, 5.1e-7);
 }
 
@@ -204,10 +203,10 @@ static void the_mean_is_that_of_power_over_all_phases(void **state)
     for (double reflection = 0; reflection <= 1; reflection += 0.1) {
         double power = 0;
         for (int k = 0; k < 16; k++) {
-            struct road_mirror_paths paths = {1, 1, k / 16.0, 0};
-            power += pow(road_mirror_point_factor(&paths, -reflection, 1), 2) / 16;
+            struct two_ray_paths paths = {1, 1, k / 16.0, 0};
+            power += pow(reflection_two_ray_point_factor(&paths, -reflection, 1), 2) / 16;
         }
-        assert_near(road_mirror_mean_factor(reflection), sqrt(power), 1e-14);
+        assert_near(reflection_two_ray_mean_factor(reflection), sqrt(power), 1e-14);
     }
 }
 
@@ -216,19 +215,19 @@ static void reflectors_higher_than_half_a_lobe_get_the_mean(void **state)
 {
     (void)state;
     double wavelength_m = units_wavelength_m(76.5e9);
-    struct road_mirror_ends ends = ends_at(30);
-    struct road_mirror_paths paths = road_mirror_paths(&ends);
+    struct two_ray_ends ends = ends_at(30);
+    struct two_ray_paths paths = reflection_two_ray_paths(&ends);
     double _Complex reflection =
-        road_mirror_reflection(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, paths.grazing_sine);
-    double point = road_mirror_point_factor(&paths, reflection, wavelength_m);
-    double mean = road_mirror_mean_factor(size(reflection) * paths.direct_m / paths.bounced_m);
+        reflection_road(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, paths.grazing_sine);
+    double point = reflection_two_ray_point_factor(&paths, reflection, wavelength_m);
+    double mean =
+        reflection_two_ray_mean_factor(size(reflection) * paths.direct_m / paths.bounced_m);
     assert_true(fabs(point - mean) > 0.01);
     static const double extents_m[] = {0, 0.1175 / 2, 0.1177 / 2, 2};
     for (size_t i = 0; i < 4; i++) {
         ends.extent_m = extents_m[i];
-        assert_near(
-            road_mirror_amplitude_factor(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, &ends),
-            i < 2 ? point : mean, 1e-15);
+        assert_near(reflection_two_ray_factor(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, &ends),
+                    i < 2 ? point : mean, 1e-15);
     }
 }
 
@@ -237,40 +236,40 @@ static void no_echo_leaves_the_bounds(void **state)
     (void)state;
     uint64_t sample = 7;
     for (int i = 0; i < 100000; i++) {
-        struct road_mirror_ends ends = {
-            sample_between(&sample, 0, 1), sample_between(&sample, 0, 3),
-            i % 3 ? 0 : sample_between(&sample, 0, 2), sample_between(&sample, 0, 200)};
-        struct road_mirror_paths paths = road_mirror_paths(&ends);
+        struct two_ray_ends ends = {sample_between(&sample, 0, 1), sample_between(&sample, 0, 3),
+                                    i % 3 ? 0 : sample_between(&sample, 0, 2),
+                                    sample_between(&sample, 0, 200)};
+        struct two_ray_paths paths = reflection_two_ray_paths(&ends);
         enum polarization polarization = i % 2 ? POLARIZATION_VERTICAL : POLARIZATION_HORIZONTAL;
         double reflection =
-            size(road_mirror_reflection(&ASPHALT, polarization, 0.0039, paths.grazing_sine)) *
+            size(reflection_road(&ASPHALT, polarization, 0.0039, paths.grazing_sine)) *
             paths.direct_m / paths.bounced_m;
         assert_true(reflection <= 1 + 1e-15);
         double least = (1 - reflection) * (1 - reflection);
         double most = (1 + reflection) * (1 + reflection);
-        double factor = road_mirror_amplitude_factor(&ASPHALT, polarization, 0.0039, &ends);
+        double factor = reflection_two_ray_factor(&ASPHALT, polarization, 0.0039, &ends);
         assert_true(factor >= least - 1e-14 && factor <= most + 1e-14);
     }
-    struct road_mirror_paths in_phase = {1, 1, 0, 0};
-    assert_near(road_mirror_point_factor(&in_phase, 0.4, 1), 1.4 * 1.4, 1e-15);
-    assert_near(road_mirror_point_factor(&in_phase, -0.4, 1), 0.6 * 0.6, 1e-15);
+    struct two_ray_paths in_phase = {1, 1, 0, 0};
+    assert_near(reflection_two_ray_point_factor(&in_phase, 0.4, 1), 1.4 * 1.4, 1e-15);
+    assert_near(reflection_two_ray_point_factor(&in_phase, -0.4, 1), 0.6 * 0.6, 1e-15);
 }
 
 static void a_road_that_reflects_nothing_changes_nothing(void **state)
 {
     (void)state;
-    struct road_mirror_paths paths = {10, 10.1, 0.3, 0.1};
-    assert_close(road_mirror_point_factor(&paths, 0, 0.004), 1, 0);
-    assert_close(road_mirror_mean_factor(0), 1, 0);
+    struct two_ray_paths paths = {10, 10.1, 0.3, 0.1};
+    assert_close(reflection_two_ray_point_factor(&paths, 0, 0.004), 1, 0);
+    assert_close(reflection_two_ray_mean_factor(0), 1, 0);
 }
 
 static void ends_on_the_road_give_numbers(void **state)
 {
     (void)state;
     for (int i = 0; i < 16; i++) {
-        struct road_mirror_ends ends = {i & 1 ? 0.5 : 0, i & 2 ? 0.5 : 0, i & 4 ? 1 : 0,
-                                        i & 8 ? 20 : 0};
-        double factor = road_mirror_amplitude_factor(&ASPHALT, POLARIZATION_VERTICAL, 0.004, &ends);
+        struct two_ray_ends ends = {i & 1 ? 0.5 : 0, i & 2 ? 0.5 : 0, i & 4 ? 1 : 0,
+                                    i & 8 ? 20 : 0};
+        double factor = reflection_two_ray_factor(&ASPHALT, POLARIZATION_VERTICAL, 0.004, &ends);
         assert_true(factor >= 0 && factor <= 4);
     }
 }

@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "propagation/material.h"
+#include "propagation/reflection.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -27,8 +27,8 @@ static void permittivities_are_those_of_the_recommendation(void **state)
         {MATERIAL_METAL, 1, 1.798e7, 2335064.935065},
     };
     for (size_t i = 0; i < COUNT(rows); i++) {
-        struct material_permittivity low = material_permittivity(rows[i].material, 10e9);
-        struct material_permittivity high = material_permittivity(rows[i].material, 77e9);
+        struct material_permittivity low = reflection_permittivity(rows[i].material, 10e9);
+        struct material_permittivity high = reflection_permittivity(rows[i].material, 77e9);
         assert_close(low.real, rows[i].real, 0);
         assert_close(high.real, rows[i].real, 0);
         assert_close(low.loss, rows[i].loss_10, 5.1e-7);
@@ -49,18 +49,18 @@ static void a_wall_mirrors_most_at_grazing_incidence(void **state)
                 {88, 0.966672, 0.836887}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         double cosine = cos(rows[i].incidence_deg * DEGREE);
-        assert_close(size(material_reflection(&concrete, MATERIAL_TE, cosine)), rows[i].te, 5.1e-7);
-        assert_close(size(material_reflection(&concrete, MATERIAL_TM, cosine)), rows[i].tm, 5.1e-7);
+        assert_close(size(reflection_fresnel(&concrete, MATERIAL_TE, cosine)), rows[i].te, 5.1e-7);
+        assert_close(size(reflection_fresnel(&concrete, MATERIAL_TM, cosine)), rows[i].tm, 5.1e-7);
     }
 }
 
 static void metal_mirrors_everything_but_at_its_brewster_angle(void **state)
 {
     (void)state;
-    struct material_permittivity metal = material_permittivity(MATERIAL_METAL, 77e9);
+    struct material_permittivity metal = reflection_permittivity(MATERIAL_METAL, 77e9);
     for (double cosine = 0.01; cosine <= 1; cosine += 0.01) {
-        assert_true(size(material_reflection(&metal, MATERIAL_TE, cosine)) > 0.999);
-        assert_true(size(material_reflection(&metal, MATERIAL_TM, cosine)) > 0.9);
+        assert_true(size(reflection_fresnel(&metal, MATERIAL_TE, cosine)) > 0.999);
+        assert_true(size(reflection_fresnel(&metal, MATERIAL_TM, cosine)) > 0.9);
     }
 }
 
@@ -70,8 +70,8 @@ static void at_brewsters_angle_nothing_of_a_field_in_the_plane_of_incidence_is_l
     for (double real = 1.5; real < 20; real += 0.5) {
         struct material_permittivity permittivity = {real, 0};
         double cosine = 1 / sqrt(1 + real);
-        assert_close(size(material_reflection(&permittivity, MATERIAL_TM, cosine)), 0, 1e-15);
-        assert_true(size(material_reflection(&permittivity, MATERIAL_TE, cosine)) > 0.15);
+        assert_close(size(reflection_fresnel(&permittivity, MATERIAL_TM, cosine)), 0, 1e-15);
+        assert_true(size(reflection_fresnel(&permittivity, MATERIAL_TE, cosine)) > 0.15);
     }
 }
 
@@ -88,8 +88,8 @@ static void reflection_agrees_with_snells_law(void **state)
         double _Complex onward = csqrt(1 - (1 - cosine * cosine) / (index * index));
         double _Complex te = (cosine - index * onward) / (cosine + index * onward);
         double _Complex tm = (index * cosine - onward) / (index * cosine + onward);
-        assert_close(size(material_reflection(&permittivity, MATERIAL_TE, cosine) - te), 0, 1e-13);
-        assert_close(size(material_reflection(&permittivity, MATERIAL_TM, cosine) - tm), 0, 1e-13);
+        assert_close(size(reflection_fresnel(&permittivity, MATERIAL_TE, cosine) - te), 0, 1e-13);
+        assert_close(size(reflection_fresnel(&permittivity, MATERIAL_TM, cosine) - tm), 0, 1e-13);
     }
 }
 
@@ -97,10 +97,10 @@ static void grazing_waves_come_back_turned_over(void **state)
 {
     (void)state;
     for (enum material material = MATERIAL_CONCRETE; material <= MATERIAL_METAL; material++) {
-        struct material_permittivity permittivity = material_permittivity(material, 24.125e9);
+        struct material_permittivity permittivity = reflection_permittivity(material, 24.125e9);
         for (int tm = 0; tm < 2; tm++)
             assert_close(
-                size(material_reflection(&permittivity, tm ? MATERIAL_TM : MATERIAL_TE, 0) + 1), 0,
+                size(reflection_fresnel(&permittivity, tm ? MATERIAL_TM : MATERIAL_TE, 0) + 1), 0,
                 0);
     }
 }
