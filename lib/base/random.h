@@ -12,28 +12,27 @@
  * set made. Numbers from RANDOM_OWN on are free for stages outside this tree: glint's own stay
  * below. */
 enum random_purpose {
-    RANDOM_POINTERS = 1,            /* complex noise on sum and delta: four Gaussians */
-    RANDOM_RANGE_RATE = 2,          /* noise on range and range rate */
-    RANDOM_AZIMUTH = 3,             /* noise on the azimuth itself, not on the pointers */
-    RANDOM_PHASE = 4,               /* relative phase of an echo */
-    RANDOM_TRAFFIC = 5,             /* road users of random traffic: classes, places and speeds */
-    RANDOM_ADVERSARIAL_TRAFFIC = 6, /* cases of adversarial traffic */
-    RANDOM_REFLECTOR_PHASE = 7,     /* phase that a reflector adds to that of its path */
-    RANDOM_FLUCTUATION = 8,         /* fluctuation of an echo's amplitude in a scan */
-    RANDOM_FALSE_ALARMS = 9, /* per scan: block 0 the number of false alarms, block n the place
-                              * of the n-th */
-    RANDOM_CONDITIONS = 10,  /* road, weather and other radars of random traffic */
-    RANDOM_WHEELS = 11,      /* per wheel house: number and rates of the points on its wheel */
-    RANDOM_LIMBS = 12,       /* per person: number and rates of arms and legs */
-    RANDOM_CLUTTER = 13,     /* per scan: number and places of the points on the ground */
-    RANDOM_SIGNAL = 14,      /* per scan: noise on two samples of its signal */
-    RANDOM_BOOTSTRAP = 15,   /* which scenes or blocks a resample has (glint-score --ensemble,
-                              * glint-cost) */
-    RANDOM_SAMPLE = 16,      /* which frame of a stretch is in a sample (glint-cost) */
-    RANDOM_VARIATION = 17,   /* values of a scenario that are distributions */
-    RANDOM_ARRIVALS = 18,    /* vehicles that come to a lane: class, size, driver, when */
-    RANDOM_OWN = 1 << 16,    /* any number from here to 2^31 - 1, one for each purpose of the
-                              * stages that run together */
+    RANDOM_POINTERS = 1,        /* complex noise on sum and delta: four Gaussians */
+    RANDOM_RANGE_RATE = 2,      /* noise on range and range rate */
+    RANDOM_AZIMUTH = 3,         /* noise on the azimuth itself, not on the pointers */
+    RANDOM_PHASE = 4,           /* relative phase of an echo */
+    RANDOM_TRAFFIC = 5,         /* road users of random traffic: classes, places and speeds */
+    RANDOM_REFLECTOR_PHASE = 7, /* phase that a reflector adds to that of its path */
+    RANDOM_FLUCTUATION = 8,     /* fluctuation of an echo's amplitude in a scan */
+    RANDOM_FALSE_ALARMS = 9,    /* per scan: block 0 the number of false alarms, block n the place
+                                 * of the n-th */
+    RANDOM_CONDITIONS = 10,     /* road, weather and other radars of random traffic */
+    RANDOM_WHEELS = 11,         /* per wheel house: number and rates of the points on its wheel */
+    RANDOM_LIMBS = 12,          /* per person: number and rates of arms and legs */
+    RANDOM_CLUTTER = 13,        /* per scan: number and places of the points on the ground */
+    RANDOM_SIGNAL = 14,         /* per scan: noise on two samples of its signal */
+    RANDOM_BOOTSTRAP = 15,      /* which scenes or blocks a resample has (glint-score --ensemble,
+                                 * glint-cost) */
+    RANDOM_SAMPLE = 16,         /* which frame of a stretch is in a sample (glint-cost) */
+    RANDOM_VARIATION = 17,      /* values of a scenario that are distributions */
+    RANDOM_ARRIVALS = 18,       /* vehicles that come to a lane: class, size, driver, when */
+    RANDOM_OWN = 1 << 16,       /* any number from here to 2^31 - 1, one for each purpose of the
+                                 * stages that run together */
 };
 
 struct random_address {

@@ -16,7 +16,7 @@ static void add_points(const struct effect_scan *scan, const struct echo *hub,
     struct random_address address = draw_address_in(scan->address, hub->id);
     double uniform[4];
     random_uniform(&address, RANDOM_WHEELS, 0, uniform);
-    int64_t count = micro_doppler_wheel_count(uniform[0]);
+    int64_t count = random_poisson(MICRO_DOPPLER_WHEEL_COUNT, 1, uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
         struct echo point =
             moving_part_of(hub, PATH_WHEEL, number, MICRO_DOPPLER_WHEEL_FACTOR, EFFECT_WHEELS);

@@ -10,6 +10,7 @@
 #include "geometry/specular_point.h"
 #include "ideal/sight_margins.h"
 #include "propagation/reflection.h"
+#include "radar/radar_equation.h"
 
 /* No leg of an echo is longer than this times the sensor's range: a ghost in range that returns
  * straight is at most twice that far away by the mirror. */
@@ -286,7 +287,8 @@ double look_plane_ercs(const struct look *look, const struct plane_reflector *pl
     if (!curved)
         return plane->ercs;
     double radius_m = plane->radius_m > 0 ? plane->radius_m : (double)INFINITY;
-    double ercs = reflection_curved_ercs(plane->profile_radius_m, radius_m, range_m);
+    double ercs =
+        radar_ercs(reflection_curved_cross_section_m2(plane->profile_radius_m, radius_m, range_m));
     if (ercs != plane->ercs)
         *effects |= EFFECT_BIT(EFFECT_CURVATURE);
     return ercs;

@@ -1,17 +1,11 @@
 #include "propagation/micro_doppler.h"
 
 #include "base/elementary.h"
-#include "base/random.h"
 #include "base/units.h"
 
 /* Ends of the triangular law of x. */
 #define SLOWEST (-1.0)
 #define FASTEST 1.5
-
-int64_t micro_doppler_wheel_count(double uniform)
-{
-    return random_poisson(MICRO_DOPPLER_WHEEL_COUNT, 1, uniform);
-}
 
 struct wheel_point micro_doppler_wheel_point(const double uniform[2])
 {
@@ -21,11 +15,6 @@ struct wheel_point micro_doppler_wheel_point(const double uniform[2])
 double micro_doppler_wheel_rate_mps(double hub_mps, double rolling_mps, struct wheel_point point)
 {
     return hub_mps + rolling_mps * (point.fraction * elementary_cos(point.angle_rad));
-}
-
-int64_t micro_doppler_limb_count(double uniform)
-{
-    return random_poisson(MICRO_DOPPLER_LIMB_COUNT, 1, uniform);
 }
 
 /* x, by inversion of its triangular law, from the end that is nearer, so that nothing cancels. */

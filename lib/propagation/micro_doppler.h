@@ -5,10 +5,8 @@
  * x of a triangular law from -1 to 1.5 with its peak at 0 (MODEL 14.12, assumed). */
 #pragma once
 
-#include <stdint.h>
-
-/* Mean number of points that one visible wheel shows per scan, and their amplitude over that of the
- * wheel's own echo, -10 dB; both assumed. */
+/* Mean of the Poisson count of points that one visible wheel shows per scan, and their amplitude
+ * over that of the wheel's own echo, -10 dB; both assumed. */
 #define MICRO_DOPPLER_WHEEL_COUNT 1.5
 #define MICRO_DOPPLER_WHEEL_FACTOR 0.316227766016837933200
 
@@ -16,9 +14,6 @@ struct wheel_point {
     double fraction;  /* rho */
     double angle_rad; /* psi, 0 at the top */
 };
-
-/* The number of points of one wheel, a Poisson count from one uniform number in (0, 1). */
-int64_t micro_doppler_wheel_count(double uniform);
 
 /* A point with rho even over 0.3 to 1 and psi even around the wheel, each from one uniform number.
  */
@@ -28,8 +23,8 @@ struct wheel_point micro_doppler_wheel_point(const double uniform[2]);
  * hub's motion over ground makes: its velocity over ground along the sight line. */
 double micro_doppler_wheel_rate_mps(double hub_mps, double rolling_mps, struct wheel_point point);
 
-/* Mean number of limbs that one person shows per scan, and their amplitude over the torso's, -6 dB;
- * both assumed. */
+/* Mean of the Poisson count of limbs that one person shows per scan, and their amplitude over the
+ * torso's, -6 dB; both assumed. */
 #define MICRO_DOPPLER_LIMB_COUNT 0.5
 #define MICRO_DOPPLER_LIMB_FACTOR 0.501187233627272285002
 
@@ -40,9 +35,6 @@ struct limb {
     double swing;    /* x */
     double offset_m; /* along the person's heading */
 };
-
-/* The number of limbs of one person, a Poisson count from one uniform number in (0, 1). */
-int64_t micro_doppler_limb_count(double uniform);
 
 /* A limb with x and an even offset, each from one uniform number. */
 struct limb micro_doppler_limb(const double uniform[2]);

@@ -1,8 +1,9 @@
 #include "propagation/reflection.h"
 
+#include <stdbool.h>
+
 #include "base/elementary.h"
 #include "base/units.h"
-#include "radar/radar_equation.h"
 
 const char *const reflection_material_names[] = {
     [MATERIAL_NONE] = "none",   [MATERIAL_CONCRETE] = "concrete", [MATERIAL_BRICK] = "brick",
@@ -71,11 +72,6 @@ static double parallel_m(double radius_m, double range_m)
 double reflection_curved_cross_section_m2(double radius_1_m, double radius_2_m, double range_m)
 {
     return PI * parallel_m(radius_1_m, range_m) * parallel_m(radius_2_m, range_m);
-}
-
-double reflection_curved_ercs(double radius_1_m, double radius_2_m, double range_m)
-{
-    return radar_ercs(reflection_curved_cross_section_m2(radius_1_m, radius_2_m, range_m));
 }
 
 double reflection_divergence(double radius_1_m, double radius_2_m, double cosine, double distance_m)

@@ -30,10 +30,8 @@ double _Complex reflection_fresnel(const struct material_permittivity *permittiv
 
 /* Smooth curved surfaces have the radii of convex curvature r1 in the plane of incidence and r2
  * across it, in [0, infinity], where infinity is straight. The cross section at the specular point
- * is that of MODEL 14.5, by geometrical optics, and 0 if a radius or range_m >= 0 is 0; its ERCS is
- * that of radar_equation.h. */
+ * is that of MODEL 14.5, by geometrical optics, and 0 if a radius or range_m >= 0 is 0. */
 double reflection_curved_cross_section_m2(double radius_1_m, double radius_2_m, double range_m);
-double reflection_curved_ercs(double radius_1_m, double radius_2_m, double range_m);
 
 /* The divergence factor D of MODEL 14.1 on the amplitude of a wave that such a surface mirrors, in
  * [0, 1], as it spreads more than behind a flat one; for radii in (0, infinity], cosine in (0, 1]

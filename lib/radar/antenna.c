@@ -44,21 +44,15 @@ static double interpolated(double from, double from_weight, double to, double to
 static const struct antenna_row *row_before(const struct antenna *antenna, double azimuth_rad)
 {
     const struct antenna_row *rows = antenna->rows;
-    size_t low = 0;
-    size_t high = antenna->row_count - 1;
+    size_t last = antenna->row_count - 1;
     /* The guess is right for rows at even steps, as most tables have them. */
-    double step_rad = (rows[high].azimuth_rad - rows[low].azimuth_rad) / (double)high;
-    size_t guess = (size_t)((azimuth_rad - rows[low].azimuth_rad) / step_rad);
-    if (guess < high && azimuth_rad >= rows[guess].azimuth_rad &&
-        azimuth_rad < rows[guess + 1].azimuth_rad)
-        return &rows[guess];
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (azimuth_rad >= rows[middle].azimuth_rad)
-            low = middle;
-        else
-            high = middle;
-    }
+    double step_rad = (rows[last].azimuth_rad - rows[0].azimuth_rad) / (double)last;
+    size_t low = (size_t)((azimuth_rad - rows[0].azimuth_rad) / step_rad);
+    low = low < last ? low : last - 1;
+    while (low > 0 && azimuth_rad < rows[low].azimuth_rad)
+        low--;
+    while (low + 1 < last && azimuth_rad >= rows[low + 1].azimuth_rad)
+        low++;
     return &rows[low];
 }
 

@@ -18,8 +18,8 @@ enum fluctuation_law {
     FLUCTUATION_LOG_NORMAL,
 };
 
-/* The factor f, from four independent uniform numbers in (0, 1). sigma_db >= 0 is s of the log-normal
- * law. Exactly 1 for FLUCTUATION_NONE, and for the log-normal law with 0 dB. */
+/* The factor f, from four independent uniform numbers in (0, 1). sigma_db >= 0 is s of the
+ * log-normal law. Exactly 1 for FLUCTUATION_NONE, and for the log-normal law with 0 dB. */
 double detection_fluctuation(enum fluctuation_law law, double sigma_db, const double uniform[4]);
 
 /* All amplitudes are linear and of one unit. */

@@ -10,18 +10,11 @@ static double table_amplitude(const struct radar_equation *equation, double rang
     const struct radar_row *rows = equation->rows;
     if (equation->row_count < 2 || range_m <= rows[0].range_m)
         return rows[0].amplitude;
-    size_t low = 0;
-    size_t high = equation->row_count - 1;
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (range_m >= rows[middle].range_m)
-            low = middle;
-        else
-            high = middle;
-    }
-    double part = elementary_log(range_m / rows[low].range_m) /
-                  elementary_log(rows[high].range_m / rows[low].range_m);
-    return rows[low].amplitude * elementary_pow(rows[high].amplitude / rows[low].amplitude, part);
+    while (rows + 2 < equation->rows + equation->row_count && range_m >= rows[1].range_m)
+        rows++;
+    double part = elementary_log(range_m / rows[0].range_m) /
+                  elementary_log(rows[1].range_m / rows[0].range_m);
+    return rows[0].amplitude * elementary_pow(rows[1].amplitude / rows[0].amplitude, part);
 }
 
 double radar_reference_amplitude(const struct radar_equation *equation, double range_m)

@@ -360,16 +360,9 @@ int field_twice(const struct field *field, struct diag *diag)
     return diag_fail(diag, DIAG_DATA, "%s: the key stands twice", field->name);
 }
 
-/* The layout of every LIST_OF, whatever the type of its items. */
-struct untyped_list {
-    void *items;
-    size_t count, room;
-};
-
 struct field_list field_list(const struct field *field, const void *base)
 {
-    struct untyped_list list = FIELD_LOAD(struct untyped_list, field, base);
-    return (struct field_list){list.items, list.count};
+    return FIELD_LOAD(struct field_list, field, base);
 }
 
 bool field_unchanged(const struct record *record, const struct field *field, const void *base)
@@ -385,7 +378,7 @@ bool field_unchanged(const struct record *record, const struct field *field, con
 void *field_list_add(const struct field *field, void *base, struct arena *arena)
 {
     size_t size = field->kind == FIELD_NAMES ? sizeof(const char *) : field->record->size;
-    struct untyped_list list = FIELD_LOAD(struct untyped_list, field, base);
+    struct field_list list = field_list(field, base);
     list.items = list_room(arena, list.items, list.count, &list.room, size);
     char *item = (char *)list.items + list.count * size;
     list.count++;

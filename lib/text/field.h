@@ -194,10 +194,10 @@ int field_out_of_bounds(const struct field *field, double value, struct diag *di
 int field_require_name(const struct field *field, const char *text, size_t length,
                        struct diag *diag);
 
-/* A LIST_OF any type. */
+/* The layout of every LIST_OF, whatever the type of its items. */
 struct field_list {
     void *items;
-    size_t count;
+    size_t count, room;
 };
 
 struct field_list field_list(const struct field *field, const void *base);

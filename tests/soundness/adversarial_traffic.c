@@ -393,14 +393,14 @@ void adversarial_traffic_add(const struct random_traffic *traffic, const struct 
                              int64_t number, struct frame *frame)
 {
     struct random_address address = random_traffic_address(traffic, frame->seed, number);
-    struct random_sequence sequence = random_sequence_at(address, RANDOM_ADVERSARIAL_TRAFFIC);
+    struct random_sequence sequence = random_sequence_at(address, ADVERSARIAL_TRAFFIC_DRAWS);
     int64_t count = random_sequence_whole(&sequence, 1, 3);
     for (int64_t i = 1; i <= count; i++) {
         address.item = (uint64_t)i;
         struct builder builder = {.frame = frame,
                                   .models = traffic->models,
                                   .sequence =
-                                      random_sequence_at(address, RANDOM_ADVERSARIAL_TRAFFIC),
+                                      random_sequence_at(address, ADVERSARIAL_TRAFFIC_DRAWS),
                                   .number = i};
         build(&builder, suite);
     }

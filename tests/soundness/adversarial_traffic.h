@@ -23,6 +23,9 @@
 #include "documents/suite.h"
 #include "traffic/random_traffic.h"
 
+/* The purpose of these draws, besides those of enum random_purpose. */
+#define ADVERSARIAL_TRAFFIC_DRAWS ((enum random_purpose)6)
+
 /* Appends one to three cases to the frame, which has its ego, by the draws of snapshot number. Ids
  * are "CASE-NUMBER-OBJECT", for instance "touch-2-1". */
 void adversarial_traffic_add(const struct random_traffic *traffic, const struct suite *suite,

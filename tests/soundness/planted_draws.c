@@ -1,6 +1,7 @@
 /* The planted fault: draws are numbered in their order, and merging takes one of them. Where
  * merging is left out, all that follow move. Traffic is drawn by address all the same, so that
  * scenes stay what they are. */
+#include "adversarial_traffic.h"
 #include "base/random.h"
 #include "planted.h"
 #include "radar/resolution.h"
@@ -17,7 +18,7 @@ static struct random_address next_of(const struct random_address *address,
 {
     struct random_address next = {
         .seed = address->seed, .scene = address->scene, .frame = address->frame};
-    if (purpose == RANDOM_TRAFFIC || purpose == RANDOM_ADVERSARIAL_TRAFFIC ||
+    if (purpose == RANDOM_TRAFFIC || purpose == ADVERSARIAL_TRAFFIC_DRAWS ||
         purpose == RANDOM_CONDITIONS)
         return *address;
     next.item = ++drawn;

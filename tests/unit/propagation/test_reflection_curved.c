@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "propagation/reflection.h"
+#include "radar/radar_equation.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -58,7 +59,8 @@ static void no_radius_and_no_range_is_too_large_or_too_small(void **state)
         long double a = (long double)r1, b = (long double)r2, r = (long double)range_m;
         long double exact = 3.14159265358979323846L * a * b * r * r / ((a + r) * (b + r));
         assert_near(reflection_curved_cross_section_m2(r1, r2, range_m), (double)exact, 1e-15);
-        assert_near(reflection_curved_ercs(r1, r2, range_m), (double)sqrtl(exact / 10), 1e-15);
+        assert_near(radar_ercs(reflection_curved_cross_section_m2(r1, r2, range_m)),
+                    (double)sqrtl(exact / 10), 1e-15);
     }
 }
 
@@ -69,7 +71,8 @@ static void nothing_is_zero_and_never_nan(void **state)
     for (size_t i = 0; i < COUNT(radii_m); i++) {
         assert_close(reflection_curved_cross_section_m2(radii_m[i], 0, 0), 0, 0);
         assert_close(reflection_curved_cross_section_m2(0, radii_m[i], 7), 0, 0);
-        assert_close(reflection_curved_ercs(radii_m[i], radii_m[i], 0), 0, 0);
+        assert_close(radar_ercs(reflection_curved_cross_section_m2(radii_m[i], radii_m[i], 0)), 0,
+                     0);
     }
 }
 
