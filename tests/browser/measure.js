@@ -62,7 +62,7 @@ async function measure(browser, work, name, objects, frames, sensors) {
     console.log(`${name}: ${Math.round(fs.statSync(file).size / 1e6)} MB, ` +
         `${await page.evaluate(() => column('target_range_m').length / sceneFrames[0].length | 0)} targets a frame`);
     console.log(`  open and drawn after ${opened} ms`);
-    for (const [pane, object] of [['panel', 'an object'], ['panel', 'none'], ['targets', ''], ['recording', '']]) {
+    for (const [pane, object] of [['panel', 'an object'], ['panel', 'none'], ['targets', ''], ['over-time', '']]) {
         await page.evaluate(([id, chosen]) => {
             chooseObject(chosen === 'none' ? -1 : state.object);
             showPane(id);

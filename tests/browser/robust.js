@@ -50,7 +50,7 @@ function sticksOut() {
     return [wide > 0 ? `the page by ${wide} px` : '', ...out.map(one => one.id || one.tagName)].filter(Boolean);
 }
 
-const panes = ['panel', 'targets', 'recording'];
+const panes = ['panel', 'targets', 'over-time'];
 
 module.exports = ({work, stream, view, withPage}) => {
     const frames = stream('intersection');
@@ -137,7 +137,7 @@ module.exports = ({work, stream, view, withPage}) => {
         async 'what is not shown is not decoded'() {
             await withPage(view(frames), async page => {
                 const has = name => page.evaluate(one => decoded.has(one), name);
-                await page.evaluate(() => { chooseObject(-1); showPane('recording'); });
+                await page.evaluate(() => { chooseObject(-1); showPane('over-time'); });
                 await page.waitForFunction(() => location.hash.includes('object=&'));
                 await page.reload();
                 await page.evaluate(() => draw());
@@ -160,7 +160,7 @@ module.exports = ({work, stream, view, withPage}) => {
             await withPage(file, async page => {
                 await page.keyboard.press('End');
                 assert.match(await page.innerText('#clock'), /^frame 49999 \(50000\/50000\)/);
-                await page.click('[aria-controls=recording]');
+                await page.click('[aria-controls=over-time]');
                 assert.strictEqual(await page.evaluate(() => series.counts.length), 50000);
                 await page.keyboard.press('g');
                 await page.keyboard.type('123.45 s');

@@ -623,7 +623,7 @@ const tests = {
     },
 };
 
-Object.assign(tests, require('./recording.js')(
+Object.assign(tests, require('./whole_scene.js')(
     {stream, view, withPage, targetOnMap, clickMap, panelText, clock}),
 require('./comparison.js')({work, write, view, withPage}), require('./robust.js')({work, stream, view, withPage}),
 require('./truth.js')({stream, view, withPage, panelText}));

@@ -432,7 +432,7 @@ function start() {
     connectTable();
     connectHover();
     connectTimeline();
-    connectRecording();
+    connectOverTime();
     connectComparison();
     connectLinks();
     document.addEventListener('keydown', onKey);

@@ -35,7 +35,7 @@ function showPane(id) {
 // The side plots lie below the panes, but for that over time, which needs the room; or one of them,
 // large, over the map.
 function showPlots() {
-    control('plots').hidden = state.pane === 'recording' && !state.large;
+    control('plots').hidden = state.pane === 'over-time' && !state.large;
     control('plots').classList.toggle('large', state.large !== '');
     for (const kind of Object.keys(plots)) {
         plots[kind].canvas.parentElement.hidden = state.large !== '' && state.large !== kind;

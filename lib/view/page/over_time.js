@@ -1,27 +1,27 @@
-// What the chosen object, reflector or sensor did over the whole recording: plots over time of
+// What the chosen object, reflector or sensor did over the whole scene: plots over time of
 // range, range rate, azimuth, level and count, with the reasons of the losses in their gaps.
 
-const recordingPlots = [
+const overTimePlots = [
     {title: 'range m', value: target => column('target_range_m')[target]},
     {title: 'rate m/s', value: (target, scan) => rateOf(scan, target, state.rates === 'compensated')},
     {title: 'azimuth °', value: target => column('target_azimuth_rad')[target] * degrees},
     {title: 'level dB', value: target => column('target_amplitude_db')[target]},
     {title: 'count'},
 ];
-const recordingMargin = {left: 38, right: 14, top: 14, bottom: 18, between: 16};
+const overTimeMargin = {left: 38, right: 14, top: 14, bottom: 18, between: 16};
 
-const recordingCanvas = document.getElementById('series');
-const recordingContext = recordingCanvas.getContext('2d');
+const overTimeCanvas = document.getElementById('series');
+const overTimeContext = overTimeCanvas.getContext('2d');
 
 let series = {key: '', points: [], counts: [], gaps: []};
 let seriesDrawn = '';
 
-function recordedSensor() {
-    return control('recorded').value;
+function plottedSensor() {
+    return control('plotted').value;
 }
 
-function isRecorded(scan) {
-    return isSensorShown(scan) && (recordedSensor() === '' || sensorOf(scan).name === recordedSensor());
+function isPlotted(scan) {
+    return isSensorShown(scan) && (plottedSensor() === '' || sensorOf(scan).name === plottedSensor());
 }
 
 // True if the subject has a part in the target.
@@ -115,7 +115,7 @@ function buildSeries(key) {
         const reasons = new Set();
         let count = 0;
         for (let scan = begin; scan < end; scan++) {
-            if (isRecorded(scan)) {
+            if (isPlotted(scan)) {
                 const more = addScanToSeries(built, row, scan, subject);
                 count += more;
                 reasons.add(more > 0 ? '' : reasonOfGap(frame, scan, subject));
@@ -130,7 +130,7 @@ function buildSeries(key) {
 }
 
 function seriesOfSubject() {
-    const key = [state.scene, state.object, state.reflector, recordedSensor(),
+    const key = [state.scene, state.object, state.reflector, plottedSensor(),
         ...switchedOff.sensor].join('|');
     if (series.key !== key) {
         series = buildSeries(key);
@@ -139,11 +139,11 @@ function seriesOfSubject() {
 }
 
 // The panel of one plot, and its scale.
-function recordingPanel(size, i) {
-    const height = (size.height - recordingMargin.top - recordingMargin.bottom -
-        recordingMargin.between * (recordingPlots.length - 1)) / recordingPlots.length;
-    const top = recordingMargin.top + i * (height + recordingMargin.between);
-    return {top, height, left: recordingMargin.left, right: size.width - recordingMargin.right};
+function overTimePanel(size, i) {
+    const height = (size.height - overTimeMargin.top - overTimeMargin.bottom -
+        overTimeMargin.between * (overTimePlots.length - 1)) / overTimePlots.length;
+    const top = overTimeMargin.top + i * (height + overTimeMargin.between);
+    return {top, height, left: overTimeMargin.left, right: size.width - overTimeMargin.right};
 }
 
 function timeSpan() {
@@ -181,11 +181,11 @@ function drawScale(drawing, panelOf, title, scale) {
 }
 
 function drawGap(drawing, size, gap) {
-    const panelOf = recordingPanel(size, 0);
+    const panelOf = overTimePanel(size, 0);
     const from = timePlace(panelOf, gap.from);
     const to = Math.max(from + 1, timePlace(panelOf, Math.min(series.counts.length - 1, gap.to + 1)));
     drawing.fillStyle = ink.grid;
-    drawing.fillRect(from, panelOf.top, Math.max(1, to - from - 1), size.height - recordingMargin.bottom - panelOf.top);
+    drawing.fillRect(from, panelOf.top, Math.max(1, to - from - 1), size.height - overTimeMargin.bottom - panelOf.top);
     drawing.fillStyle = ink.soft;
     drawing.font = '11px system-ui, "DejaVu Sans", sans-serif';
     const width = drawing.measureText(gap.reason).width;
@@ -195,7 +195,7 @@ function drawGap(drawing, size, gap) {
     if (width < to - from - 4) {
         drawing.fillText(gap.reason, middle.x, middle.y);
     } else if (to - from >= 12) {
-        drawUpright(drawing, gap.reason, {x: middle.x, y: size.height - recordingMargin.bottom - 14});
+        drawUpright(drawing, gap.reason, {x: middle.x, y: size.height - overTimeMargin.bottom - 14});
     }
 }
 
@@ -211,8 +211,8 @@ function drawUpright(drawing, text, at) {
 
 // Draws the points of one plot, none twice at one place.
 function drawSeries(drawing, size, i) {
-    const panelOf = recordingPanel(size, i);
-    const {value, title} = recordingPlots[i];
+    const panelOf = overTimePanel(size, i);
+    const {value, title} = overTimePlots[i];
     const values = value ? series.points.map(({target, scan}) => value(target, scan)) : [0, ...series.counts];
     const scale = scaleOf(values);
     const place = number => panelOf.top + panelOf.height * (scale.high - number) / (scale.high - scale.low);
@@ -236,7 +236,7 @@ function drawSeries(drawing, size, i) {
 
 function drawTimeAxis(drawing, size) {
     const {from, span} = timeSpan();
-    const panelOf = recordingPanel(size, recordingPlots.length - 1);
+    const panelOf = overTimePanel(size, overTimePlots.length - 1);
     const step = roundStep(span, 5);
     const start = head.scenes[state.scene].start_s + from;
     for (let time = Math.ceil(start / step) * step; time <= start + span; time += step) {
@@ -245,34 +245,34 @@ function drawTimeAxis(drawing, size) {
     }
 }
 
-function drawRecording() {
+function drawOverTime() {
     seriesOfSubject();
-    const look = [series.key, recordingCanvas.clientWidth, recordingCanvas.clientHeight, isDark(), state.colour,
+    const look = [series.key, overTimeCanvas.clientWidth, overTimeCanvas.clientHeight, isDark(), state.colour,
         state.effect, state.rates].join('|');
     if (seriesDrawn !== look) {
         seriesDrawn = look;
-        const size = fitCanvas(recordingCanvas, recordingContext);
-        series.gaps.forEach(gap => drawGap(recordingContext, size, gap));
-        recordingPlots.forEach((_, i) => drawSeries(recordingContext, size, i));
-        drawTimeAxis(recordingContext, size);
+        const size = fitCanvas(overTimeCanvas, overTimeContext);
+        series.gaps.forEach(gap => drawGap(overTimeContext, size, gap));
+        overTimePlots.forEach((_, i) => drawSeries(overTimeContext, size, i));
+        drawTimeAxis(overTimeContext, size);
     }
-    const panelOf = recordingPanel({width: recordingCanvas.clientWidth, height: recordingCanvas.clientHeight}, 0);
+    const panelOf = overTimePanel({width: overTimeCanvas.clientWidth, height: overTimeCanvas.clientHeight}, 0);
     control('cursor').style.left = timePlace(panelOf, state.row) + 'px';
 }
 
 function subjectTitle() {
-    return state.object < 0 ? recordedSensor() || 'all targets'
+    return state.object < 0 ? plottedSensor() || 'all targets'
         : state.reflector ? `${state.reflector} of ${names[state.object]}` : names[state.object];
 }
 
-function fillRecording() {
+function fillOverTime() {
     setText(control('subject'), subjectTitle());
-    drawRecording();
+    drawOverTime();
 }
 
 // The row whose time lies nearest to a place in the plots.
 function rowOfPlace(x) {
-    const panelOf = recordingPanel({width: recordingCanvas.clientWidth, height: recordingCanvas.clientHeight}, 0);
+    const panelOf = overTimePanel({width: overTimeCanvas.clientWidth, height: overTimeCanvas.clientHeight}, 0);
     const {from, span} = timeSpan();
     const part = (x - panelOf.left) / (panelOf.right - panelOf.left);
     const frames = sceneFrames[state.scene];
@@ -281,26 +281,26 @@ function rowOfPlace(x) {
     return x - timePlace(panelOf, row) < timePlace(panelOf, next) - x ? row : next;
 }
 
-function recordingWords(row) {
+function overTimeWords(row) {
     const frame = sceneFrames[state.scene][row];
     const gap = series.gaps.find(one => one.from <= row && row <= one.to);
     return `frame ${frameNumber(frame)}: ` + (gap ? gap.reason : plural(series.counts[row], 'target'));
 }
 
-function connectRecording() {
-    panes.get('recording').fill = fillRecording;
+function connectOverTime() {
+    panes.get('over-time').fill = fillOverTime;
     for (const name of ['', ...sensorNames]) {
         const option = make('option', name || 'all sensors');
         option.value = name;
-        control('recorded').append(option);
+        control('plotted').append(option);
     }
-    control('recorded').addEventListener('change', refresh);
-    recordingCanvas.addEventListener('click', event => {
+    control('plotted').addEventListener('change', refresh);
+    overTimeCanvas.addEventListener('click', event => {
         setPlaying(false);
         showRow(rowOfPlace(event.offsetX));
     });
-    recordingCanvas.addEventListener('pointermove', event =>
-        showTip(recordingWords(rowOfPlace(event.offsetX)), event.clientX, event.clientY));
-    recordingCanvas.addEventListener('pointerleave', hideTip);
-    new ResizeObserver(() => state.pane === 'recording' && drawRecording()).observe(recordingCanvas);
+    overTimeCanvas.addEventListener('pointermove', event =>
+        showTip(overTimeWords(rowOfPlace(event.offsetX)), event.clientX, event.clientY));
+    overTimeCanvas.addEventListener('pointerleave', hideTip);
+    new ResizeObserver(() => state.pane === 'over-time' && drawOverTime()).observe(overTimeCanvas);
 }

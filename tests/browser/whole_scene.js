@@ -1,4 +1,4 @@
-// Tests of what shows the whole frame and the whole recording: the table, the switches, the time
+// Tests of what shows the whole frame and the whole scene: the table, the switches, the time
 // line and links. tools are the helpers of tests.js.
 
 const assert = require('node:assert');
@@ -220,14 +220,14 @@ module.exports = ({stream, view, withPage, targetOnMap, clickMap, panelText, clo
             const gap = intersection.find(frame => has(frame).length === 0 && lost(frame).length > 0);
             await withPage(view(intersection), async page => {
                 await page.evaluate(id => chooseObject(names.indexOf(id)), object);
-                await page.click('[aria-controls=recording]');
+                await page.click('[aria-controls=over-time]');
                 const shown = await page.evaluate(() => series.points.map(({row, target}) =>
                     [row, column('target_range_m')[target].toFixed(2)].join()).sort());
                 assert.deepStrictEqual(shown, intersection.flatMap((frame, row) =>
                     has(frame).map(one => [row, one.range_m.toFixed(2)].join())).sort());
                 const box = await page.locator('#series').boundingBox();
-                const x = await page.evaluate(row => timePlace(recordingPanel(
-                    {width: recordingCanvas.clientWidth, height: recordingCanvas.clientHeight}, 0), row),
+                const x = await page.evaluate(row => timePlace(overTimePanel(
+                    {width: overTimeCanvas.clientWidth, height: overTimeCanvas.clientHeight}, 0), row),
                 intersection.indexOf(gap));
                 await page.mouse.move(box.x + x, box.y + 40);
                 const words = await page.innerText('#tip');
@@ -242,8 +242,8 @@ module.exports = ({stream, view, withPage, targetOnMap, clickMap, panelText, clo
             await withPage(view(intersection), async page => {
                 await page.evaluate(({object, reflector}) =>
                     chooseReflector(reflector, names.indexOf(object)), part);
-                await page.click('[aria-controls=recording]');
-                await page.selectOption('#recorded', 'left');
+                await page.click('[aria-controls=over-time]');
+                await page.selectOption('#plotted', 'left');
                 const count = test => intersection.flatMap(one => one.targets)
                     .filter(one => one.sensor === 'left' && test(one)).length;
                 assert.strictEqual(await page.evaluate(() => series.points.length),
