@@ -97,8 +97,7 @@ $(BUILD)/view_page.html: $(page)/page.html $(view_parts) scripts/join-page
 
 $(BUILD)/view_page.c: $(BUILD)/view_page.html
 	$(Q){ echo '#include "view/view_page.h"'; echo 'const char view_page[] = {'; \
-	    od -An -v -tu1 $< | sed 's/[0-9]\{1,\}/(char)&,/g'; echo '0};'; \
-	    echo 'const size_t view_page_size = sizeof view_page - 1;'; } >$@
+	    od -An -v -tu1 $< | sed 's/[0-9]\{1,\}/(char)&,/g'; echo '0};'; } >$@
 
 $(BUILD)/lib/view_page.o: $(BUILD)/view_page.c
 	@mkdir -p $(@D)

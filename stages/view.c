@@ -4,7 +4,6 @@
 #include "run/stage.h"
 #include "text/document.h"
 #include "view/view_comparison.h"
-#include "view/view_head.h"
 #include "view/view_page.h"
 #include "view/view_svg.h"
 
@@ -102,24 +101,6 @@ static int check_found(const struct view *view, struct runner *runner)
                      view->scene != NULL ? view->scene : "");
 }
 
-/* Adds the page from *from up to the mark; moves *from behind the mark. */
-static void add_page(struct text *text, const char **from, const char *mark)
-{
-    const char *at = strstr(*from, mark);
-    text_add(text, *from, (size_t)(at - *from));
-    *from = at + strlen(mark);
-}
-
-static void write_page(const struct view *view, struct text *text)
-{
-    const char *from = view_page;
-    add_page(text, &from, VIEW_PAGE_HEAD_MARK);
-    view_head_write(&view->data, view->frame, text);
-    add_page(text, &from, VIEW_PAGE_COLUMNS_MARK);
-    view_columns_write(&view->data.columns, text);
-    text_add_word(text, from);
-}
-
 static int view_stop(void *state, struct runner *runner)
 {
     struct view *view = state;
@@ -128,7 +109,7 @@ static int view_stop(void *state, struct runner *runner)
         view_comparison_finish(&view->comparison, runner_diag(runner)) != 0)
         return -1;
     if (!view->svg)
-        write_page(view, &text);
+        view_page_write(&view->data, view->frame, &text);
     else if (view->still != NULL)
         text_add_word(&text, view->still);
     else

@@ -15,12 +15,13 @@ struct loss_row {
 
 void view_data_real(struct view_data *data, enum view_column column, double value)
 {
-    view_columns_add_real(&data->columns, column, value, data->arena);
+    float real = (float)value;
+    memcpy(list_add(&data->columns.list[column], data->arena), &real, sizeof real);
 }
 
 void view_data_count(struct view_data *data, enum view_column column, uint32_t value)
 {
-    view_columns_add_count(&data->columns, column, value, data->arena);
+    *list_add(&data->columns.list[column], data->arena) = value;
 }
 
 static uint32_t name_of(struct view_data *data, const char *word)

@@ -13,8 +13,17 @@
 
 #include "base/intern.h"
 #include "frame/frame.h"
-#include "view/view_columns.h"
 #include "view/view_frame.h"
+
+#define COLUMN(name, key, kind) COLUMN_##name,
+enum view_column {
+#include "view/view_columns.def"
+    COLUMN_COUNT
+};
+
+struct view_columns {
+    LIST_OF(uint32_t) list[COLUMN_COUNT]; /* real numbers as their bits in single precision */
+};
 
 struct view_scene {
     int64_t name, ego, suite; /* numbers in the table of names */

@@ -7,7 +7,7 @@
 
 #include "frame/frame_text.h"
 #include "view/view_data.h"
-#include "view/view_head.h"
+#include "view/view_page.h"
 
 /* The ego at (10, 20) heads north at 5 m/s and turns; its sensor sits 2 m ahead and 1 m left. */
 #define EGO                                                                                        \
@@ -68,8 +68,8 @@ static void add_line(struct packed *packed, const char *line)
 static void finish(struct packed *packed)
 {
     json_error_t error;
-    view_head_write(&packed->data, -1, &packed->head);
-    view_columns_write(&packed->data.columns, &packed->columns);
+    view_page_write_head(&packed->data, -1, &packed->head);
+    view_page_write_columns(&packed->data.columns, &packed->columns);
     packed->json = json_loadb(packed->head.bytes, packed->head.length, 0, &error);
     if (packed->json == NULL)
         fail_msg("the head is not JSON: %s", error.text);
@@ -416,7 +416,7 @@ static void columns_of_the_quality_are_those_of_its_table(void **state)
     (void)state;
     const struct view_columns columns = {0};
     struct view_column_place places[COLUMN_COUNT];
-    view_columns_places(&columns, places);
+    view_page_places(&columns, places);
     const char *prefix = "quality_";
     enum view_column column = COLUMN_QUALITY_SNR_DB;
     for (const struct field *field = quality_record.fields; field->name != NULL;

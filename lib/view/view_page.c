@@ -1,4 +1,4 @@
-#include "view/view_head.h"
+#include "view/view_page.h"
 
 #include "text/record_text.h"
 
@@ -54,6 +54,17 @@ static const struct field scene_fields[] = {
 static const struct record scene_record = {
     .name = "scene", .size = sizeof(struct view_scene), .fields = scene_fields};
 
+static const struct field place_fields[] = {
+    {FIELD_NAME_OF(struct view_column_place, name, "of the column")},
+    {FIELD_NAME_OF(struct view_column_place, type, "kind and bytes of its numbers")},
+    {FIELD_INTEGER_IN(struct view_column_place, count, 0, 0x1p53, "of numbers")},
+    {FIELD_INTEGER_IN(struct view_column_place, begin, 0, 0x1p53, "number of its first character")},
+    {0},
+};
+
+static const struct record place_record = {
+    .name = "column", .size = sizeof(struct view_column_place), .fields = place_fields};
+
 static const struct field head_fields[] = {
     {FIELD_INTEGER_IN(struct head, open_frame, -1, 0x1p53,
                       "number of the frame to open; -1: the page's choice")},
@@ -64,11 +75,81 @@ static const struct field head_fields[] = {
     {FIELD_LIST_OF(struct head, effect_sets, &effect_set_record, "sets of effects, by number")},
     {FIELD_LIST_OF(struct head, scenes, &scene_record, "scenes, by number")},
     {FIELD_LIST_OF(struct head, sensors, &sensor_view_record, "sensors, by number")},
-    {FIELD_LIST_OF(struct head, columns, &view_column_place_record, "places of the columns")},
+    {FIELD_LIST_OF(struct head, columns, &place_record, "places of the columns")},
     {0},
 };
 static const struct record head_record = {
     .name = "head", .size = sizeof(struct head), .fields = head_fields};
+
+static const struct {
+    const char *key;
+    char kind;
+} table[] = {
+#define COLUMN(name, key, kind) {key, kind},
+#include "view/view_columns.def"
+};
+
+/* Bytes for each number of a column. */
+static size_t column_width(const struct view_columns *columns, enum view_column column)
+{
+    uint32_t most = 0;
+    for (size_t i = 0; i < columns->list[column].count; i++) {
+        uint32_t number = columns->list[column].items[i];
+        most = number > most ? number : most;
+    }
+    return table[column].kind == 'f' ? 4 : most < 1 << 8 ? 1 : most < 1 << 16 ? 2 : 4;
+}
+
+void view_page_places(const struct view_columns *columns, struct view_column_place *places)
+{
+    static const char *const whole[] = {[1] = "u1", [2] = "u2", [4] = "u4"};
+    size_t begin = 0;
+    for (enum view_column column = 0; column < COLUMN_COUNT; column++) {
+        size_t count = columns->list[column].count, width = column_width(columns, column);
+        places[column] = (struct view_column_place){table[column].key,
+                                                    table[column].kind == 'f' ? "f4" : whole[width],
+                                                    (int64_t)count, (int64_t)begin};
+        begin += (count * width + 11) / 12 * 16;
+    }
+}
+
+/* Writes a number little-endian, the order of every machine that runs a browser. */
+static void put_number(unsigned char *byte, uint32_t number, size_t width)
+{
+    for (size_t i = 0; i < width; i++)
+        byte[i] = (unsigned char)(number >> 8 * i);
+}
+
+static void write_base64(struct text *text, const unsigned char *bytes, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    char *out = text_room(text, size / 3 * 4);
+    for (size_t i = 0; i < size; i += 3) {
+        unsigned group = (unsigned)bytes[i] << 16 | (unsigned)bytes[i + 1] << 8 | bytes[i + 2];
+        for (int shift = 18; shift >= 0; shift -= 6)
+            *out++ = digits[group >> shift & 63];
+    }
+    text->length += size / 3 * 4;
+}
+
+/* Fills each column up to a multiple of 12 bytes: whole groups of base64, and aligned for any
+ * number. */
+void view_page_write_columns(const struct view_columns *columns, struct text *text)
+{
+    enum { CHUNK = 12 * 1024 };
+    unsigned char bytes[CHUNK];
+    for (enum view_column column = 0; column < COLUMN_COUNT; column++) {
+        size_t count = columns->list[column].count, width = column_width(columns, column);
+        for (size_t index = 0; index < count;) {
+            size_t used = 0;
+            for (; index < count && used < CHUNK; index++, used += width)
+                put_number(bytes + used, columns->list[column].items[index], width);
+            size_t padded = (used + 11) / 12 * 12;
+            memset(bytes + used, 0, padded - used);
+            write_base64(text, bytes, padded);
+        }
+    }
+}
 
 /* Adds the lists whose items the columns refer to by number. */
 static void add_numbered(const struct view_data *data, struct head *head)
@@ -91,7 +172,7 @@ static void add_numbered(const struct view_data *data, struct head *head)
                sizeof(uint64_t));
 }
 
-void view_head_write(const struct view_data *data, int64_t open_frame, struct text *text)
+void view_page_write_head(const struct view_data *data, int64_t open_frame, struct text *text)
 {
     struct view_column_place places[COLUMN_COUNT];
     struct head head = {
@@ -101,7 +182,7 @@ void view_head_write(const struct view_data *data, int64_t open_frame, struct te
         .columns = {places, COLUMN_COUNT, 0},
     };
     struct text plain = {0};
-    view_columns_places(&data->columns, places);
+    view_page_places(&data->columns, places);
     add_numbered(data, &head);
     record_text_write(&head_record, &head, NULL, &plain);
     for (size_t i = 0; i < plain.length; i++)
@@ -110,4 +191,22 @@ void view_head_write(const struct view_data *data, int64_t open_frame, struct te
         else
             text_add(text, plain.bytes + i, 1);
     text_free(&plain);
+}
+
+/* Adds the page from *from up to the mark; moves *from behind the mark. */
+static void add_page(struct text *text, const char **from, const char *mark)
+{
+    const char *at = strstr(*from, mark);
+    text_add(text, *from, (size_t)(at - *from));
+    *from = at + strlen(mark);
+}
+
+void view_page_write(const struct view_data *data, int64_t open_frame, struct text *text)
+{
+    const char *from = view_page;
+    add_page(text, &from, "@head@\n");
+    view_page_write_head(data, open_frame, text);
+    add_page(text, &from, "@columns@\n");
+    view_page_write_columns(&data->columns, text);
+    text_add_word(text, from);
 }
