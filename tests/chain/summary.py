@@ -3,7 +3,8 @@
 Usage: python3 tests/chain/summary.py BIN_DIR        exit status 1 if any check fails
 
 Targets are counted here for the class of the object that has the greatest weight in them; those that a mirror,
-the ground or noise made stand apart from classes. Every share is of its printed whole.
+the ground or noise made stand apart from classes. Every share is of its printed whole. Of frames before the sensors,
+objects are counted, each once in its scene.
 """
 import collections
 import json
@@ -18,6 +19,7 @@ OTHERS = {"wall_object": "ghost", "object_wall": "ghost", "wall_object_wall": "g
 SENSORS, CLASSES, APART, LOOKED = (
     "targets by sensor", "targets by class of the object that made the most of them",
     "targets that show no object at their place", "reflectors that a sensor looked for, by what became of them")
+OBJECTS = "objects by class, each counted once in its scene, egos too"
 
 
 def weakest_first(lines):
@@ -63,13 +65,26 @@ def counted(frames):
     return {title: (own, wholes.get(title, targets)) for title, own in counts.items()}, scans, merged
 
 
+def expected_of_traffic(frames):
+    """The summary of frames before the sensors, behind its first line."""
+    ids = {(frame["scene"], frame["seed"], one["id"], one["class"]) for frame in frames for one in frame["objects"]}
+    classes = collections.Counter(name for *_, name in ids)
+    mean = sum(len(frame["objects"]) for frame in frames) / len(frames)
+    yield from (f"{len(ids)} objects, {mean:.2f} in a frame; no sensor has looked at them yet", "", OBJECTS)
+    for name, count in sorted(classes.items(), key=lambda item: (-item[1], item[0].encode())):
+        yield f"  {count:9}  {100 * count / len(ids):5.1f} %  {name}"
+
+
 def expected(frames):
     """The whole summary, line by line."""
+    yield (f"{len(frames)} frames, {sum(frame['interval_s'] for frame in frames):.2f} s; scenes that reached their end: "
+           f"{sum(frame.get('last', False) for frame in frames)}")
+    if frames and "targets" not in frames[0]:
+        yield from expected_of_traffic(frames)
+        return
     tables, scans, merged = counted(frames)
     targets = tables[SENSORS][1]
     farthest = max((target["range_m"] for frame in frames for target in frame["targets"]), default=0)
-    yield (f"{len(frames)} frames, {sum(frame['interval_s'] for frame in frames):.2f} s; scenes that reached their end: "
-           f"{sum(frame.get('last', False) for frame in frames)}")
     yield (f"{targets} targets, {targets / max(sum(scans.values()), 1):.2f} a scan, the farthest at {farthest:.1f} m; "
            f"{merged} ({100 * merged / max(targets, 1):.1f} %) of them merged from several objects")
     for title in SENSORS, CLASSES, APART, LOOKED:
@@ -88,7 +103,11 @@ def main(bin_dir):
     sources += ["bash pipelines/mud.sh", "true",
                 "glint-traffic empty-road | glint-extract | glint-ideal --sensors srr24-pair-every-frame | glint-sensor | glint-noise",
                 "glint-traffic two-vehicles | glint-extract | glint-ideal --sensors corner77 | glint-sensor | glint-noise"]
+    sources += ["glint-traffic cut-in", "glint-traffic-random --frames 200 | glint-extract"]
     streams = [(source, run(source, bin_dir)) for source in sources]
+    random, other = (run(f"glint-traffic-random --frames 9 --seed {seed}", bin_dir).splitlines(True) for seed in (1, 2))
+    mixed = "".join(one + two for one, two in zip(random, other))
+    streams.append(("scenes of one name whose frames alternate", mixed + streams[-2][1]))
     streams.append(("labels with the leader last", weakest_first(streams[0][1] + streams[3][1])))
     for source, lines in streams:
         shown = run("glint-summary", bin_dir, lines).splitlines()
@@ -98,7 +117,7 @@ def main(bin_dir):
             if one != other:
                 print(f"summary: {source}: {one!r}, expected {other!r}")
                 failed = 1
-    missing = {"ghost", "clutter", "false alarm", "in a target", APART} - seen
+    missing = {"ghost", "clutter", "false alarm", "in a target", APART, OBJECTS} - seen
     if missing:
         print(f"summary: no source shows {missing}")
     return failed or bool(missing)
