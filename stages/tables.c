@@ -3,6 +3,8 @@
 #include "run/tool.h"
 #include "text/output.h"
 
+#include <errno.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 struct tables_state {
@@ -13,9 +15,18 @@ struct tables_state {
     struct detection_tables tables;
 };
 
+static int make_folder(const char *folder, struct diag *diag)
+{
+    if (mkdir(folder, 0777) == 0 || errno == EEXIST)
+        return 0;
+    return diag_fail(diag, DIAG_CANNOT_CREATE, "DIR: %s: %s", folder, strerror(errno));
+}
+
 /* Beside a table of the other kind none is written, as readers take both. */
 static int open_outputs(struct tables_state *own, struct runner *runner)
 {
+    if (make_folder(own->folder, runner_diag(runner)) != 0)
+        return -1;
     for (int i = 0; i < TABLE_COUNT; i++) {
         const char *plain = arena_format(runner_arena(runner), "%s.csv", detection_tables_names[i]);
         const char *packed = arena_format(runner_arena(runner), "%s.gz", plain);
@@ -57,7 +68,8 @@ static int tables_run(void *state, struct runner *runner)
 }
 
 static const struct field tables_options[] = {
-    {FIELD_NAME_OF(struct tables_state, folder, "the folder that gets the seven tables")},
+    {FIELD_NAME_OF(struct tables_state, folder,
+                   "the folder that gets the seven tables; made if it is not there")},
     {OPTIONAL_FLAG(struct tables_state, plain, "write .csv instead of .csv.gz")},
     {OPTIONAL_INTEGER(struct tables_state, part, 0, 9e6,
                       "number of this part of a set: its keys begin at so many times 1e9")},
