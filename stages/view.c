@@ -35,6 +35,10 @@ static int view_start(void *state, struct runner *runner)
     if (view->vehicles != NULL &&
         document_check_folder("--vehicles", view->vehicles, runner_diag(runner)) != 0)
         return -1;
+    if (runner_output_is_terminal(runner))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "standard output is a terminal, which shows no page and no still; write "
+                         "it to a file: -o FILE");
     if (view->svg && runner_output_ends(runner, ".html"))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--svg: a still is no page, but --output ends in .html; expected .svg");

@@ -1,5 +1,8 @@
 #include "run/runner.h"
 
+#include <strings.h>
+#include <unistd.h>
+
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame_account.h"
@@ -408,7 +411,12 @@ bool runner_output_ends(const struct runner *runner, const char *ending)
     size_t length = strlen(path), end = strlen(ending);
     if (length > 3 && strcmp(path + length - 3, ".gz") == 0)
         length -= 3;
-    return length > end && strncmp(path + length - end, ending, end) == 0;
+    return length > end && strncasecmp(path + length - end, ending, end) == 0;
+}
+
+bool runner_output_is_terminal(const struct runner *runner)
+{
+    return runner->common.output == NULL && isatty(STDOUT_FILENO);
 }
 
 struct output *runner_output(struct runner *runner)

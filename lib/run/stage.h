@@ -91,8 +91,11 @@ int runner_write(struct runner *runner, const char *bytes, size_t length);
 int runner_write_text(struct runner *runner, struct text *text);
 int runner_write_record(struct runner *runner, const struct record *record, const void *base);
 
-/* True if the name that --output gives ends in this, or in this and .gz. */
+/* True if the name that --output gives ends in this, or in this and .gz, in letters of any case. */
 bool runner_output_ends(const struct runner *runner, const char *ending);
+
+/* True if nothing is given by --output, and standard output is a terminal. */
+bool runner_output_is_terminal(const struct runner *runner);
 
 /* A second stream beside the one that is read, for sinks that compare the two. "-" is standard
  * input, and refused where the frames come from there. The runner closes it. NULL after a

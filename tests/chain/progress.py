@@ -1,4 +1,5 @@
-"""Rate and time left stand on stderr where it is a terminal and work takes over a second, and nowhere else.
+"""Rate and time left stand on stderr where it is a terminal and work takes over a second, and nowhere else. What is
+no text is not written to a terminal.
 
 Usage: python3 tests/chain/progress.py BIN_DIR
 
@@ -154,6 +155,23 @@ def frames_on_a_terminal_stay_whole(folder):
     return found != expected and "a terminal shows other bytes than the frames"
 
 
+def a_page_is_not_written_to_a_terminal(folder):
+    frames = f"{folder}/lists.jsonl"
+    for command in (f"glint-view {frames}", f"glint-view --svg {frames}", f"glint -c 'glint-view {frames}'"):
+        terminal = Terminal()
+        process = terminal.start(f"{command} >&2", stdin=subprocess.DEVNULL)
+        code, text = process.wait(PATIENCE_S), terminal.all()
+        if code != 64 or b"-o FILE" not in text or text.count(b"\n") != 1:
+            return f"exit code {code} and {text[:100]} from: {command}"
+    for output, begin in ((f"{folder}/still.svg", b""), ("-", b"<svg")):
+        terminal = Terminal()
+        process = terminal.start(f"glint-view --svg -o {output} {frames} >&2", stdin=subprocess.DEVNULL)
+        code, text = process.wait(PATIENCE_S), terminal.all()
+        if code != 0 or text[:4] != begin:
+            return f"exit code {code} and {text[:100]} with -o {output}"
+    return None
+
+
 def scripts_show_the_same_line(_):
     """The two helpers of scripts; a script that uses one is tried with work that takes over a second."""
     support = os.path.join(ROOT, "tests", "support")
@@ -174,7 +192,7 @@ def scripts_show_the_same_line(_):
 
 TESTS = [endless_work_tells_how_long_it_takes, a_stage_that_reads_a_file_tells_it_too,
          a_ladder_of_chains_tells_when_it_is_done, who_reads_a_pipe_leaves_it_to_the_other_side, nothing_is_printed_where_stderr_is_no_terminal,
-         short_work_is_silent, frames_on_a_terminal_stay_whole, scripts_show_the_same_line]
+         short_work_is_silent, frames_on_a_terminal_stay_whole, a_page_is_not_written_to_a_terminal, scripts_show_the_same_line]
 
 
 def lacks_terminal(test):
