@@ -109,24 +109,17 @@ void csv_columns_write_names(const struct csv_columns *columns, struct text *row
 void csv_columns_write(const struct csv_columns *columns, const void *base, struct text *row)
 {
     const struct field *embedded = NULL; /* that of the column before */
-    bool there = true;
+    bool there = base != NULL;
     for (size_t i = 0; i < columns->list.count; i++) {
         const struct csv_column *column = &columns->list.items[i];
-        const void *owner = (const char *)base + column->offset;
-        if (column->embedded != embedded) {
+        if (base != NULL && column->embedded != embedded) {
             embedded = column->embedded;
             there = embedded == NULL || field_present(column->record, embedded, base);
         }
-        if (there && has_value(columns, column, owner))
-            add_cell(column->field, owner, row);
+        if (there && has_value(columns, column, (const char *)base + column->offset))
+            add_cell(column->field, (const char *)base + column->offset, row);
         end_cell(row);
     }
-}
-
-void csv_columns_write_empty(const struct csv_columns *columns, struct text *row)
-{
-    for (size_t i = 0; i < columns->list.count; i++)
-        end_cell(row);
 }
 
 void csv_columns_end_row(struct text *row)

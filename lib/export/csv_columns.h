@@ -30,9 +30,8 @@ struct csv_columns {
 void csv_columns_add(struct csv_columns *columns, const struct record *record,
                      const char *const *without, struct arena *arena);
 
-/* Appends to a row the names of the columns, the cells of a struct, or empty cells in its place;
- * behind each of them stands a comma, which csv_columns_end_row turns into the end of the row. */
+/* Appends to a row the names of the columns, or the cells of a struct, which are empty where it is
+ * NULL; behind each stands a comma, which csv_columns_end_row turns into the end of the row. */
 void csv_columns_write_names(const struct csv_columns *columns, struct text *row);
 void csv_columns_write(const struct csv_columns *columns, const void *base, struct text *row);
-void csv_columns_write_empty(const struct csv_columns *columns, struct text *row);
 void csv_columns_end_row(struct text *row);

@@ -248,6 +248,8 @@ struct writing {
     bool has_pose;
 };
 
+#define STRUCTS(...) ((const void *[DETECTION_TABLES_STRUCTS]){__VA_ARGS__})
+
 /* Appends a row, of which structs are NULL where its cells are empty. */
 static void write_row(const struct writing *writing, enum table table, const void *const *bases)
 {
@@ -256,10 +258,7 @@ static void write_row(const struct writing *writing, enum table table, const voi
     if (rows == NULL)
         return;
     for (int i = 0; i < DETECTION_TABLES_STRUCTS && columns[i].list.count > 0; i++)
-        if (bases[i] != NULL)
-            csv_columns_write(&columns[i], bases[i], rows);
-        else
-            csv_columns_write_empty(&columns[i], rows);
+        csv_columns_write(&columns[i], bases[i], rows);
     csv_columns_end_row(rows);
 }
 
@@ -282,9 +281,7 @@ static void write_objects(struct writing *writing)
     const struct frame *frame = writing->frame;
     for (size_t i = 0; i < frame->objects.count; i++) {
         writing->row.object_key = writing->tables->object_key + (int64_t)i;
-        write_row(
-            writing, TABLE_OBJECTS,
-            (const void *[DETECTION_TABLES_STRUCTS]){&writing->row, &frame->objects.items[i]});
+        write_row(writing, TABLE_OBJECTS, STRUCTS(&writing->row, &frame->objects.items[i]));
     }
 }
 
@@ -294,8 +291,7 @@ static void write_contributors(struct writing *writing, const struct target *tar
         const struct contributor *from = &target->contributors.items[i];
         find_object(writing, from->id.object);
         writing->row.contributor = (int64_t)i;
-        write_row(writing, TABLE_CONTRIBUTORS,
-                  (const void *[DETECTION_TABLES_STRUCTS]){&writing->row, from});
+        write_row(writing, TABLE_CONTRIBUTORS, STRUCTS(&writing->row, from));
     }
 }
 
@@ -345,8 +341,7 @@ static void write_detection(struct writing *writing, const struct target *target
     row->class = writing->object != NULL ? writing->object->class : NULL;
     row->radar_ghost_label = radar_ghost_label(from->id.path, row->class);
     write_row(writing, TABLE_DETECTIONS,
-              (const void *[DETECTION_TABLES_STRUCTS]){row, target, row, from,
-                                                       writing->has_pose ? row : NULL});
+              STRUCTS(row, target, row, from, writing->has_pose ? row : NULL));
 }
 
 static void write_sightings(struct writing *writing, const struct sensor_view *sensor)
@@ -357,8 +352,7 @@ static void write_sightings(struct writing *writing, const struct sensor_view *s
         if (!frame_same_name(sighting->sensor, sensor->name))
             continue;
         find_object(writing, sighting->object);
-        write_row(writing, TABLE_SIGHTINGS,
-                  (const void *[DETECTION_TABLES_STRUCTS]){&writing->row, sighting});
+        write_row(writing, TABLE_SIGHTINGS, STRUCTS(&writing->row, sighting));
     }
 }
 
@@ -373,8 +367,7 @@ static void write_lost(struct writing *writing, const struct sensor_view *sensor
         for (size_t j = 0; j < group->echoes.count; j++) {
             const struct lost_echo *echo = &group->echoes.items[j];
             find_object(writing, echo->id.object);
-            write_row(writing, TABLE_LOST,
-                      (const void *[DETECTION_TABLES_STRUCTS]){&writing->row, group, echo});
+            write_row(writing, TABLE_LOST, STRUCTS(&writing->row, group, echo));
         }
     }
 }
@@ -416,8 +409,7 @@ static void write_scan(struct writing *writing, const struct sensor_view *sensor
     }
     if (sensor->measured || row->detections > 0) {
         write_row(writing, TABLE_SCANS,
-                  (const void *[DETECTION_TABLES_STRUCTS]){row, row, row,
-                                                           writing->has_pose ? row : NULL, sensor});
+                  STRUCTS(row, row, row, writing->has_pose ? row : NULL, sensor));
         writing->tables->scan_key++;
     } else {
         row->scan_key = NO_KEY;
@@ -465,8 +457,7 @@ int detection_tables_add(struct detection_tables *tables, struct frame *frame, s
         .frame = frame,
         .row = row_of(frame, tables->frame_key++),
     };
-    write_row(&writing, TABLE_FRAMES,
-              (const void *[DETECTION_TABLES_STRUCTS]){&writing.row, &writing.row});
+    write_row(&writing, TABLE_FRAMES, STRUCTS(&writing.row, &writing.row));
     write_objects(&writing);
     for (size_t i = 0; i < frame->sensors.list.count; i++)
         write_scan(&writing, &frame->sensors.list.items[i]);

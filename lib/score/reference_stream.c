@@ -205,16 +205,22 @@ static enum search find_waiting(struct reference_stream *reference, const char *
     return SEARCH_ON;
 }
 
+static int read_line(struct reference_stream *reference, struct diag *diag)
+{
+    reference->found = ++reference->number;
+    int more =
+        input_line(reference->input, FRAME_TEXT_SIZE, &reference->line, &reference->length, diag);
+    reference->ended = more == 0;
+    return more;
+}
+
 /* Reads the next line. A line for a later frame or another scene waits; one that can match no frame
  * any more is skipped. If scene is NULL, no line matches. */
 static enum search read_next(struct reference_stream *reference, const char *scene, int64_t frame,
                              struct diag *diag)
 {
     struct key key;
-    reference->found = ++reference->number;
-    int more =
-        input_line(reference->input, FRAME_TEXT_SIZE, &reference->line, &reference->length, diag);
-    reference->ended = more == 0;
+    int more = read_line(reference, diag);
     if (more < 0 || (more > 0 && read_key(reference, &key, diag) != 0)) {
         reference_stream_prefix(reference, diag);
         return SEARCH_FAILED;
@@ -305,12 +311,9 @@ int reference_stream_same_seed(const struct reference_stream *reference, const s
 int reference_stream_next(struct reference_stream *reference, unsigned sections,
                           const struct frame **other, struct diag *diag)
 {
-    reference->found = ++reference->number;
-    int more =
-        input_line(reference->input, FRAME_TEXT_SIZE, &reference->line, &reference->length, diag);
+    int more = read_line(reference, diag);
     if (more < 0 || (more > 0 && read_frame(reference, sections, other, diag) != 0))
         return reference_stream_prefix(reference, diag);
-    reference->ended = more == 0;
     return more;
 }
 

@@ -2,15 +2,24 @@
 
 #include "base/sort.h"
 
-/* A lost echo in a pattern. */
-struct item {
-    uint32_t reflector, path, mirror, number, stage, reason, effect;
+/* The numbers that tell what a lost echo is and why it is lost. The columns DETAIL_OBJECT to
+ * DETAIL_NUMBER have the first of them, the columns ITEM_REFLECTOR to ITEM_EFFECT all but the
+ * object, in this order. */
+enum {
+    LOST_OBJECT,
+    LOST_REFLECTOR,
+    LOST_PATH,
+    LOST_MIRROR,
+    LOST_NUMBER,
+    LOST_STAGE,
+    LOST_REASON,
+    LOST_EFFECT,
+    LOST_NUMBERS,
 };
 
-/* A lost echo and its object, before it is added to the object's pattern. */
+/* A lost echo, before it is added to its object's pattern. */
 struct loss_row {
-    uint32_t object;
-    struct item item;
+    uint32_t of[LOST_NUMBERS];
 };
 
 void view_data_real(struct view_data *data, enum view_column column, double value)
@@ -153,11 +162,8 @@ static void add_detail(struct view_data *data, const struct loss_row *row,
     view_data_real(data, COLUMN_DETAIL_SHORTFALL, echo->shortfall_db);
     view_data_real(data, COLUMN_DETAIL_RANGE, echo->range_m);
     view_data_real(data, COLUMN_DETAIL_AZIMUTH, echo->azimuth_rad);
-    view_data_count(data, COLUMN_DETAIL_OBJECT, row->object);
-    view_data_count(data, COLUMN_DETAIL_REFLECTOR, row->item.reflector);
-    view_data_count(data, COLUMN_DETAIL_PATH, row->item.path);
-    view_data_count(data, COLUMN_DETAIL_MIRROR, row->item.mirror);
-    view_data_count(data, COLUMN_DETAIL_NUMBER, row->item.number);
+    for (int i = LOST_OBJECT; i <= LOST_NUMBER; i++)
+        view_data_count(data, COLUMN_DETAIL_OBJECT + i, row->of[i]);
     view_data_count(data, COLUMN_DETAIL_BY, optional_name(data, echo->by));
 }
 
@@ -165,15 +171,9 @@ static void add_detail(struct view_data *data, const struct loss_row *row,
 static int compare_rows(const void *left, const void *right)
 {
     const struct loss_row *a = left, *b = right;
-    uint32_t keys[][2] = {
-        {a->object, b->object},           {a->item.reflector, b->item.reflector},
-        {a->item.path, b->item.path},     {a->item.mirror, b->item.mirror},
-        {a->item.number, b->item.number}, {a->item.stage, b->item.stage},
-        {a->item.reason, b->item.reason},
-    };
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        if (keys[i][0] != keys[i][1])
-            return keys[i][0] < keys[i][1] ? -1 : 1;
+    for (int i = LOST_OBJECT; i <= LOST_REASON; i++)
+        if (a->of[i] != b->of[i])
+            return a->of[i] < b->of[i] ? -1 : 1;
     return 0;
 }
 
@@ -189,15 +189,15 @@ struct loss_scan {
 static struct vec2 spot_of(struct view_data *data, uint32_t scene, const struct loss_row *row,
                            struct vec2 place)
 {
-    const uint32_t key[] = {scene, row->object, row->item.reflector};
+    const uint32_t key[] = {scene, row->of[LOST_OBJECT], row->of[LOST_REFLECTOR]};
     uint32_t number = intern_number(&data->spot_keys, key, sizeof key, data->arena);
     if (number == data->spots.count) {
         *list_add(&data->spots, data->arena) = place;
         view_data_real(data, COLUMN_SPOT_X, place.x);
         view_data_real(data, COLUMN_SPOT_Y, place.y);
         view_data_count(data, COLUMN_SPOT_SCENE, scene);
-        view_data_count(data, COLUMN_SPOT_OBJECT, row->object);
-        view_data_count(data, COLUMN_SPOT_REFLECTOR, row->item.reflector);
+        view_data_count(data, COLUMN_SPOT_OBJECT, row->of[LOST_OBJECT]);
+        view_data_count(data, COLUMN_SPOT_REFLECTOR, row->of[LOST_REFLECTOR]);
     }
     return data->spots.items[number];
 }
@@ -237,16 +237,14 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
     for (size_t i = 0; i < group->echoes.count; i++) {
         const struct lost_echo *echo = &group->echoes.items[i];
         struct loss_row *row = list_add(&scan->rows, scan->frame->arena);
-        row->object = name_of(data, echo->id.object);
-        row->item = (struct item){
-            .reflector = name_of(data, echo->id.reflector),
-            .path = echo->id.path,
-            .mirror = optional_name(data, echo->id.mirror),
-            .number = (uint32_t)echo->id.number,
-            .stage = stage,
-            .reason = reason,
-            .effect = group->effect,
-        };
+        row->of[LOST_OBJECT] = name_of(data, echo->id.object);
+        row->of[LOST_REFLECTOR] = name_of(data, echo->id.reflector);
+        row->of[LOST_PATH] = echo->id.path;
+        row->of[LOST_MIRROR] = optional_name(data, echo->id.mirror);
+        row->of[LOST_NUMBER] = (uint32_t)echo->id.number;
+        row->of[LOST_STAGE] = stage;
+        row->of[LOST_REASON] = reason;
+        row->of[LOST_EFFECT] = group->effect;
         if (echo->by != NULL || echo->shortfall_db != 0 || !is_at_spot(data, scan, row, echo)) {
             add_detail(data, row, echo);
             details++;
@@ -258,25 +256,19 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
 static void add_fate(struct view_data *data, const struct loss_row *rows, size_t count,
                      struct arena *scratch)
 {
-    struct item *items = arena_get(scratch, count * sizeof *items);
+    enum { ITEM = LOST_NUMBERS - LOST_REFLECTOR };
+    uint32_t *items = arena_get(scratch, count * ITEM * sizeof *items);
     for (size_t i = 0; i < count; i++)
-        items[i] = rows[i].item;
-    view_data_count(data, COLUMN_FATE_OBJECT, rows->object);
-    size_t known = data->patterns.list.count;
-    uint32_t pattern = intern_number(&data->patterns, items, count * sizeof *items, data->arena);
+        memcpy(items + i * ITEM, rows[i].of + LOST_REFLECTOR, ITEM * sizeof *items);
+    view_data_count(data, COLUMN_FATE_OBJECT, rows->of[LOST_OBJECT]);
+    size_t known = data->patterns.list.count, size = count * ITEM * sizeof *items;
+    uint32_t pattern = intern_number(&data->patterns, items, size, data->arena);
     view_data_count(data, COLUMN_FATE_PATTERN, pattern);
     if (pattern < known)
         return;
     view_data_count(data, COLUMN_PATTERN_ITEMS, (uint32_t)count);
-    for (size_t i = 0; i < count; i++) {
-        view_data_count(data, COLUMN_ITEM_REFLECTOR, items[i].reflector);
-        view_data_count(data, COLUMN_ITEM_PATH, items[i].path);
-        view_data_count(data, COLUMN_ITEM_MIRROR, items[i].mirror);
-        view_data_count(data, COLUMN_ITEM_NUMBER, items[i].number);
-        view_data_count(data, COLUMN_ITEM_STAGE, items[i].stage);
-        view_data_count(data, COLUMN_ITEM_REASON, items[i].reason);
-        view_data_count(data, COLUMN_ITEM_EFFECT, items[i].effect);
-    }
+    for (size_t i = 0; i < count * ITEM; i++)
+        view_data_count(data, COLUMN_ITEM_REFLECTOR + i % ITEM, items[i]);
 }
 
 static void add_losses(struct view_data *data, struct loss_scan *scan, const char *sensor)
@@ -290,7 +282,7 @@ static void add_losses(struct view_data *data, struct loss_scan *scan, const cha
     const struct loss_row *rows = scan->rows.items;
     for (size_t begin = 0, end; begin < scan->rows.count; begin = end, fates++) {
         for (end = begin; end < scan->rows.count; end++)
-            if (rows[end].object != rows[begin].object)
+            if (rows[end].of[LOST_OBJECT] != rows[begin].of[LOST_OBJECT])
                 break;
         add_fate(data, rows + begin, end - begin, frame->arena);
     }
