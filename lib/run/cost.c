@@ -141,7 +141,7 @@ static struct ladder_chain *climb(struct cost *cost, struct ladder_chain chain, 
     struct ladder_chain *added = list_add(&cost->chains, arena);
     *added = chain;
     added->left_out = left_out;
-    added->energy = relative_error_energy(&added->blocks, arena);
+    added->energy = relative_error_of(&added->blocks, NULL, arena);
     added->present = LADDER_ENERGY;
     if (ideal(cost)->energy.low > 0) {
         added->error = relative_error_of(&added->blocks, &ideal(cost)->blocks, arena);

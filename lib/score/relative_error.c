@@ -83,9 +83,8 @@ static double apart(double by_blocks, double by_seeds)
     return sqrt(by_blocks * by_blocks + by_seeds * by_seeds);
 }
 
-/* Without an ideal, the ratio is to 1. */
-static struct relative_error ratio(const struct energy_blocks *chain,
-                                   const struct energy_blocks *ideal, struct arena *arena)
+struct relative_error relative_error_of(const struct energy_blocks *chain,
+                                        const struct energy_blocks *ideal, struct arena *arena)
 {
     size_t blocks = chain->blocks;
     double *above = arena_get(arena, blocks * sizeof *above);
@@ -111,17 +110,6 @@ static struct relative_error ratio(const struct energy_blocks *chain,
     };
 }
 
-struct relative_error relative_error_energy(const struct energy_blocks *chain, struct arena *arena)
-{
-    return ratio(chain, NULL, arena);
-}
-
-struct relative_error relative_error_of(const struct energy_blocks *chain,
-                                        const struct energy_blocks *ideal, struct arena *arena)
-{
-    return ratio(chain, ideal, arena);
-}
-
 /* The energy distance is linear in the distances, so the difference of two is that of their
  * matrices. */
 struct relative_error relative_error_added(const struct energy_blocks *chain,
@@ -134,5 +122,5 @@ struct relative_error relative_error_added(const struct energy_blocks *chain,
         difference[i] = chain->distance[i] - other->distance[i];
     struct energy_blocks added = *chain;
     added.distance = difference;
-    return ratio(&added, ideal, arena);
+    return relative_error_of(&added, ideal, arena);
 }

@@ -25,11 +25,9 @@ struct relative_error {
     double value, low, high;
 };
 
-/* D of the chain itself. Compared with it, the others may only stand where its low is above 0 for
- * the ideal echoes. */
-struct relative_error relative_error_energy(const struct energy_blocks *chain, struct arena *arena);
-
-/* The error of the chain, for an ideal with the same blocks and seeds. */
+/* The error of the chain, for an ideal with the same blocks and seeds; without an ideal, which is
+ * NULL, D of the chain itself. There is an error only where the low end of the ideal's own D is
+ * above 0. */
 struct relative_error relative_error_of(const struct energy_blocks *chain,
                                         const struct energy_blocks *ideal, struct arena *arena);
 
