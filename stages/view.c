@@ -3,7 +3,6 @@
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "text/document.h"
-#include "view/view_comparison.h"
 #include "view/view_page.h"
 #include "view/view_svg.h"
 
@@ -13,7 +12,6 @@ struct view {
     const char *scene, *truth, *tracks;
     const char *vehicles; /* as in extraction.h */
     bool found;           /* a frame that was asked for */
-    struct view_comparison comparison;
     struct view_data data;
     struct frame_sequence sequence;
     const char *still; /* of the frame with most targets so far; NULL: none yet */
@@ -47,9 +45,9 @@ static int view_start(void *state, struct runner *runner)
         return diag_fail(
             runner_diag(runner), DIAG_USAGE,
             "--svg or an --output of .svg: the still shows neither --truth nor --tracks");
-    return open_beside(view->truth, &view->comparison.truth, runner) != 0
+    return open_beside(view->truth, &view->data.truth, runner) != 0
                ? -1
-               : open_beside(view->tracks, &view->comparison.tracks, runner);
+               : open_beside(view->tracks, &view->data.tracks, runner);
 }
 
 static void take_still(struct view *view, const struct frame *frame, struct arena *arena)
@@ -83,10 +81,8 @@ static int view_step(void *state, struct frame *frame, struct runner *runner)
         view_frame_check_vehicles(&view->data.models, frame, runner_diag(runner)) != 0)
         return -1;
     view->found = view->found || view->frame < 0 || view->frame == frame->frame;
-    if (!view->svg) {
-        view_data_add(&view->data, frame);
-        return view_comparison_add(&view->comparison, &view->data, frame, runner_diag(runner));
-    }
+    if (!view->svg)
+        return view_data_add(&view->data, frame, runner_diag(runner));
     if (view->frame < 0 || view->frame == frame->frame)
         take_still(view, frame, runner_arena(runner));
     return 0;
@@ -109,8 +105,7 @@ static int view_stop(void *state, struct runner *runner)
 {
     struct view *view = state;
     struct text text = {0};
-    if (check_found(view, runner) != 0 ||
-        view_comparison_finish(&view->comparison, runner_diag(runner)) != 0)
+    if (check_found(view, runner) != 0 || view_data_finish(&view->data, runner_diag(runner)) != 0)
         return -1;
     if (!view->svg)
         view_page_write(&view->data, view->frame, &text);

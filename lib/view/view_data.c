@@ -1,6 +1,7 @@
 #include "view/view_data.h"
 
 #include "base/sort.h"
+#include "score/target_score.h"
 
 /* The numbers that tell what a lost echo is and why it is lost. The columns DETAIL_OBJECT to
  * DETAIL_NUMBER have the first of them, the columns ITEM_REFLECTOR to ITEM_EFFECT all but the
@@ -22,13 +23,13 @@ struct loss_row {
     uint32_t of[LOST_NUMBERS];
 };
 
-void view_data_real(struct view_data *data, enum view_column column, double value)
+static void put_real(struct view_data *data, enum view_column column, double value)
 {
     float real = (float)value;
     memcpy(list_add(&data->columns.list[column], data->arena), &real, sizeof real);
 }
 
-void view_data_count(struct view_data *data, enum view_column column, uint32_t value)
+static void put_count(struct view_data *data, enum view_column column, uint32_t value)
 {
     *list_add(&data->columns.list[column], data->arena) = value;
 }
@@ -42,6 +43,11 @@ static uint32_t name_of(struct view_data *data, const char *word)
 static uint32_t optional_name(struct view_data *data, const char *word)
 {
     return word != NULL ? 1 + name_of(data, word) : 0;
+}
+
+static void put_name(struct view_data *data, enum view_column column, const char *word)
+{
+    put_count(data, column, optional_name(data, word));
 }
 
 void view_data_begin(struct view_data *data, struct arena *arena)
@@ -93,18 +99,18 @@ static uint32_t sensor_of(struct view_data *data, const struct sensor_view *sens
 }
 
 /* What the rows of view_columns.def that have a member call, by their word. */
-#define add_real view_data_real
-#define add_count(data, column, value) view_data_count(data, column, (uint32_t)(value))
-#define add_word(data, column, value) view_data_count(data, column, name_of(data, value))
+#define add_real put_real
+#define add_count(data, column, value) put_count(data, column, (uint32_t)(value))
+#define add_word(data, column, value) put_count(data, column, name_of(data, value))
 
 static void add_object(struct view_data *data, const struct object *object, struct vec2 shift)
 {
     struct box box = view_frame_box(object, view_frame_vehicle(&data->models, object->class));
-    view_data_real(data, COLUMN_OBJECT_X, object->x_m + shift.x);
-    view_data_real(data, COLUMN_OBJECT_Y, object->y_m + shift.y);
-    view_data_real(data, COLUMN_OBJECT_YAW, remainder(object->yaw_rad, 2 * acos(-1)));
-    view_data_real(data, COLUMN_OBJECT_LENGTH, box.length_m);
-    view_data_real(data, COLUMN_OBJECT_WIDTH, box.width_m);
+    put_real(data, COLUMN_OBJECT_X, object->x_m + shift.x);
+    put_real(data, COLUMN_OBJECT_Y, object->y_m + shift.y);
+    put_real(data, COLUMN_OBJECT_YAW, remainder(object->yaw_rad, 2 * acos(-1)));
+    put_real(data, COLUMN_OBJECT_LENGTH, box.length_m);
+    put_real(data, COLUMN_OBJECT_WIDTH, box.width_m);
 #define OBJECT(name, key, how, member) add_##how(data, COLUMN_##name, object->member);
 #include "view/view_columns.def"
 }
@@ -113,13 +119,13 @@ static void add_contributor(struct view_data *data, const struct contributor *fr
 {
 #define CONTRIBUTOR(name, key, how, member) add_##how(data, COLUMN_##name, from->member);
 #include "view/view_columns.def"
-    view_data_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
+    put_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
 }
 
 /* Adds a row with every member of the quality, in the order of its table, if the target has one. */
 static void add_quality(struct view_data *data, const struct quality *quality)
 {
-    view_data_count(data, COLUMN_TARGET_QUALITY, quality->present != 0);
+    put_count(data, COLUMN_TARGET_QUALITY, quality->present != 0);
     enum view_column column = COLUMN_QUALITY_SNR_DB;
     for (const struct field *field = quality_record.fields; field->name != NULL;
          field++, column++) {
@@ -128,8 +134,7 @@ static void add_quality(struct view_data *data, const struct quality *quality)
         double value = field->kind == FIELD_REAL      ? FIELD_LOAD(double, field, quality)
                        : field->kind == FIELD_INTEGER ? (double)FIELD_LOAD(int64_t, field, quality)
                                                       : FIELD_LOAD(bool, field, quality);
-        view_data_real(data, column,
-                       (quality->present & field->section) != 0 ? value : (double)NAN);
+        put_real(data, column, (quality->present & field->section) != 0 ? value : (double)NAN);
     }
 }
 
@@ -137,7 +142,7 @@ static void add_target(struct view_data *data, const struct target *target)
 {
 #define TARGET(name, key, how, member) add_##how(data, COLUMN_##name, target->member);
 #include "view/view_columns.def"
-    view_data_count(
+    put_count(
         data, COLUMN_TARGET_EFFECTS,
         intern_number(&data->effect_sets, &target->effects, sizeof target->effects, data->arena));
     for (size_t i = 0; i < target->contributors.count; i++)
@@ -159,12 +164,12 @@ static uint32_t add_targets(struct view_data *data, const struct frame *frame, c
 static void add_detail(struct view_data *data, const struct loss_row *row,
                        const struct lost_echo *echo)
 {
-    view_data_real(data, COLUMN_DETAIL_SHORTFALL, echo->shortfall_db);
-    view_data_real(data, COLUMN_DETAIL_RANGE, echo->range_m);
-    view_data_real(data, COLUMN_DETAIL_AZIMUTH, echo->azimuth_rad);
+    put_real(data, COLUMN_DETAIL_SHORTFALL, echo->shortfall_db);
+    put_real(data, COLUMN_DETAIL_RANGE, echo->range_m);
+    put_real(data, COLUMN_DETAIL_AZIMUTH, echo->azimuth_rad);
     for (int i = LOST_OBJECT; i <= LOST_NUMBER; i++)
-        view_data_count(data, COLUMN_DETAIL_OBJECT + i, row->of[i]);
-    view_data_count(data, COLUMN_DETAIL_BY, optional_name(data, echo->by));
+        put_count(data, COLUMN_DETAIL_OBJECT + i, row->of[i]);
+    put_count(data, COLUMN_DETAIL_BY, optional_name(data, echo->by));
 }
 
 /* Orders by object; within one, in any order that is the same for the same losses. */
@@ -193,11 +198,11 @@ static struct vec2 spot_of(struct view_data *data, uint32_t scene, const struct 
     uint32_t number = intern_number(&data->spot_keys, key, sizeof key, data->arena);
     if (number == data->spots.count) {
         *list_add(&data->spots, data->arena) = place;
-        view_data_real(data, COLUMN_SPOT_X, place.x);
-        view_data_real(data, COLUMN_SPOT_Y, place.y);
-        view_data_count(data, COLUMN_SPOT_SCENE, scene);
-        view_data_count(data, COLUMN_SPOT_OBJECT, row->of[LOST_OBJECT]);
-        view_data_count(data, COLUMN_SPOT_REFLECTOR, row->of[LOST_REFLECTOR]);
+        put_real(data, COLUMN_SPOT_X, place.x);
+        put_real(data, COLUMN_SPOT_Y, place.y);
+        put_count(data, COLUMN_SPOT_SCENE, scene);
+        put_count(data, COLUMN_SPOT_OBJECT, row->of[LOST_OBJECT]);
+        put_count(data, COLUMN_SPOT_REFLECTOR, row->of[LOST_REFLECTOR]);
     }
     return data->spots.items[number];
 }
@@ -260,15 +265,15 @@ static void add_fate(struct view_data *data, const struct loss_row *rows, size_t
     uint32_t *items = arena_get(scratch, count * ITEM * sizeof *items);
     for (size_t i = 0; i < count; i++)
         memcpy(items + i * ITEM, rows[i].of + LOST_REFLECTOR, ITEM * sizeof *items);
-    view_data_count(data, COLUMN_FATE_OBJECT, rows->of[LOST_OBJECT]);
+    put_count(data, COLUMN_FATE_OBJECT, rows->of[LOST_OBJECT]);
     size_t known = data->patterns.list.count, size = count * ITEM * sizeof *items;
     uint32_t pattern = intern_number(&data->patterns, items, size, data->arena);
-    view_data_count(data, COLUMN_FATE_PATTERN, pattern);
+    put_count(data, COLUMN_FATE_PATTERN, pattern);
     if (pattern < known)
         return;
-    view_data_count(data, COLUMN_PATTERN_ITEMS, (uint32_t)count);
+    put_count(data, COLUMN_PATTERN_ITEMS, (uint32_t)count);
     for (size_t i = 0; i < count * ITEM; i++)
-        view_data_count(data, COLUMN_ITEM_REFLECTOR + i % ITEM, items[i]);
+        put_count(data, COLUMN_ITEM_REFLECTOR + i % ITEM, items[i]);
 }
 
 static void add_losses(struct view_data *data, struct loss_scan *scan, const char *sensor)
@@ -286,8 +291,8 @@ static void add_losses(struct view_data *data, struct loss_scan *scan, const cha
                 break;
         add_fate(data, rows + begin, end - begin, frame->arena);
     }
-    view_data_count(data, COLUMN_SCAN_FATES, fates);
-    view_data_count(data, COLUMN_SCAN_DETAILS, details);
+    put_count(data, COLUMN_SCAN_FATES, fates);
+    put_count(data, COLUMN_SCAN_DETAILS, details);
 }
 
 static void add_sightings(struct view_data *data, const struct frame *frame, const char *sensor)
@@ -301,52 +306,145 @@ static void add_sightings(struct view_data *data, const struct frame *frame, con
 #define SIGHTING(name, key, how, member) add_##how(data, COLUMN_##name, sighting->member);
 #include "view/view_columns.def"
     }
-    view_data_count(data, COLUMN_SCAN_SIGHTINGS, count);
+    put_count(data, COLUMN_SCAN_SIGHTINGS, count);
 }
 
 static void add_scan(struct view_data *data, const struct frame *frame, uint32_t scene,
                      const struct sensor_view *sensor, struct vec2 shift)
 {
     struct view_scan scan = view_frame_scan(frame, sensor);
-    view_data_real(data, COLUMN_SCAN_X, scan.pose.position_m.x + shift.x);
-    view_data_real(data, COLUMN_SCAN_Y, scan.pose.position_m.y + shift.y);
-    view_data_real(data, COLUMN_SCAN_YAW, remainder(scan.pose.yaw_rad, 2 * acos(-1)));
-    view_data_real(data, COLUMN_SCAN_VX, scan.pose.velocity_mps.x);
-    view_data_real(data, COLUMN_SCAN_VY, scan.pose.velocity_mps.y);
-    view_data_real(data, COLUMN_SCAN_AGE, scan.age_s);
-    view_data_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, sensor));
-    view_data_count(data, COLUMN_SCAN_MEASURED, sensor->measured);
-    view_data_count(data, COLUMN_SCAN_TARGETS, add_targets(data, frame, sensor->name));
+    put_real(data, COLUMN_SCAN_X, scan.pose.position_m.x + shift.x);
+    put_real(data, COLUMN_SCAN_Y, scan.pose.position_m.y + shift.y);
+    put_real(data, COLUMN_SCAN_YAW, remainder(scan.pose.yaw_rad, 2 * acos(-1)));
+    put_real(data, COLUMN_SCAN_VX, scan.pose.velocity_mps.x);
+    put_real(data, COLUMN_SCAN_VY, scan.pose.velocity_mps.y);
+    put_real(data, COLUMN_SCAN_AGE, scan.age_s);
+    put_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, sensor));
+    put_count(data, COLUMN_SCAN_MEASURED, sensor->measured);
+    put_count(data, COLUMN_SCAN_TARGETS, add_targets(data, frame, sensor->name));
     add_losses(data, &(struct loss_scan){.frame = frame, .scan = scan, .scene = scene},
                sensor->name);
     add_sightings(data, frame, sensor->name);
 }
 
-void view_data_name(struct view_data *data, enum view_column column, const char *word)
-{
-    view_data_count(data, column, optional_name(data, word));
-}
-
-struct vec2 view_data_shift(struct view_data *data, const struct frame *frame)
+/* From the frame's coordinates to those of its scene in the columns. */
+static struct vec2 shift_of(struct view_data *data, const struct frame *frame)
 {
     const struct view_scene *scene = &data->scenes.items[scene_of(data, frame)];
     return (struct vec2){frame->origin_x_m - scene->anchor_x_m,
                          frame->origin_y_m - scene->anchor_y_m};
 }
 
-void view_data_add(struct view_data *data, const struct frame *frame)
+/* The number of a target in its sensor's list, from 1. */
+static uint32_t number_in_list(const struct frame *frame, const struct target *target)
+{
+    uint32_t number = 0;
+    for (const struct target *one = frame->targets.items; one <= target; one++)
+        number += strcmp(one->sensor, target->sensor) == 0;
+    return number;
+}
+
+static uint32_t add_truths(struct view_data *data, const struct frame *frame,
+                           const struct target_pairs *pairs)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < pairs->list.count && pairs->list.items[i].truth != NULL; i++, count++) {
+        const struct target *truth = pairs->list.items[i].truth;
+        const struct target *listed = pairs->list.items[i].listed;
+        put_real(data, COLUMN_TRUTH_RANGE, truth->range_m);
+        put_real(data, COLUMN_TRUTH_AZIMUTH, truth->azimuth_rad);
+        put_real(data, COLUMN_TRUTH_RATE, truth->range_rate_mps);
+        put_real(data, COLUMN_TRUTH_AMPLITUDE, truth->amplitude_db);
+        put_name(data, COLUMN_TRUTH_OBJECT, truth->contributors.items[0].id.object);
+        put_count(data, COLUMN_TRUTH_LISTED, listed != NULL ? number_in_list(frame, listed) : 0);
+    }
+    return count;
+}
+
+static int compare_targets(struct view_data *data, const struct frame *frame, struct diag *diag)
+{
+    const struct frame *truth;
+    int found =
+        reference_stream_frame(data->truth, frame, SECTION_SENSORS | SECTION_TARGETS, &truth, diag);
+    if (found < 0 || (found > 0 && (reference_stream_same_seed(data->truth, frame, diag) != 0 ||
+                                    target_score_check(truth, frame, diag) != 0)))
+        return -1;
+    put_count(data, COLUMN_FRAME_COMPARED, (uint32_t)found);
+    for (size_t i = 0; i < frame->sensors.list.count; i++) {
+        struct target_pairs pairs = {0};
+        if (found > 0) {
+            const struct sensor_view *view = &truth->sensors.list.items[i];
+            struct target_cell cell = target_score_cell(view, 0, TARGET_SCORE_CUTOFF);
+            pairs = target_score_pairs(view->name, truth, frame, &cell, frame->arena);
+        }
+        put_count(data, COLUMN_SCAN_TRUTHS, add_truths(data, frame, &pairs));
+    }
+    return 0;
+}
+
+static void add_track(struct view_data *data, const struct frame *frame,
+                      const struct track_pair *pair, const char *before)
+{
+    static const struct track missed = {0};
+    const struct track *track = pair->track != NULL ? pair->track : &missed;
+    struct vec2 shift = shift_of(data, frame);
+    put_real(data, COLUMN_TRACK_X, track->x_m + shift.x);
+    put_real(data, COLUMN_TRACK_Y, track->y_m + shift.y);
+    put_real(data, COLUMN_TRACK_VX, track->vx_mps);
+    put_real(data, COLUMN_TRACK_VY, track->vy_mps);
+    put_real(data, COLUMN_TRACK_APART, pair->apart_m);
+    put_name(data, COLUMN_TRACK_ID, track->id);
+    put_name(data, COLUMN_TRACK_OBJECT, pair->object != NULL ? pair->object->id : NULL);
+    put_name(data, COLUMN_TRACK_BEFORE, before);
+}
+
+static int compare_tracks(struct view_data *data, const struct frame *frame, struct diag *diag)
+{
+    struct track_list tracks = {0};
+    struct track_pairs pairs = {0};
+    if (track_score_check(frame, TRACK_TRUTH_IN_VIEW, diag) != 0)
+        return -1;
+    int found = reference_stream_tracks(data->tracks, frame, &tracks, diag);
+    if (found > 0)
+        pairs = track_score_pairs(frame, &tracks, TRACK_TRUTH_IN_VIEW, NULL, TRACK_SCORE_CUTOFF_M);
+    for (size_t i = 0; i < pairs.list.count; i++) {
+        const struct track_pair *pair = &pairs.list.items[i];
+        const char *before = NULL;
+        if (pair->object != NULL && pair->track != NULL)
+            before = track_score_replaced(&data->memory, frame->scene, pair->object->id,
+                                          pair->track->id, data->arena);
+        add_track(data, frame, pair, before);
+    }
+    if (frame->last)
+        track_score_forget(&data->memory, frame->scene);
+    put_count(data, COLUMN_FRAME_TRACKED, found > 0);
+    put_count(data, COLUMN_FRAME_TRACKS, (uint32_t)pairs.list.count);
+    return found < 0 ? -1 : 0;
+}
+
+int view_data_add(struct view_data *data, const struct frame *frame, struct diag *diag)
 {
     uint32_t number = scene_of(data, frame);
     const struct view_scene *scene = &data->scenes.items[number];
-    struct vec2 shift = view_data_shift(data, frame);
-    view_data_real(data, COLUMN_FRAME_TIME, frame->time_s - scene->start_s);
-    view_data_count(data, COLUMN_FRAME_SCENE, number);
-    view_data_count(data, COLUMN_FRAME_NUMBER, (uint32_t)(frame->frame - scene->first_frame));
-    view_data_count(data, COLUMN_FRAME_ACCOUNT, frame_carries(frame, CARRY_ACCOUNT));
-    view_data_count(data, COLUMN_FRAME_OBJECTS, (uint32_t)frame->objects.count);
-    view_data_count(data, COLUMN_FRAME_SCANS, (uint32_t)frame->sensors.list.count);
+    struct vec2 shift = shift_of(data, frame);
+    put_real(data, COLUMN_FRAME_TIME, frame->time_s - scene->start_s);
+    put_count(data, COLUMN_FRAME_SCENE, number);
+    put_count(data, COLUMN_FRAME_NUMBER, (uint32_t)(frame->frame - scene->first_frame));
+    put_count(data, COLUMN_FRAME_ACCOUNT, frame_carries(frame, CARRY_ACCOUNT));
+    put_count(data, COLUMN_FRAME_OBJECTS, (uint32_t)frame->objects.count);
+    put_count(data, COLUMN_FRAME_SCANS, (uint32_t)frame->sensors.list.count);
     for (size_t i = 0; i < frame->objects.count; i++)
         add_object(data, &frame->objects.items[i], shift);
     for (size_t i = 0; i < frame->sensors.list.count; i++)
         add_scan(data, frame, number, &frame->sensors.list.items[i], shift);
+    if (data->truth != NULL && compare_targets(data, frame, diag) != 0)
+        return -1;
+    return data->tracks != NULL ? compare_tracks(data, frame, diag) : 0;
+}
+
+int view_data_finish(struct view_data *data, struct diag *diag)
+{
+    if (data->truth != NULL && reference_stream_finish(data->truth, diag) != 0)
+        return -1;
+    return data->tracks != NULL ? reference_stream_finish(data->tracks, diag) : 0;
 }

@@ -1,5 +1,6 @@
-/* A stream's frames as tables of columns, for glint-view. Columns of small numbers and a table of
- * names take the place of a tree: 10,000 frames of 30 objects are some 30 MB and open at once.
+/* A stream's frames as tables of columns, for glint-view. They come with another stream's targets
+ * and a tracker's tracks, where these are asked for. Columns of small numbers and a table of names
+ * take the place of a tree: 10,000 frames of 30 objects are some 30 MB and open at once.
  *
  * Rows of one table own rows of another, by count and in order: each frame owns objects and scans,
  * each scan owns targets, fates and details, each target owns contributors. The losses of a scan
@@ -8,11 +9,16 @@
  * what changes from frame to frame: who blocked an echo, how many dB it lacked, and where it was. A
  * loss without a detail was at its spot: most reflectors stay where they are in their object's
  * axes, so that one place serves all frames of the scene. Coordinates are relative to the place of
- * the scene's ego in its first frame. */
+ * the scene's ego in its first frame.
+ *
+ * Truths are the targets of the other stream, each with the number of the listed target that
+ * glint-score pairs it with. Missed objects are tracks without an id and a place. Frames that the
+ * other stream lacks have neither, and say so. */
 #pragma once
 
 #include "base/intern.h"
 #include "frame/frame.h"
+#include "score/reference_stream.h"
 #include "view/view_frame.h"
 
 #define COLUMN(name, key, kind) COLUMN_##name,
@@ -43,19 +49,17 @@ struct view_data {
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
     struct view_columns columns;
+    struct reference_stream *truth, *tracks; /* the other streams; NULL: not asked for */
+    struct track_memory memory;
 };
 
 /* Begins without frames; all memory is the arena's. */
 void view_data_begin(struct view_data *data, struct arena *arena);
 
-/* Appends a number to a column; of a name its number plus 1, and 0 for NULL. */
-void view_data_real(struct view_data *data, enum view_column column, double value);
-void view_data_count(struct view_data *data, enum view_column column, uint32_t value);
-void view_data_name(struct view_data *data, enum view_column column, const char *word);
+/* Adds a frame of any scene, in canonical order, and what the other streams have for it. Memory
+ * that it does not keep comes from the frame's arena. Refuses (DIAG_DATA) what glint-score and
+ * glint-score-tracks refuse. */
+int view_data_add(struct view_data *data, const struct frame *frame, struct diag *diag);
 
-/* From the frame's coordinates to those of its scene in the columns. */
-struct vec2 view_data_shift(struct view_data *data, const struct frame *frame);
-
-/* Adds a frame of any scene, in canonical order. Memory that it does not keep comes from the
- * frame's arena. */
-void view_data_add(struct view_data *data, const struct frame *frame);
+/* Reads the other streams on to their ends. */
+int view_data_finish(struct view_data *data, struct diag *diag);

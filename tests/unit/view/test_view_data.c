@@ -62,7 +62,8 @@ static void add_line(struct packed *packed, const char *line)
     struct diag diag = {0};
     if (frame_text_read(line, strlen(line), &frame, &diag) != 0)
         fail_msg("%s", diag.text);
-    view_data_add(&packed->data, &frame);
+    if (view_data_add(&packed->data, &frame, &diag) != 0)
+        fail_msg("%s", diag.text);
 }
 
 static void finish(struct packed *packed)
