@@ -1,7 +1,7 @@
 /* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs, or as a table. */
 /* needs: expat */
 #include "base/units.h"
-#include "recorded/recorded_table.h"
+#include "recorded/sumo_types.h"
 #include "recorded_source.h"
 #include "xml_rows.h"
 
@@ -143,7 +143,7 @@ static const struct recorded_format format = {
     .by_time = true,
     .jumps = true,
     .marks_steps = true,
-    .words = sumo_table_words,
+    .words = sumo_types_words,
     .next = xml_rows_next,
     .close = xml_rows_close,
 };

@@ -6,12 +6,11 @@
 #include "text/document.h"
 
 struct recorded_classes {
+    const struct recorded_format *format;
     const char *map, *otherwise;           /* --class-map, --class-default, or NULL */
-    const struct recorded_word *own;       /* those of the format */
     struct intern known;                   /* words of the format, then those that are added */
     LIST_OF(struct recorded_word) words;   /* by the number of the word */
     size_t own_count;                      /* how many of them are the format's */
-    bool typed;                            /* are sizes those of types, not of rows? */
     struct document_names vehicles;        /* the classes that there are */
     struct intern asked;                   /* words */
     LIST_OF(struct recorded_word) answers; /* by the number of the word; class NULL: none */
@@ -24,19 +23,14 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
                            const char *map, const char *otherwise, struct arena *arena,
                            struct diag *diag);
 
-/* Adds a word that means the same as one of the format's, with sizes of its own where they are not
- * 0. It takes the place of a word of that name. */
-void recorded_classes_add(struct recorded_classes *classes, const char *word, const char *like,
-                          double length_m, double width_m, double height_m);
-
-/* Does so with the vTypes of a file of SUMO's routes or additional elements; -1 after a message.
- * Only the file's tags are read, in memory. */
-int recorded_classes_read_types(struct recorded_classes *classes, const char *path,
-                                struct diag *diag);
+/* Adds a type, whose class is another word of the format: it means the same, with sizes of its own
+ * where they are not 0. It takes the place of a word of that name; false if that is a type with
+ * another class or size. */
+bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word type);
 
 /* The class of a word: by the map, else the words, else the class of this name in data/vehicles/,
- * else otherwise; NULL if none knows it. Nor are the words known, what stands before an "@" is
- * asked for. The sizes are those of the word, or of the format's first word with this class. */
+ * else otherwise; NULL if none knows it. Of a word that is not known, the part before an "@" is
+ * looked for. The sizes are those of the word, or of the format's first word with this class. */
 const struct recorded_word *recorded_classes_find(struct recorded_classes *classes,
                                                   const char *word);
 

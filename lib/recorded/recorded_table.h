@@ -77,9 +77,6 @@ extern const struct recorded_layout esmini_table_layout, highd_table_layout, ind
 /* The columns of NGSIM's files that have no header. */
 extern const char *const ngsim_table_names[];
 
-/* Words and sizes of SUMO's classes and default types, for its XML too. */
-extern const struct recorded_word sumo_table_words[];
-
 /* Reads the header, and takes over the input. path is that of the table, beside which other files
  * of its recording may lie. The reader's format is NULL after a message. */
 struct recorded_reader recorded_table_open(struct input *input, const char *path,

@@ -4,6 +4,7 @@
 
 #include "frame/frame_check.h"
 #include "recorded/recorded_store.h"
+#include "recorded/sumo_types.h"
 #include "traffic/scenario.h"
 
 /* ---- opening ---- */
@@ -95,7 +96,7 @@ static int prepare(struct recording *recording, struct diag *diag)
                                options->class_default, recording->arena, diag) != 0)
         return -1;
     for (size_t i = 0; i < options->types.count; i++)
-        if (recorded_classes_read_types(&steps->classes, options->types.items[i], diag) != 0)
+        if (sumo_types_read(&steps->classes, options->types.items[i], diag) != 0)
             return -1;
     return 0;
 }

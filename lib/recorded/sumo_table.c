@@ -2,6 +2,7 @@
  * without anyone are not in a table. */
 #include "base/units.h"
 #include "recorded/recorded_table.h"
+#include "recorded/sumo_types.h"
 
 /* The place is the middle of the front bumper, the angle in degrees clockwise from north. The
  * speed serves where there is only one step: velocities are those of the places. */
@@ -20,16 +21,10 @@ COLUMNS(persons, "person_", "timestep_time");
 COLUMNS(containers, "container_", "timestep_time");
 COLUMNS(plain, "", "time");
 
-const struct recorded_word sumo_table_words[] = {
-#define SUMO(word, class, length_m, width_m, height_m) {word, class, length_m, width_m, height_m},
-#include "recorded/recorded_classes.def"
-    {0},
-};
-
 #define FORMAT                                                                                     \
     {                                                                                              \
         RECORDED_TABLE, .name = "a table of SUMO", .id_name = "id", .by_time = true,               \
-                        .words = sumo_table_words, .jumps = true                                   \
+                        .words = sumo_types_words, .jumps = true                                   \
     }
 
 const struct recorded_layout sumo_table_layout = {
