@@ -125,7 +125,7 @@ int recorded_classes_refuse(const struct recorded_classes *classes, const char *
               "unknown class \"%.80s\"; expected one of %.*s; --class-map %.80s=CLASS or "
               "--class-default CLASS names one%s",
               word, (int)(list.length < 1200 ? list.length : 1200), list.bytes, word,
-              classes->format->jumps
+              classes->format->of_sumo
                   ? ", but not its size, which is that of its vType: --types FILE"
                   : "");
     text_free(&list);

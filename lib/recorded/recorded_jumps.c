@@ -8,9 +8,8 @@
  *
  * A body turns about the middle of its front bumper, which the recording places. Where that moves
  * at an angle to the body, and the body turns at 2 v / l times the sine of that angle, the centre
- * moves along the body: it follows as a trailer would. The turn rate is
- * at most this one plus that which moves the centre sideways by v/4. Below CREEP_MPS, v is
- * CREEP_MPS. */
+ * moves along the body, as a trailer follows. The turn rate is at most that one and the one that
+ * moves the centre sideways by v/4. Below CREEP_MPS, v is CREEP_MPS. */
 #include "base/units.h"
 #include "recorded/recorded_steps.h"
 

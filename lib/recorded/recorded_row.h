@@ -53,9 +53,9 @@ struct recorded_format {
     const char *place;   /* what recorded_row.place counts: "row", "byte" */
     double slow_mps;     /* a velocity below it says no yaw, as one of 0 */
     bool by_time;        /* rows come in ascending time; if not, the recording is stored whole */
-    /* Vehicles may jump to another lane or angle (recorded_jumps.c), and the ways of road users are
-     * held against their speeds: places in degrees are refused. */
-    bool jumps;
+    /* Of SUMO: sizes are those of types (sumo_types.h), vehicles may jump to another lane or angle
+     * (recorded_jumps.c), and ways are held against speeds, because places may be in degrees. */
+    bool of_sumo;
     bool marks_steps; /* gives RECORDED_STEP; if not, a step ends where the time changes */
     const struct recorded_word *words; /* ends with a word NULL */
     int (*next)(void *state, struct recorded_row *row, struct diag *diag);

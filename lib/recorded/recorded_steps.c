@@ -130,7 +130,7 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
             steps->moved_m += way;
             steps->said_m += fabs(state->speed_mps) * length_s;
         }
-        if (format->jumps && !state->passenger) {
+        if (format->of_sumo && !state->passenger) {
             state->jumps = arena_get(&step->arena, sizeof *state->jumps);
             recorded_jumps_spread(state, before, length_s, &steps->jumps);
         }
@@ -152,7 +152,7 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
 static int check_speeds(const struct recorded_steps *steps, struct diag *diag)
 {
     bool far = steps->said_m >= (steps->ended ? 10 : 1e3);
-    if (!steps->reader.format->jumps || !far || steps->moved_m > 1e-3 * steps->said_m)
+    if (!steps->reader.format->of_sumo || !far || steps->moved_m > 1e-3 * steps->said_m)
         return 0;
     return diag_fail(diag, DIAG_DATA,
                      "%s %zu: all road users together have moved by %.3g m, and by their speeds "

@@ -71,7 +71,7 @@ static int check_options(const struct recording *recording, struct diag *diag)
     if (steps->live && !steps->reader.format->marks_steps)
         return diag_fail(diag, DIAG_USAGE, "--live: %s does not say where a step ends",
                          steps->reader.format->name);
-    if (options->types.count > 0 && !steps->reader.format->jumps)
+    if (options->types.count > 0 && !steps->reader.format->of_sumo)
         return diag_fail(diag, DIAG_USAGE, "--types: only SUMO has types, not %s",
                          steps->reader.format->name);
     if (steps->live && options->rate_hz > 0)

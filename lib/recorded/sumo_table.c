@@ -24,7 +24,7 @@ COLUMNS(plain, "", "time");
 #define FORMAT                                                                                     \
     {                                                                                              \
         RECORDED_TABLE, .name = "a table of SUMO", .id_name = "id", .by_time = true,               \
-                        .words = sumo_types_words, .jumps = true                                   \
+                        .words = sumo_types_words, .of_sumo = true                                 \
     }
 
 const struct recorded_layout sumo_table_layout = {
