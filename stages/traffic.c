@@ -1,8 +1,8 @@
 /* Traffic: plays a scenario document or a recorded table, frame by frame. */
-#include "recorded/recorded_table.h"
 #include "recorded/recording.h"
 #include "run/stage.h"
 #include "text/document.h"
+#include "text/input.h"
 #include "traffic/scenario_scenes.h"
 
 struct traffic {

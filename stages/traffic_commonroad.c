@@ -406,8 +406,11 @@ static int next_event(void *state, struct recorded_row *row, struct diag *diag)
     return RECORDED_ROW;
 }
 
+static const struct recorded_word words[] = {
 #define COMMONROAD RECORDED_WORD
-#include "recorded/recorded_words.def"
+#include "recorded/recorded_classes.def"
+    {0},
+};
 
 static const struct recorded_format format = {
     .name = "a scenario of CommonRoad",

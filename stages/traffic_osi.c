@@ -323,8 +323,11 @@ static void close_trace(void *state)
     arena_free(&trace->still_arena);
 }
 
+static const struct recorded_word words[] = {
 #define OSI(kind, number, word, class) RECORDED_WORD(word, class)
-#include "recorded/recorded_words.def"
+#include "recorded/recorded_classes.def"
+    {0},
+};
 
 static const struct recorded_format format = {
     .name = "an OSI trace",

@@ -1,4 +1,4 @@
-/* Vehicles that change their lane or their angle from one step to the next, as those of SUMO do.
+/* Vehicles that jump to another lane or angle (SUMO).
  *
  * A jump is what the place moves beyond its speed: sideways by more than JUMP_LEAST_M and faster
  * than JUMP_LEAST_MPS, but by no more than JUMP_MOST_M, which is wider than a lane; what is longer

@@ -1,8 +1,9 @@
-/* A row of a recording, and what its reader is.
+/* Rows of a recording, and the readers that give them.
  *
  * A reader gives a recording row by row, as it stands in the file; recorded_steps.h makes steps of
  * the rows: it maps classes, finds centres, velocities and yaw rates. A new format is a file beside
- * this one that fills a struct recorded_format. */
+ * this one that fills a struct recorded_format. A new layout of CSV tables is a row of
+ * recorded_layouts.c. */
 #pragma once
 
 #include <stdbool.h>
@@ -10,6 +11,8 @@
 
 #include "base/arena.h"
 #include "base/diag.h"
+
+struct input;
 
 /* A road user at one instant. NAN stands for what the source does not say. Names are valid until
  * the reader is called again. */
@@ -47,6 +50,9 @@ struct recorded_word {
     double length_m, width_m, height_m;
 };
 
+/* A row of recorded_classes.def in such a vocabulary. */
+#define RECORDED_WORD(word, class) {word, class, 0, 0, 0},
+
 struct recorded_format {
     const char *name;    /* "a table of INTERACTION" */
     const char *id_name; /* what the format calls an id, for messages: "track_id" */
@@ -76,3 +82,18 @@ double recorded_row_seconds(int64_t time_ns);
 /* Refuses an id or class that is empty, longer than FIELD_NAME_SIZE or not printable ASCII: names
  * go into frames, which are UTF-8, and tables do not say how they are encoded. */
 bool recorded_row_name_fits(const char *name);
+
+/* ---- readers ---- */
+
+/* Opens a CSV table of any layout (recorded_layouts.h): reads the header, and takes over the input.
+ * path is that of the table, beside which other files of its recording may lie. The reader's format
+ * is NULL after a message. */
+struct recorded_reader recorded_table_open(struct input *input, const char *path,
+                                           struct arena *arena, struct diag *diag);
+
+/* Reads all rows of a reader into memory and closes it. The new reader gives them in the order of
+ * time and marks steps; its format is NULL after a message. It takes 64 bytes a row, and some
+ * hundred for each step, track and size of a body. A yaw rate is kept to 24 bits, a speed not at
+ * all. */
+struct recorded_reader recorded_store_read(struct recorded_reader reader, struct arena *arena,
+                                           struct diag *diag);

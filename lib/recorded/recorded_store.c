@@ -1,7 +1,7 @@
-#include "recorded/recorded_store.h"
-
+/* A recording in memory, in the order of time. */
 #include "base/intern.h"
 #include "base/sort.h"
+#include "recorded/recorded_row.h"
 
 enum { CHUNK = 4096 };
 

@@ -1,20 +1,19 @@
-#include "recorded/recorded_table.h"
-
+/* Rows of a CSV table of recorded traffic. */
 #include <math.h>
 #include <stdio.h>
 #include <strings.h>
 
+#include "base/intern.h"
+#include "base/units.h"
+#include "recorded/recorded_layouts.h"
+#include "text/csv_table.h"
 #include "text/field.h"
 #include "text/file_format.h"
 
-static const struct recorded_layout *const layouts[] = {
-    &sumo_table_layout,  &sumo_table_plain_layout, &ind_table_layout,        &highd_table_layout,
-    &ngsim_table_layout, &esmini_table_layout,     &interaction_table_layout};
-
 static const struct csv_table_form form = {
-    .names = ngsim_table_names, .preamble = "esmini ", .header = "Index "};
+    .names = recorded_layouts_ngsim_names, .preamble = "esmini ", .header = "Index "};
 
-enum { LAYOUTS = sizeof layouts / sizeof layouts[0], ABSENT = -1, NAME_ROOM = 80 };
+enum { ABSENT = -1, NAME_ROOM = 80 };
 
 /* A kind of road user that the table has; in a wide table one road user. */
 struct part {
@@ -22,7 +21,14 @@ struct part {
     int at[RECORDED_COLUMNS]; /* the places of its columns; ABSENT */
 };
 
-struct recorded_table {
+/* What the file of tracks says of one. */
+struct track {
+    const char *class;
+    double direction_rad; /* of travel; NAN: not said */
+};
+
+struct table {
+    struct recorded_format format;
     struct csv_table_rows *lines;
     struct input *input;
     const struct recorded_layout *layout;
@@ -34,11 +40,13 @@ struct recorded_table {
     size_t part; /* of the row, which is next */
     struct intern recordings;
     struct arena *arena;
-    struct recorded_beside beside;
+    double rate_hz; /* of the file of the recording, and from that of the tracks: */
+    struct intern tracks;
+    LIST_OF(struct track) track_list; /* by the number of the id */
 };
 
 /* Where letters differ in case a column is found by looking at all of them. */
-static int place_of(const struct recorded_table *table, const char *name)
+static int place_of(const struct table *table, const char *name)
 {
     uint32_t place;
     if (intern_find(&table->places, name, strlen(name), &place))
@@ -49,12 +57,13 @@ static int place_of(const struct recorded_table *table, const char *name)
     return ABSENT;
 }
 
-static const struct recorded_layout *layout_of(const struct recorded_table *table)
+static const struct recorded_layout *layout_of(const struct table *table)
 {
-    size_t i = 0;
-    while (i + 1 < LAYOUTS && place_of(table, layouts[i]->mark) == ABSENT)
-        i++;
-    return layouts[i];
+    const struct recorded_layout *layout = recorded_layouts;
+    while (layout + 1 < recorded_layouts + RECORDED_LAYOUTS &&
+           place_of(table, layout->mark) == ABSENT)
+        layout++;
+    return layout;
 }
 
 /* The name of a column; in a wide table that of a road user, "#1" or "#2" or ... */
@@ -68,7 +77,7 @@ static const char *name_of(const struct recorded_column *column, const char *use
 
 /* Finds the columns of a kind. Those that stand together are needed once one of them is there, and
  * the first column of times where there is no other. */
-static int find_columns(const struct recorded_table *table, struct part *part, const char *user,
+static int find_columns(const struct table *table, struct part *part, const char *user,
                         struct diag *diag)
 {
     const struct recorded_column *columns = part->kind->columns;
@@ -90,8 +99,8 @@ static int find_columns(const struct recorded_table *table, struct part *part, c
     return 0;
 }
 
-static int add_part(struct recorded_table *table, const struct recorded_kind *kind,
-                    const char *user, struct diag *diag)
+static int add_part(struct table *table, const struct recorded_kind *kind, const char *user,
+                    struct diag *diag)
 {
     struct part *part = list_add(&table->parts, table->arena);
     part->kind = kind;
@@ -99,7 +108,7 @@ static int add_part(struct recorded_table *table, const struct recorded_kind *ki
 }
 
 /* Whoever has a column, whatever the numbers are, or else "#1", which is refused. */
-static int find_users(struct recorded_table *table, struct diag *diag)
+static int find_users(struct table *table, struct diag *diag)
 {
     const struct recorded_kind *kind = table->layout->kinds;
     struct intern users = {0};
@@ -118,7 +127,7 @@ static int find_users(struct recorded_table *table, struct diag *diag)
 
 /* Of a kind without a column of ids there is nobody, unless all lack it: then the first is
  * refused. */
-static int find_kinds(struct recorded_table *table, struct diag *diag)
+static int find_kinds(struct table *table, struct diag *diag)
 {
     const struct recorded_kind *kinds = table->layout->kinds, *kind = kinds;
     do {
@@ -129,46 +138,134 @@ static int find_kinds(struct recorded_table *table, struct diag *diag)
     return table->parts.count > 0 ? 0 : add_part(table, kinds, NULL, diag);
 }
 
-static int read_header(struct recorded_table *table, const char *path, struct diag *diag)
+/* ---- files beside a table ---- */
+
+/* NN_tracks.csv has NN_tracksMeta.csv beside it, with a row for each track, and
+ * NN_recordingMeta.csv with a single row. Each may be gzip, under its name or with ".gz" behind
+ * it. */
+
+/* The value of a column in the row. */
+static int take_number(const struct csv_table *row, const char *name, double low, double high,
+                       double *value, struct diag *diag)
 {
-    struct arena *arena = table->arena;
+    size_t column;
+    if (csv_table_column(row, name, &column, diag) != 0)
+        return -1;
+    return csv_table_number(row, 0, column, low, high, value, diag);
+}
+
+static const char *take_text(const struct csv_table *row, const char *name, struct arena *arena,
+                             struct diag *diag)
+{
+    size_t column;
+    if (csv_table_column(row, name, &column, diag) != 0)
+        return NULL;
+    const char *text = csv_table_cell(row, 0, column);
+    return arena_text(arena, text, strlen(text));
+}
+
+static int take_recording(struct table *table, const struct csv_table *row, struct diag *diag)
+{
+    if (table->rate_hz != 0)
+        return diag_fail(diag, DIAG_DATA, "row %zu: a second recording; expected one",
+                         row->numbers[0]);
+    return take_number(row, "frameRate", 1, 1e6, &table->rate_hz, diag);
+}
+
+static int take_track(struct table *table, const struct csv_table *row, struct diag *diag)
+{
+    const char *id_name = table->layout->beside.id, *way = table->layout->beside.direction;
+    const char *id = take_text(row, id_name, table->arena, diag);
+    const char *class = id != NULL ? take_text(row, "class", table->arena, diag) : NULL;
+    double direction = 0;
+    if (class == NULL || (way != NULL && take_number(row, way, 1, 2, &direction, diag) != 0))
+        return -1;
+    if (intern_word(&table->tracks, id, table->arena) < table->track_list.count)
+        return diag_fail(diag, DIAG_DATA, "row %zu: %s %.80s is in a row above already",
+                         row->numbers[0], id_name, id);
+    *list_add(&table->track_list, table->arena) = (struct track){class, way == NULL ? (double)NAN
+                                                                        : direction == 1 ? PI
+                                                                                         : 0};
+    return 0;
+}
+
+/* Opens the file whose name has these letters in place of "tracks", with which the table's own name
+ * ends but for its endings; plain or gzip. NULL after a message; *path is the name in either
+ * case. */
+static struct input *open_beside(const char *table_path, const char *name, const char **path,
+                                 struct arena *arena, struct diag *diag)
+{
+    enum { LETTERS = sizeof "tracks" - 1 };
+    const char *slash = strrchr(table_path, '/'), *base = slash != NULL ? slash + 1 : table_path;
+    size_t length = strcspn(base, "."), plain = strlen(base + length);
+    const char *ending = base + length;
+    *path = table_path;
+    if (length < LETTERS || memcmp(ending - LETTERS, "tracks", LETTERS) != 0) {
+        diag_fail(diag, DIAG_DATA,
+                  "expected a table named NN_tracks.csv, to find NN_%s.csv beside it", name);
+        return NULL;
+    }
+    if (plain > 3 && strcmp(ending + plain - 3, ".gz") == 0)
+        plain -= 3;
+    *path = arena_format(arena, "%.*s%s%.*s", (int)(ending - LETTERS - table_path), table_path,
+                         name, (int)plain, ending);
+    struct diag fault = {0};
+    struct input *input = input_open(*path, &fault);
+    if (input != NULL)
+        return input;
+    const char *packed = arena_format(arena, "%s.gz", *path);
+    input = input_open(packed, diag);
+    if (input == NULL)
+        *diag = fault;
+    *path = input != NULL ? packed : *path;
+    return input;
+}
+
+/* Reads the file row by row; refuses one without rows. */
+static int read_beside(struct table *table, const char *table_path, const char *name,
+                       int (*take)(struct table *table, const struct csv_table *row,
+                                   struct diag *diag),
+                       struct diag *diag)
+{
+    const char *path;
+    struct input *input = open_beside(table_path, name, &path, table->arena, diag);
+    struct csv_table_rows *rows = input != NULL ? csv_table_open(input, NULL, diag) : NULL;
+    const struct csv_table *row;
+    int count = 0, result = 0;
+    while (rows != NULL && result == 0 && (row = csv_table_next(rows, diag)) != NULL) {
+        result = take(table, row, diag);
+        count++;
+    }
+    if (diag->code == DIAG_OK && count == 0)
+        diag_fail(diag, DIAG_DATA, "there is no row below the header");
+    csv_table_close(rows);
+    input_close(input);
+    return diag->code == DIAG_OK ? 0 : diag_prefix(diag, "%s: ", path);
+}
+
+/* ---- opening ---- */
+
+static int read_header(struct table *table, const char *path, struct diag *diag)
+{
     table->lines = csv_table_open(table->input, &form, diag);
     if (table->lines == NULL)
         return -1;
     table->names = csv_table_names(table->lines);
     for (size_t i = 0; i < table->names->columns; i++)
-        intern_word(&table->places, table->names->header[i], arena);
+        intern_word(&table->places, table->names->header[i], table->arena);
     table->layout = layout_of(table);
     if ((table->layout->wide ? find_users : find_kinds)(table, diag) != 0)
         return -1;
-    const struct recorded_beside_columns *beside = &table->layout->beside;
-    return beside->id == NULL ? 0 : recorded_beside_read(&table->beside, beside, path, arena, diag);
+    return table->layout->beside.id == NULL ||
+                   (read_beside(table, path, "recordingMeta", take_recording, diag) == 0 &&
+                    read_beside(table, path, "tracksMeta", take_track, diag) == 0)
+               ? 0
+               : -1;
 }
 
-struct recorded_reader recorded_table_open(struct input *input, const char *path,
-                                           struct arena *arena, struct diag *diag)
-{
-    struct recorded_table *table = arena_get(arena, sizeof *table);
-    table->input = input;
-    table->arena = arena;
-    if (read_header(table, path, diag) == 0)
-        return (struct recorded_reader){&table->layout->format, table};
-    size_t length;
-    const char *head = input_head(input, &length);
-    file_format_explain("table", head, length, diag);
-    recorded_table_close(table);
-    return (struct recorded_reader){0};
-}
+/* ---- rows ---- */
 
-void recorded_table_close(void *table)
-{
-    struct recorded_table *own = table;
-    csv_table_close(own->lines);
-    input_close(own->input);
-}
-
-static int refuse(const struct recorded_table *table, size_t place, const char *what,
-                  struct diag *diag)
+static int refuse(const struct table *table, size_t place, const char *what, struct diag *diag)
 {
     const struct csv_table *rows = table->rows;
     return diag_fail(diag, DIAG_DATA, "row %zu, column \"%s\": %s%.80s%s",
@@ -176,8 +273,8 @@ static int refuse(const struct recorded_table *table, size_t place, const char *
                      csv_table_cell(rows, table->row, place), what);
 }
 
-static int read_cell(struct recorded_table *table, const struct recorded_column *column,
-                     size_t place, struct recorded_cells *cells, struct diag *diag)
+static int read_cell(struct table *table, const struct recorded_column *column, size_t place,
+                     struct recorded_cells *cells, struct diag *diag)
 {
     const char *text = csv_table_cell(table->rows, table->row, place);
     double most_s = 9e9 / column->scale, value;
@@ -201,33 +298,32 @@ static int read_cell(struct recorded_table *table, const struct recorded_column 
     if (time)
         cells->row.time_ns = recorded_row_time_ns(value, column->scale);
     if (frames)
-        cells->row.time_ns = (int64_t)round(value / table->beside.rate_hz * 1e9);
+        cells->row.time_ns = (int64_t)round(value / table->rate_hz * 1e9);
     value = column->scale * (value + column->shift) + 0.0; /* never -0 */
     if (!time && !frames)
         memcpy((char *)cells + column->offset, &value, sizeof value);
     return 0;
 }
 
-static bool is_empty(const struct recorded_table *table, int place)
+static bool is_empty(const struct table *table, int place)
 {
     return place == ABSENT || *csv_table_cell(table->rows, table->row, (size_t)place) == '\0';
 }
 
 /* Who the track is, as the file beside the table says. */
-static int find_track(const struct recorded_table *table, const struct part *part,
-                      struct recorded_row *row, struct diag *diag)
+static int find_track(const struct table *table, const struct part *part, struct recorded_row *row,
+                      struct diag *diag)
 {
     uint32_t number;
-    const struct recorded_beside *beside = &table->beside;
-    if (!intern_find(&beside->ids, row->id, strlen(row->id), &number))
+    if (!intern_find(&table->tracks, row->id, strlen(row->id), &number))
         return refuse(table, (size_t)part->at[0], "\" is no track of tracksMeta", diag);
-    row->class = beside->tracks.items[number].class;
-    row->direction_rad = beside->tracks.items[number].direction_rad;
+    row->class = table->track_list.items[number].class;
+    row->direction_rad = table->track_list.items[number].direction_rad;
     return 0;
 }
 
-static int read_part(struct recorded_table *table, const struct part *part,
-                     struct recorded_row *row, struct diag *diag)
+static int read_part(struct table *table, const struct part *part, struct recorded_row *row,
+                     struct diag *diag)
 {
     const struct recorded_column *columns = part->kind->columns;
     struct recorded_cells cells = {.row = recorded_row_unsaid};
@@ -254,9 +350,9 @@ static int read_part(struct recorded_table *table, const struct part *part,
 
 /* A row is of the first kind whose id it has, else of the last; in a wide row all are there who
  * have an id. */
-int recorded_table_next(void *table, struct recorded_row *row, struct diag *diag)
+static int next_row(void *state, struct recorded_row *row, struct diag *diag)
 {
-    struct recorded_table *own = table;
+    struct table *own = state;
     for (;;) {
         if (own->rows == NULL || own->part == own->parts.count) {
             own->part = 0;
@@ -275,4 +371,31 @@ int recorded_table_next(void *table, struct recorded_row *row, struct diag *diag
             own->part = own->parts.count;
         return read_part(own, part, row, diag);
     }
+}
+
+static void close_table(void *state)
+{
+    struct table *table = state;
+    csv_table_close(table->lines);
+    input_close(table->input);
+}
+
+struct recorded_reader recorded_table_open(struct input *input, const char *path,
+                                           struct arena *arena, struct diag *diag)
+{
+    struct table *table = arena_get(arena, sizeof *table);
+    table->input = input;
+    table->arena = arena;
+    if (read_header(table, path, diag) == 0) {
+        table->format = table->layout->format;
+        table->format.place = "row";
+        table->format.next = next_row;
+        table->format.close = close_table;
+        return (struct recorded_reader){&table->format, table};
+    }
+    size_t length;
+    const char *head = input_head(input, &length);
+    file_format_explain("table", head, length, diag);
+    close_table(table);
+    return (struct recorded_reader){0};
 }

@@ -3,7 +3,6 @@
 #include <stdio.h>
 
 #include "frame/frame_check.h"
-#include "recorded/recorded_store.h"
 #include "recorded/sumo_types.h"
 #include "traffic/scenario.h"
 

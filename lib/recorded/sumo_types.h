@@ -1,4 +1,4 @@
-/* Types of SUMO: its own, and the vTypes of a file.
+/* Own types of SUMO, and the vTypes of a file.
  *
  * The tags of such a file are read here, in memory, because glint-traffic takes --types for tables
  * too and is linked without an XML parser. */

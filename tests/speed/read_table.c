@@ -9,7 +9,7 @@
 #include <csv.h>
 
 #include "digits.h"
-#include "recorded/recorded_table.h"
+#include "recorded/recorded_row.h"
 #include "text/input.h"
 
 enum { PIECE = 1 << 16, MOST_COLUMNS = 256, ROW = 10, KEPT_ROWS = 4096 };

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "check.h"
-#include "recorded/recorded_table.h"
 #include "recorded/recording.h"
+#include "text/input.h"
 
 struct recorded_file {
     struct recording_options options;

@@ -1,0 +1,255 @@
+#include "recorded/recorded_layouts.h"
+
+#include "base/units.h"
+#include "base/vec2.h"
+#include "recorded/sumo_types.h"
+
+#define COLUMN(name, kind, need, member, low, high, scale, shift)                                  \
+    {                                                                                              \
+        name, kind, need, offsetof(struct recorded_cells, member), low, high, scale, shift         \
+    }
+#define ID(name) COLUMN(name, RECORDED_TEXT, RECORDED_NEEDED, row.id, 0, 0, 0, 0)
+#define CLASS(name, need) COLUMN(name, RECORDED_TEXT, need, row.class, 0, 0, 0, 0)
+#define RECORDING(name) COLUMN(name, RECORDED_ALIKE, RECORDED_OPTIONAL, row.id, 0, 0, 0, 0)
+#define TIME(name, unit_s)                                                                         \
+    COLUMN(name, RECORDED_TIME, RECORDED_OPTIONAL, row.time_ns, 0, 0, unit_s, 0)
+#define FRAME(name) COLUMN(name, RECORDED_FRAMES, RECORDED_NEEDED, row.time_ns, 0, 1e9, 1, 0)
+#define VALUE(name, member, need, low, high, scale, shift)                                         \
+    COLUMN(name, RECORDED_NUMBER, need, row.member, low, high, scale, shift)
+#define PLACE(name, member, sign) VALUE(name, member, RECORDED_NEEDED, -1e9, 1e9, sign, 0)
+#define SPEED(name, member, sign) VALUE(name, member, RECORDED_NEEDED, -1e4, 1e4, sign, 0)
+#define SIZE(name, member, need) VALUE(name, member, need, 0, 1e6, 1, 0)
+#define ASIDE(name, index)                                                                         \
+    COLUMN(name, RECORDED_NUMBER, RECORDED_NEEDED, aside[index], -1e6, 1e6, 1, 0)
+
+/* ---- SUMO: floating car data ---- */
+
+/* In both spellings of its columns. The place is the middle of the front bumper, the angle in
+ * degrees clockwise from north. The speed serves where there is only one step: velocities are those
+ * of the places. Rows ascend in time. Steps without anyone are not in a table. */
+#define SUMO_COLUMNS(table, prefix, time)                                                          \
+    static const struct recorded_column table[] = {                                                \
+        ID(prefix "id"),                                                                           \
+        TIME(time, 1),                                                                             \
+        CLASS(prefix "type", RECORDED_OPTIONAL),                                                   \
+        PLACE(prefix "x", x_m, 1),                                                                 \
+        PLACE(prefix "y", y_m, 1),                                                                 \
+        VALUE(prefix "angle", yaw_rad, RECORDED_NEEDED, -1e3, 1e3, -PI / 180, -90),                \
+        VALUE(prefix "speed", speed_mps, RECORDED_OPTIONAL, -1e4, 1e4, 1, 0),                      \
+        {.name = NULL}}
+SUMO_COLUMNS(sumo_vehicles, "vehicle_", "timestep_time");
+SUMO_COLUMNS(sumo_persons, "person_", "timestep_time");
+SUMO_COLUMNS(sumo_containers, "container_", "timestep_time");
+SUMO_COLUMNS(sumo_plain, "", "time");
+
+#define SUMO_FORMAT                                                                                \
+    {                                                                                              \
+        .name = "a table of SUMO", .id_name = "id", .by_time = true, .words = sumo_types_words,    \
+        .of_sumo = true                                                                            \
+    }
+
+/* ---- inD, rounD, exiD and uniD ---- */
+
+/* Headings are in degrees, sizes of pedestrians and bicycles are 0, and a trailer is a track beside
+ * that of its vehicle. Rows stand by track. */
+static const struct recorded_column ind_columns[] = {
+    ID("trackId"),
+    RECORDING("recordingId"),
+    FRAME("frame"),
+    PLACE("xCenter", x_m, 1),
+    PLACE("yCenter", y_m, 1),
+    VALUE("heading", yaw_rad, RECORDED_NEEDED, -1e3, 1e3, PI / 180, 0),
+    SIZE("width", width_m, RECORDED_NEEDED),
+    SIZE("length", length_m, RECORDED_NEEDED),
+    SPEED("xVelocity", vx_mps, 1),
+    SPEED("yVelocity", vy_mps, 1),
+    {0},
+};
+
+static const struct recorded_word ind_words[] = {
+#define IND RECORDED_WORD
+#include "recorded/recorded_classes.def"
+    {0},
+};
+
+/* ---- highD ---- */
+
+/* Axes of an image, x to the right and y down, and of a box its upper left corner. Its width is the
+ * length of the vehicle. Rows stand by track. */
+static const struct recorded_column highd_columns[] = {
+    ID("id"),
+    FRAME("frame"),
+    PLACE("x", x_m, 1),
+    PLACE("y", y_m, -1),
+    SIZE("width", length_m, RECORDED_NEEDED),
+    SIZE("height", width_m, RECORDED_NEEDED),
+    SPEED("xVelocity", vx_mps, 1),
+    SPEED("yVelocity", vy_mps, -1),
+    {0},
+};
+
+static const struct recorded_word highd_words[] = {
+#define HIGHD RECORDED_WORD
+#include "recorded/recorded_classes.def"
+    {0},
+};
+
+static void complete_highd(struct recorded_cells *cells)
+{
+    struct recorded_row *row = &cells->row;
+    row->x_m += row->length_m / 2;
+    row->y_m -= row->width_m / 2;
+}
+
+/* ---- NGSIM ---- */
+
+/* In feet, of the middle of the front bumper. Local_Y points along the road and Local_X to its
+ * right. There are no headings; ids come again for other vehicles. Frames of two files begin with
+ * the same number, so that the stamp goes before. */
+#define FOOT_M 0.3048
+#define FEET(name, member, low, scale)                                                             \
+    VALUE(name, member, RECORDED_NEEDED, low, 1e9, (scale)*FOOT_M, 0)
+
+static const struct recorded_column ngsim_columns[] = {
+    ID("Vehicle_ID"),
+    RECORDING("Location"),
+    TIME("Frame_ID", 0.1),
+    TIME("Global_Time", 1e-3),
+    CLASS("v_Class", RECORDED_NEEDED),
+    FEET("Local_Y", x_m, -1e9, 1),
+    FEET("Local_X", y_m, -1e9, -1),
+    FEET("v_Length", length_m, 0, 1),
+    FEET("v_Width", width_m, 0, 1),
+    {0},
+};
+
+const char *const recorded_layouts_ngsim_names[] = {
+    "Vehicle_ID", "Frame_ID",  "Total_Frames",  "Global_Time",  "Local_X", "Local_Y", "Global_X",
+    "Global_Y",   "v_Length",  "v_Width",       "v_Class",      "v_Vel",   "v_Acc",   "Lane_ID",
+    "Preceding",  "Following", "Space_Headway", "Time_Headway", NULL};
+
+static const struct recorded_word ngsim_words[] = {
+#define NGSIM RECORDED_WORD
+#include "recorded/recorded_classes.def"
+    {0},
+};
+
+/* ---- esmini: the log of --csv_logger ---- */
+
+/* A row for each step, with columns for everybody. The place is that of the reference point,
+ * usually below the rear axle, and the box lies around another. The log says no classes, so they
+ * are those of the names, or else follow from the box. */
+enum { BOX_X, BOX_Y };
+
+static const struct recorded_column esmini_columns[] = {
+    ID("Entity_Name [-]"),
+    CLASS("Entity_Name [-]", RECORDED_NEEDED),
+    TIME("TimeStamp [s]", 1),
+    PLACE("World_Position_X [m]", x_m, 1),
+    PLACE("World_Position_Y [m]", y_m, 1),
+    SPEED("Vel_X [m/s]", vx_mps, 1),
+    SPEED("Vel_Y [m/s]", vy_mps, 1),
+    VALUE("World_Heading_Angle [rad]", yaw_rad, RECORDED_NEEDED, -1e3, 1e3, 1, 0),
+    VALUE("Heading_Angle_Rate [rad/s]", yaw_rate_radps, RECORDED_NEEDED, -1e3, 1e3, 1, 0),
+    ASIDE("bb_x [m]", BOX_X),
+    ASIDE("bb_y [m]", BOX_Y),
+    SIZE("bb_length [m]", length_m, RECORDED_NEEDED),
+    SIZE("bb_width [m]", width_m, RECORDED_NEEDED),
+    SIZE("bb_height [m]", height_m, RECORDED_NEEDED),
+    {0},
+};
+
+static const struct recorded_word esmini_words[] = {
+#define ESMINI RECORDED_WORD
+#include "recorded/recorded_classes.def"
+    {0},
+};
+
+static const char *word_of_box(const struct recorded_row *row)
+{
+    if (row->length_m <= 1.2)
+        return esmini_words[0].word;
+    if (row->width_m <= 1.2)
+        return esmini_words[1].word;
+    return esmini_words[row->length_m <= 5.6 ? 2 : row->length_m <= 7 ? 3 : 4].word;
+}
+
+/* The velocity of a point of a body that turns differs from that of another. */
+static void complete_esmini(struct recorded_cells *cells)
+{
+    struct recorded_row *row = &cells->row;
+    struct vec2 heading = vec2_heading(row->yaw_rad);
+    double x_m = cells->aside[BOX_X] * heading.x - cells->aside[BOX_Y] * heading.y;
+    double y_m = cells->aside[BOX_X] * heading.y + cells->aside[BOX_Y] * heading.x;
+    row->x_m += x_m;
+    row->y_m += y_m;
+    row->vx_mps -= row->yaw_rate_radps * y_m;
+    row->vy_mps += row->yaw_rate_radps * x_m;
+    row->likely = word_of_box(row);
+}
+
+/* ---- INTERACTION ---- */
+
+/* Files of pedestrians lack heading and sizes, and a row may leave these cells empty; then the yaw
+ * is that of the velocity. Rows stand in any order. */
+static const struct recorded_column interaction_columns[] = {
+    ID("track_id"),
+    RECORDING("case_id"),
+    TIME("timestamp_ms", 1e-3),
+    TIME("timestamp_us", 1e-6),
+    TIME("timestamp_s", 1),
+    CLASS("agent_type", RECORDED_NEEDED),
+    PLACE("x", x_m, 1),
+    PLACE("y", y_m, 1),
+    SPEED("vx", vx_mps, 1),
+    SPEED("vy", vy_mps, 1),
+    VALUE("psi_rad", yaw_rad, RECORDED_TOGETHER, -1e3, 1e3, 1, 0),
+    SIZE("length", length_m, RECORDED_TOGETHER),
+    SIZE("width", width_m, RECORDED_TOGETHER),
+    {0},
+};
+
+static const struct recorded_word interaction_words[] = {
+#define INTERACTION RECORDED_WORD
+#include "recorded/recorded_classes.def"
+    {0},
+};
+
+/* ---- all of them ---- */
+
+/* Slower than 1 m/s a vehicle in a jam may move anywhere within the noise of its place, which is
+ * that of an image (slow_mps of highD and NGSIM). */
+const struct recorded_layout recorded_layouts[] = {
+    {.format = SUMO_FORMAT,
+     .mark = "timestep_time",
+     .kinds = {{sumo_vehicles, "DEFAULT_VEHTYPE", 0.5},
+               {sumo_persons, "DEFAULT_PEDTYPE", 0.5},
+               {sumo_containers, "DEFAULT_CONTAINERTYPE", 0.5}}},
+    {.format = SUMO_FORMAT, .mark = "angle", .kinds = {{sumo_plain, "DEFAULT_VEHTYPE", 0.5}}},
+    {.format = {.name = "a table of inD", .id_name = "trackId", .words = ind_words},
+     .mark = "xCenter",
+     .kinds = {{ind_columns, NULL, 0}},
+     .beside = {"trackId", NULL}},
+    {.format = {.name = "a table of highD", .id_name = "id", .words = highd_words, .slow_mps = 1},
+     .mark = "xVelocity",
+     .kinds = {{highd_columns, NULL, 0}},
+     .beside = {"id", "drivingDirection"},
+     .complete = complete_highd},
+    {.format =
+         {.name = "a table of NGSIM", .id_name = "Vehicle_ID", .words = ngsim_words, .slow_mps = 1},
+     .mark = "Vehicle_ID",
+     .kinds = {{ngsim_columns, NULL, 0.5}}},
+    {.format = {.name = "a log of esmini",
+                .id_name = "Entity_Name",
+                .by_time = true,
+                .words = esmini_words},
+     .mark = "TimeStamp [s]",
+     .kinds = {{esmini_columns, NULL, 0}},
+     .wide = true,
+     .complete = complete_esmini},
+    {.format = {.name = "a table of INTERACTION",
+                .id_name = "track_id",
+                .words = interaction_words},
+     .mark = "track_id",
+     .kinds = {{interaction_columns, NULL, 0}}},
+};

@@ -1,0 +1,62 @@
+/* Layouts of CSV tables of recorded traffic.
+ *
+ * A layout says what the columns are; their order, the case of their letters and other columns do
+ * not matter. The first layout whose mark is among the columns is taken, the last one where none
+ * is. */
+#pragma once
+
+#include "recorded/recorded_row.h"
+
+/* Cells of columns that are not needed may be empty. */
+enum recorded_need {
+    RECORDED_NEEDED,
+    RECORDED_OPTIONAL,
+    RECORDED_TOGETHER, /* all of these columns or none */
+};
+
+/* A column of text (an id or a class), of times, of frames, of what all rows have alike, or of
+ * numbers that become scale * (number + shift) in a member of struct recorded_row. */
+struct recorded_column {
+    const char *name; /* NULL after the last */
+    enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_FRAMES, RECORDED_ALIKE, RECORDED_NUMBER } kind;
+    enum recorded_need need; /* of several columns of times, one is needed */
+    size_t offset;           /* of the member, in struct recorded_cells */
+    double low, high;        /* of a number in the file */
+    double scale, shift;     /* of a time: seconds for 1, which is whole unless it is a second */
+};
+
+/* One kind of road user in a table. Its first column is the id; a row is of the first kind whose id
+ * it has, and has the kind's class if no column says another. All kinds but the first may ride. */
+struct recorded_kind {
+    const struct recorded_column *columns;
+    const char *class;
+    double ahead; /* recorded_row.ahead */
+};
+
+/* What a row says, with members for the layout's function alone. */
+struct recorded_cells {
+    struct recorded_row row;
+    double aside[2];
+};
+
+enum { RECORDED_KINDS = 3, RECORDED_COLUMNS = 16, RECORDED_LAYOUTS = 7 };
+
+struct recorded_layout {
+    struct recorded_format format;              /* place, next and close are those of all tables */
+    const char *mark;                           /* name of a column that no other layout has */
+    struct recorded_kind kinds[RECORDED_KINDS]; /* columns NULL: no more */
+    /* Names of columns in the file NN_tracksMeta.csv beside the table; id NULL: there is none.
+     * direction is 1 against x, 2 along it; NULL: it is not said. */
+    struct {
+        const char *id, *direction;
+    } beside;
+    /* A row has columns for everybody: "#1 NAME" for one, "#2 NAME" for another, and so on. Columns
+     * of times have their plain names. Who has no id in a row is not there. */
+    bool wide;
+    void (*complete)(struct recorded_cells *cells); /* NULL: its columns say it all */
+};
+
+extern const struct recorded_layout recorded_layouts[RECORDED_LAYOUTS];
+
+/* The columns of NGSIM's files that have no header. */
+extern const char *const recorded_layouts_ngsim_names[];
