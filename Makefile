@@ -47,27 +47,32 @@ LIBS = -ljansson -lcsv -lz -lm
 
 # The programs by the files of stages/. A file that needs another library says so in one line, and is
 # left out where that is missing: /* needs: fftw3 */
-needs = $(shell sed -n 's:^/\* needs\: \(.*\) \*/$$:\1:p' stages/$(1).c)
-have = $(if $(call needs,$(1)),$(shell pkg-config --exists $(call needs,$(1)) && $(call can_generate,$(1)) && echo yes),yes)
-# From an interface of protobuf beside it, stages/NAME.proto, protoc-c makes C.
-can_generate = { [ ! -e stages/$(1).proto ] || command -v protoc-c >/dev/null; }
+needs = $(shell sed -n 's:^/\* needs\: \(.*\) \*/$$:\1:p' $(1))
+have = $(if $(call needs,$(1)),$(shell pkg-config --exists $(call needs,$(1)) $(call generator,$(1)) && echo yes),yes)
+# What needs protobuf has an interface, NAME.proto, from which protoc-c makes C.
+generator = $(if $(findstring protobuf,$(call needs,$(1))),&& command -v protoc-c >/dev/null)
 all_names := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages/*.c))))
-names := $(foreach n,$(all_names),$(if $(call have,$(n)),$(n)))
-$(foreach n,$(filter-out $(names),$(all_names)),$(info glint-$(subst _,-,$(n)) is left out: it needs $(call needs,$(n))$(if $(wildcard stages/$(n).proto), and protoc-c)))
+names := $(foreach n,$(all_names),$(if $(call have,stages/$(n).c),$(n)))
+$(foreach n,$(filter-out $(names),$(all_names)),$(info glint-$(subst _,-,$(n)) is left out: it needs $(call needs,stages/$(n).c)$(if $(call generator,stages/$(n).c), and protoc-c)))
 # A file defines either a struct stage or a struct tool.
 tools := $(filter $(names),$(patsubst stages/%.c,%,$(shell grep -l '^const struct tool tool_' stages/*.c)))
 stages := $(filter-out $(tools),$(names))
 # What it needs beyond the four packages is linked into it, and into glint.
 flags_of = $(if $(call needs,$(1)),$(shell pkg-config --cflags $(call needs,$(1))))
 libs_of = $(if $(call needs,$(1)),$(shell pkg-config --libs $(call needs,$(1))))
-stage_libs := $(foreach n,$(names),$(call libs_of,$(n)))
+stage_libs := $(sort $(foreach n,$(names),$(call libs_of,stages/$(n).c)))
 
-lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*/*.c lib/*/*.cc lib/*.cc)) $(BUILD)/lib/view_page.o
-interfaces := $(patsubst stages/%.proto,$(BUILD)/stages/%.pb-c,$(wildcard $(names:%=stages/%.proto)))
-stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names)) $(interfaces:%=%.o)
+# Files of lib/ that need another library are linked with the stages that need it, and are not in libglint.a.
+lib_sources := $(wildcard lib/*/*.c lib/*/*.cc)
+all_extra_sources := $(shell grep -l '^/\* needs: ' $(lib_sources))
+extra_sources := $(foreach s,$(all_extra_sources),$(if $(call have,$(s)),$(s)))
+interfaces := $(patsubst %.proto,$(BUILD)/%.pb-c,$(wildcard $(extra_sources:.c=.proto)))
+lib_objects := $(patsubst %,$(BUILD)/%.o,$(filter-out $(all_extra_sources),$(lib_sources))) $(BUILD)/lib/view_page.o
+extra_objects := $(extra_sources:%=$(BUILD)/%.o)
+stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names)) $(extra_objects) $(interfaces:%=%.o)
 programs_of = $(foreach n,$(1),$(BUILD)/bin/glint-$(subst _,-,$(n)))
 # glint-plan and glint-cost try stages of all kinds, so they lie in the file that has all.
-plain_names := $(filter-out plan cost,$(foreach n,$(names),$(if $(call needs,$(n)),,$(n))))
+plain_names := $(filter-out plan cost,$(foreach n,$(names),$(if $(call needs,stages/$(n).c),,$(n))))
 plain_programs := $(call programs_of,$(plain_names))
 full_programs := $(BUILD)/bin/glint $(call programs_of,$(filter-out $(plain_names),$(names)))
 programs := $(plain_programs) $(full_programs)
@@ -82,7 +87,8 @@ all: $(programs) $(test_programs)
 
 $(BUILD)/lib/%.c.o: lib/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(EXTRA) $(CFLAGS) -c -o $@ $<
+$(extra_objects): EXTRA = -iquote $(BUILD)/lib $(call flags_of,$<)
 
 $(BUILD)/lib/%.cc.o: lib/%.cc
 	@mkdir -p $(@D)
@@ -109,16 +115,16 @@ $(BUILD)/libglint.a: $(lib_objects)
 
 $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) -iquote $(BUILD)/stages $(call flags_of,$*) $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(call flags_of,$<) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/stages/%.pb-c.c: stages/%.proto
+$(BUILD)/lib/%.pb-c.c: lib/%.proto
 	@mkdir -p $(@D)
-	$(Q)protoc-c --proto_path=stages --c_out=$(@D) $<
+	$(Q)protoc-c --proto_path=lib --c_out=$(BUILD)/lib $<
 
 # What protoc-c writes is not held to our warnings.
 $(interfaces:%=%.o): %.pb-c.o: %.pb-c.c
-	$(Q)$(CC) $(HOUSE_C) -w $(call flags_of,$(*F)) $(CFLAGS) -c -o $@ $<
-$(interfaces:%.pb-c=%.o): %.o: %.pb-c.c
+	$(Q)$(CC) $(HOUSE_C) -w -iquote $(BUILD)/lib $(call flags_of,$(*:$(BUILD)/%=%).c) $(CFLAGS) -c -o $@ $<
+$(interfaces:%.pb-c=%.c.o): %.c.o: %.pb-c.c
 
 # The folder is the registry; the file is rewritten only when the list has changed.
 registry = for n in $(2); do echo "extern const struct $(1) $(1)_$$n;"; done; \
@@ -252,7 +258,7 @@ format:
 lint: $(interfaces:%=%.c)
 	clang-format --dry-run --Werror $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 	printf '%s\n' $(wildcard lib/*.c lib/*/*.c stages/*.c) | xargs -P $$(nproc) -n 16 sh -c \
-	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib -iquote $(BUILD)/stages' clang-tidy
+	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib -iquote $(BUILD)/lib' clang-tidy
 
 # Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
 man: all
@@ -269,8 +275,8 @@ bin = $(DESTDIR)$(PREFIX)/bin
 install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
     for name in $(notdir $(filter-out $(firstword $(1)),$(1))); do \
         ln -f $(bin)/$(notdir $(firstword $(1))) $(bin)/$$name || exit 1; done
-# What a stage outside this tree is built from: the headers, the library, and how to ask for them.
-headers = $(wildcard lib/*/*.h lib/*/*.def)
+# What a stage outside this tree is built from: the headers of what libglint.a has, the library, and how to ask for them.
+headers = $(filter-out $(all_extra_sources:.c=.h),$(wildcard lib/*/*.h lib/*/*.def))
 version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
 install: all man
 	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig share/man/man1 share/glint)

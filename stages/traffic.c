@@ -6,9 +6,7 @@
 #include "traffic/scenario_scenes.h"
 
 struct traffic {
-    const char *source;
-    struct recording_options options;
-    struct recording recording; /* of a table */
+    struct recording recording; /* first: its source and options are those of scenarios too */
     bool recorded;              /* is it one? */
     const char *scenes;
     struct scenario_scenes scenario;
@@ -17,7 +15,7 @@ struct traffic {
 
 static int start_scenario(struct traffic *traffic, struct runner *runner)
 {
-    const struct recording_options *options = &traffic->options;
+    const struct recording_options *options = &traffic->recording.options;
     struct arena *arena = runner_arena(runner);
     struct diag *diag = runner_diag(runner);
     if (options->rate_hz > 0 || options->from_s > -9e9 || options->to_s < 9e9 ||
@@ -26,15 +24,15 @@ static int start_scenario(struct traffic *traffic, struct runner *runner)
             diag, DIAG_USAGE,
             "%s: a scenario has rate, times and classes of its own; --rate-hz, "
             "--from-s, --to-s, --class-map, --class-default and --types are for recordings",
-            traffic->source);
+            traffic->recording.source);
     struct scenario_scenes *scenes = &traffic->scenario;
     scenes->ego = options->ego;
     scenes->title = options->scene;
     scenes->radius_m = options->radius_m;
     scenes->flow = 1;
-    scenes->name = recording_name(traffic->source, arena);
+    scenes->name = recording_name(traffic->recording.source, arena);
     if (scenario_scenes_choose(scenes, traffic->scenes, diag) != 0 ||
-        scenario_read(traffic->source, &scenes->document, arena, diag) != 0)
+        scenario_read(traffic->recording.source, &scenes->document, arena, diag) != 0)
         return -1;
     return recording_conditions(options, &traffic->conditions, arena, diag);
 }
@@ -49,9 +47,9 @@ static int start_table(struct traffic *traffic, const char *path, struct runner 
     if (input == NULL)
         return diag_prefix(diag, "%s: ", path);
     traffic->recorded = true;
+    traffic->recording.source = path;
     struct recorded_reader reader = recorded_table_open(input, path, runner_arena(runner), diag);
-    return recording_open(&traffic->recording, reader, path, &traffic->options, false,
-                          runner_arena(runner), diag);
+    return recording_open(&traffic->recording, reader, runner_arena(runner), diag);
 }
 
 /* A table, unless it begins as JSON. Pipes, which cannot be opened twice, are scenarios. */
@@ -75,7 +73,7 @@ static int traffic_start(void *state, struct runner *runner)
 {
     struct traffic *traffic = state;
     struct arena *arena = runner_arena(runner);
-    const char *path = traffic->source;
+    const char *path = traffic->recording.source;
     struct diag unknown = {0};
     bool bare = strpbrk(path, "./") == NULL;
     int table = bare ? document_find("scenarios", path, ".json", arena, &unknown) == NULL
@@ -107,7 +105,7 @@ static int traffic_locate_fault(void *state, const struct frame *frame, struct r
     if (traffic->recorded)
         return recording_check(&traffic->recording, frame, runner_diag(runner));
     if (scenario_check_frame(frame, runner_diag(runner)) != 0)
-        return diag_prefix(runner_diag(runner), "%s: ", traffic->source);
+        return diag_prefix(runner_diag(runner), "%s: ", traffic->recording.source);
     return 0;
 }
 
@@ -119,13 +117,13 @@ static void traffic_release(void *state)
 }
 
 static const struct field traffic_options[] = {
-    {FIELD_NAME_OF(struct traffic, source,
+    {FIELD_NAME_OF(struct recording, source,
                    "a scenario (a name in data/scenarios/, or a path), or a recorded table")},
     {OPTIONAL_NAME(struct traffic, scenes,
                    "play scenes A to B - 1 of a scenario, each with draws of its own; absent: 0:1"),
      .word = "A:B"},
-    {OPTIONAL_RECORD(struct traffic, options, &recording_options_record, "")},
-    RECORDING_TYPES(struct traffic, options),
+    {OPTIONAL_RECORD(struct recording, options, &recording_options_record, "")},
+    RECORDING_TYPES,
     {0},
 };
 

@@ -1,385 +1,49 @@
 /* Traffic of OSI: the ground truth of a trace, message by message, also while it is written. */
 /* needs: libprotobuf-c */
-#include <inttypes.h>
-#include <stdio.h>
-
-#include "recorded_source.h"
-#include "text/file_format.h"
-#include "text/input.h"
-#include "traffic_osi.pb-c.h"
-
-enum { LENGTH_SIZE = 4, PIECE = 64 * 1024, LONGEST = 1 << 27 };
-
-/* Objects whose types OSI numbers apart from each other. */
-enum object_kind { MOVING, VEHICLE, STATIONARY };
-
-enum { TYPE_VEHICLE = 2 }; /* of a moving object, which then has a type as a vehicle too */
-
-struct trace {
-    struct input *input;
-    bool rear_axle;    /* are velocities those of rear axles? */
-    bool ahead, begun; /* is the message still to be given out? has any been read? */
-    size_t place;      /* where the message begins in the file */
-    struct text bytes; /* of the message */
-    struct arena arena;
-    const Osi3__GroundTruth *truth; /* the message */
-    const Osi3__Identifier *host;
-    int64_t time_ns;
-    size_t given;                        /* of its moving objects, then of the stills */
-    LIST_OF(struct recorded_row) stills; /* stationary objects of the last message with any */
-    struct arena still_arena;
-};
+#include "recorded/recording.h"
+#include "run/stage.h"
 
 struct traffic_osi {
-    struct recorded_source recorded; /* first: its options are the stage's */
-    bool live, rear_axle_velocity;
-    struct trace trace;
+    struct recording recording; /* first: its options are the stage's */
+    bool rear_axle_velocity;
 };
-
-/* ---- objects become rows ---- */
-
-static const struct type {
-    enum object_kind kind;
-    int32_t number;
-    const char *word;
-} types[] = {
-#define OSI(kind, number, word, class) {kind, number, word},
-#include "recorded/recorded_classes.def"
-};
-
-static const char *word_of(enum object_kind kind, int32_t number, struct arena *arena)
-{
-    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
-        if (types[i].kind == kind && types[i].number == number)
-            return types[i].word;
-    return kind == STATIONARY
-               ? NULL
-               : arena_format(arena, "%s_%d", kind == MOVING ? "moving" : "vehicle", (int)number);
-}
-
-/* A number of a message of the base, which is 0 where that lacks it; not said without the message.
- */
-#define NUMBER(part, number, low, high, member)                                                    \
-    {                                                                                              \
-#part "." #number, base->part != NULL ? base->part->number : 0, low, high,                 \
-            base->part != NULL ? &row->member : NULL                                               \
-    }
-
-/* Takes what moving and stationary objects have; false after a message. */
-static bool take_body(const struct trace *trace, const char *kind, const Osi3__Identifier *id,
-                      const Osi3__Base *base, struct recorded_row *row, struct diag *diag)
-{
-    *row = recorded_row_unsaid;
-    if (id == NULL || base == NULL || base->position == NULL) {
-        diag_fail(diag, DIAG_DATA, "byte %zu: %s: %s is missing; expected one in each",
-                  trace->place, kind, id == NULL ? "id" : "base.position");
-        return false;
-    }
-    const struct {
-        const char *name;
-        double value, low, high, *taken;
-    } numbers[] = {
-        NUMBER(position, x, -1e9, 1e9, x_m),
-        NUMBER(position, y, -1e9, 1e9, y_m),
-        NUMBER(dimension, length, 0, 1e6, length_m),
-        NUMBER(dimension, width, 0, 1e6, width_m),
-        NUMBER(dimension, height, 0, 1e6, height_m),
-        NUMBER(orientation, yaw, -1e3, 1e3, yaw_rad),
-        NUMBER(velocity, x, -1e4, 1e4, vx_mps),
-        NUMBER(velocity, y, -1e4, 1e4, vy_mps),
-        NUMBER(orientation_rate, yaw, -1e3, 1e3, yaw_rate_radps),
-    };
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        if (numbers[i].taken != NULL)
-            *numbers[i].taken = numbers[i].value + 0.0; /* never -0 */
-        if (numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high)
-            continue;
-        diag_fail(diag, DIAG_DATA,
-                  "byte %zu: %s %" PRIu64 ": base.%s is %.9g; expected a number in [%g, %g]",
-                  trace->place, kind, id->value, numbers[i].name, numbers[i].value, numbers[i].low,
-                  numbers[i].high);
-        return false;
-    }
-    return true;
-}
-
-/* Adds the turn of the centre about the rear axle, the vector to which is in the body's axes. False
- * if it is out of bounds. */
-static bool move_velocity(struct recorded_row *row, const Osi3__Vector3d *to_rear)
-{
-    if (!(fabs(to_rear->x) <= 1e3 && fabs(to_rear->y) <= 1e3))
-        return false;
-    if (isnan(row->yaw_rad) || isnan(row->yaw_rate_radps))
-        return true;
-    struct vec2 heading = vec2_heading(row->yaw_rad);
-    row->vx_mps += row->yaw_rate_radps * (to_rear->x * heading.y + to_rear->y * heading.x);
-    row->vy_mps -= row->yaw_rate_radps * (to_rear->x * heading.x - to_rear->y * heading.y);
-    return true;
-}
-
-static int give_moving(struct trace *trace, const Osi3__MovingObject *object,
-                       struct recorded_row *row, struct diag *diag)
-{
-    const Osi3__MovingObject__VehicleClassification *vehicle = object->vehicle_classification;
-    const Osi3__MovingObject__VehicleAttributes *attributes = object->vehicle_attributes;
-    struct arena *arena = &trace->arena;
-    if (!take_body(trace, "moving_object", object->id, object->body, row, diag))
-        return -1;
-    row->id = arena_format(arena, "%" PRIu64, object->id->value);
-    if (trace->rear_axle && attributes != NULL && attributes->bbcenter_to_rear != NULL &&
-        !move_velocity(row, attributes->bbcenter_to_rear))
-        return diag_fail(diag, DIAG_DATA,
-                         "byte %zu: moving_object %s: bbcenter_to_rear is (%.9g, %.9g); expected "
-                         "numbers in [-1e3, 1e3]",
-                         trace->place, row->id, attributes->bbcenter_to_rear->x,
-                         attributes->bbcenter_to_rear->y);
-    row->class = object->type != TYPE_VEHICLE
-                     ? word_of(MOVING, object->type, arena)
-                     : word_of(VEHICLE, vehicle != NULL ? vehicle->type : 0, arena);
-    return RECORDED_ROW;
-}
-
-/* Keeps the stationary objects of a message that has some: traces need not repeat them. */
-static int keep_stills(struct trace *trace, struct diag *diag)
-{
-    struct arena *arena = &trace->still_arena;
-    if (trace->truth->n_stationary_object > 0) {
-        arena_clear(arena);
-        trace->stills.items = NULL;
-        trace->stills.count = trace->stills.room = 0;
-    }
-    for (size_t i = 0; i < trace->truth->n_stationary_object; i++) {
-        const Osi3__StationaryObject *object = trace->truth->stationary_object[i];
-        int32_t type = object->classification != NULL ? object->classification->type : 0;
-        const char *word = word_of(STATIONARY, type, arena);
-        struct recorded_row row;
-        if (word == NULL)
-            continue;
-        if (!take_body(trace, "stationary_object", object->id, object->body, &row, diag))
-            return -1;
-        row.id = arena_format(arena, "%" PRIu64, object->id->value);
-        row.class = word;
-        row.vx_mps = row.vy_mps = row.yaw_rate_radps = 0;
-        *list_add(&trace->stills, arena) = row;
-    }
-    return 0;
-}
-
-/* ---- messages ---- */
-
-static void *arena_give(void *arena, size_t size)
-{
-    return arena_room(arena, size);
-}
-
-static void leave_to_arena(void *arena, void *memory)
-{
-    (void)arena;
-    (void)memory;
-}
-
-/* Reads so many bytes into the trace's text: their number, less at the end; -1 after a message. */
-static long read_bytes(struct trace *trace, size_t count, struct diag *diag)
-{
-    struct text *bytes = &trace->bytes;
-    bytes->length = 0;
-    while (bytes->length < count) {
-        size_t piece = count - bytes->length < PIECE ? count - bytes->length : PIECE;
-        long got = input_read(trace->input, text_room(bytes, piece), piece, diag);
-        if (got < 0)
-            return -1;
-        if (got == 0)
-            break;
-        bytes->length += (size_t)got;
-    }
-    return (long)bytes->length;
-}
-
-static int fail_at_end(const struct trace *trace, struct diag *diag)
-{
-    char last[80] = "no message is whole";
-    if (trace->begun)
-        snprintf(last, sizeof last, "the last whole message is that of %.12g s",
-                 recorded_row_seconds(trace->time_ns));
-    return diag_fail(diag, DIAG_DATA, "byte %zu: the trace ends inside a message; %s", trace->place,
-                     last);
-}
-
-/* Unpacks the message: a ground truth, or the view of a sensor, which holds one. */
-static int unpack(struct trace *trace, struct diag *diag)
-{
-    ProtobufCAllocator allocator = {arena_give, leave_to_arena, &trace->arena};
-    const uint8_t *bytes = (const uint8_t *)trace->bytes.bytes;
-    size_t length = trace->bytes.length;
-    arena_clear(&trace->arena);
-    trace->truth = osi3__ground_truth__unpack(&allocator, length, bytes);
-    if (trace->truth != NULL)
-        trace->host = trace->truth->host_vehicle_id;
-    if (trace->truth == NULL || trace->truth->n_moving_object == 0) {
-        const Osi3__SensorView *view = osi3__sensor_view__unpack(&allocator, length, bytes);
-        if (view != NULL && view->global_ground_truth != NULL) {
-            trace->truth = view->global_ground_truth;
-            trace->host = view->host_vehicle_id != NULL ? view->host_vehicle_id
-                                                        : trace->truth->host_vehicle_id;
-        }
-    }
-    return trace->truth != NULL
-               ? 0
-               : diag_fail(diag, DIAG_DATA,
-                           "byte %zu: a message of %zu bytes that is none of OSI; expected a "
-                           "GroundTruth behind its length",
-                           trace->place, length);
-}
-
-static int read_time(struct trace *trace, struct diag *diag)
-{
-    const int64_t most_s = 9000000000, second_ns = 1000000000;
-    const Osi3__Timestamp *time = trace->truth->timestamp;
-    if (time == NULL)
-        return diag_fail(diag, DIAG_DATA, "byte %zu: timestamp is missing; expected one in each",
-                         trace->place);
-    if (time->seconds < -most_s || time->seconds > most_s || time->nanos >= second_ns)
-        return diag_fail(diag, DIAG_DATA,
-                         "byte %zu: timestamp is %" PRId64 " s and %" PRIu32
-                         " ns; expected seconds in [-9e9, 9e9] and less than 1e9 ns",
-                         trace->place, time->seconds, time->nanos);
-    trace->time_ns = time->seconds * second_ns + time->nanos;
-    return 0;
-}
-
-/* Of a text or a log the first four bytes are a length beyond all bounds. Some bytes more let
- * file_format_explain see what it is. */
-static int refuse_length(struct trace *trace, size_t length, struct diag *diag)
-{
-    struct diag ignored = {0};
-    input_read(trace->input, text_room(&trace->bytes, PIECE), PIECE, &ignored);
-    return diag_fail(diag, DIAG_DATA,
-                     "byte %zu: the length of a message is %zu; expected at most %d bytes",
-                     trace->place, length, LONGEST);
-}
-
-/* Reads the next message: 1; 0 at the end; -1 after a message. */
-static int read_message(struct trace *trace, struct diag *diag)
-{
-    trace->place += trace->begun ? LENGTH_SIZE + trace->bytes.length : 0;
-    long got = read_bytes(trace, LENGTH_SIZE, diag);
-    if (got == 0 && !trace->begun)
-        return diag_fail(diag, DIAG_DATA, "the trace is empty; expected messages of OSI");
-    if (got <= 0)
-        return (int)got;
-    if (got < LENGTH_SIZE)
-        return fail_at_end(trace, diag);
-    size_t length = text_half_word(trace->bytes.bytes);
-    if (length > LONGEST)
-        return refuse_length(trace, length, diag);
-    got = read_bytes(trace, length, diag);
-    if (got < 0)
-        return -1;
-    if ((size_t)got < length)
-        return fail_at_end(trace, diag);
-    trace->begun = trace->ahead = true;
-    trace->given = 0;
-    return unpack(trace, diag) == 0 && read_time(trace, diag) == 0 && keep_stills(trace, diag) == 0
-               ? 1
-               : -1;
-}
-
-/* ---- the format ---- */
-
-static int explain(const struct trace *trace, struct diag *diag)
-{
-    size_t length;
-    const char *head = input_head(trace->input, &length);
-    file_format_explain("osi", head, length, diag);
-    return -1;
-}
-
-static int next_event(void *state, struct recorded_row *row, struct diag *diag)
-{
-    struct trace *trace = state;
-    int more = trace->ahead ? 1 : read_message(trace, diag);
-    if (more <= 0)
-        return more < 0 ? explain(trace, diag) : RECORDED_END;
-    size_t moving = trace->truth->n_moving_object, given = trace->given++;
-    int event = RECORDED_ROW;
-    if (given < moving)
-        event = give_moving(trace, trace->truth->moving_object[given], row, diag);
-    else if (given < moving + trace->stills.count)
-        *row = trace->stills.items[given - moving];
-    else
-        event = RECORDED_STEP;
-    trace->ahead = event != RECORDED_STEP;
-    row->time_ns = trace->time_ns;
-    row->place = trace->place;
-    return event;
-}
-
-static void close_trace(void *state)
-{
-    struct trace *trace = state;
-    input_close(trace->input);
-    text_free(&trace->bytes);
-    arena_free(&trace->arena);
-    arena_free(&trace->still_arena);
-}
-
-static const struct recorded_word words[] = {
-#define OSI(kind, number, word, class) RECORDED_WORD(word, class)
-#include "recorded/recorded_classes.def"
-    {0},
-};
-
-static const struct recorded_format format = {
-    .name = "an OSI trace",
-    .id_name = "id of an object",
-    .place = "byte",
-    .by_time = true,
-    .marks_steps = true,
-    .words = words,
-    .next = next_event,
-    .close = close_trace,
-};
-
-/* ---- the stage ---- */
-
-/* The first message is read at once, because it may name the host, who is the ego unless --ego says
- * another one. */
-static int traffic_osi_start(void *state, struct runner *runner)
-{
-    struct traffic_osi *own = state;
-    struct trace *trace = &own->trace;
-    struct arena *arena = runner_arena(runner);
-    struct diag *diag = runner_diag(runner);
-    trace->input = recorded_source_input(&own->recorded, runner);
-    if (trace->input == NULL)
-        return -1;
-    trace->rear_axle = own->rear_axle_velocity;
-    if (read_message(trace, diag) < 0) {
-        explain(trace, diag);
-        return diag_prefix(diag, "%s: ", own->recorded.source);
-    }
-    if (own->recorded.options.ego == NULL && trace->host != NULL)
-        own->recorded.options.ego = arena_format(arena, "%" PRIu64, trace->host->value);
-    return recording_open(&own->recorded.recording, (struct recorded_reader){&format, trace},
-                          own->recorded.source, &own->recorded.options, own->live, arena, diag);
-}
-
-static void traffic_osi_release(void *state)
-{
-    struct traffic_osi *own = state;
-    if (own->recorded.recording.steps.reader.format == NULL) /* it was never opened */
-        close_trace(&own->trace);
-    recording_close(&own->recorded.recording);
-}
 
 static const struct field traffic_osi_fields[] = {
-    RECORDED_SOURCE("an OSI trace (.osi), plain or gzip; - is standard input"),
+    RECORDING_SOURCE("an OSI trace (.osi), plain or gzip; - is standard input"),
     {OPTIONAL_FLAG(struct traffic_osi, rear_axle_velocity,
                    "velocities are those of rear axles, as esmini's; absent: of centres of boxes")},
-    {OPTIONAL_FLAG(struct traffic_osi, live,
+    {OPTIONAL_FLAG(struct recording, live,
                    "write the frame of a message before the next message is there")},
     {0},
 };
+
+/* The host that the trace names is the ego unless --ego says another one. */
+static int traffic_osi_start(void *state, struct runner *runner)
+{
+    const struct traffic_osi *own = state;
+    struct recording *recording = state;
+    struct arena *arena = runner_arena(runner);
+    struct diag *diag = runner_diag(runner);
+    struct input *input = runner_input(runner, recording->source);
+    if (input == NULL)
+        return diag_prefix(diag, "%s: ", recording->source);
+    const char *host = NULL;
+    struct recorded_reader reader =
+        recorded_osi_open(input, own->rear_axle_velocity, &host, arena, diag);
+    if (recording->options.ego == NULL)
+        recording->options.ego = host;
+    return recording_open(recording, reader, arena, diag);
+}
+
+static int traffic_osi_next(void *state, struct frame *frame, struct runner *runner)
+{
+    return recording_next(state, frame, runner_diag(runner));
+}
+
+static int traffic_osi_locate_fault(void *state, const struct frame *frame, struct runner *runner)
+{
+    return recording_check(state, frame, runner_diag(runner));
+}
 
 #define OSI(kind, number, word, class) "\n    " word " = " class
 
@@ -401,7 +65,7 @@ const struct stage stage_traffic_osi = {
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_osi_start,
-    .next = recorded_source_next,
-    .locate_fault = recorded_source_locate_fault,
-    .release = traffic_osi_release,
+    .next = traffic_osi_next,
+    .locate_fault = traffic_osi_locate_fault,
+    .release = recording_close,
 };

@@ -91,6 +91,15 @@ bool recorded_row_name_fits(const char *name);
 struct recorded_reader recorded_table_open(struct input *input, const char *path,
                                            struct arena *arena, struct diag *diag);
 
+/* Read the formats of others, and take over the input. They need expat and protobuf-c, so they are
+ * no part of libglint.a; stages that need the library, too, are linked with them. Velocities of an
+ * OSI trace are those of rear axles if rear_axle is set. *host becomes the id of the host vehicle
+ * that the first message names, or NULL, and format is NULL after a message. */
+struct recorded_reader recorded_sumo_open(struct input *input, struct arena *arena);
+struct recorded_reader recorded_commonroad_open(struct input *input, struct arena *arena);
+struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, const char **host,
+                                         struct arena *arena, struct diag *diag);
+
 /* Reads all rows of a reader into memory and closes it. The new reader gives them in the order of
  * time and marks steps; its format is NULL after a message. It takes 64 bytes a row, and some
  * hundred for each step, track and size of a body. A yaw rate is kept to 24 bits, a speed not at

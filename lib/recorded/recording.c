@@ -65,7 +65,7 @@ static int choose_egos(struct recording *recording, const char *egos, struct dia
 
 static int check_options(const struct recording *recording, struct diag *diag)
 {
-    const struct recording_options *options = recording->options;
+    const struct recording_options *options = &recording->options;
     const struct recorded_steps *steps = &recording->steps;
     if (steps->live && !steps->reader.format->marks_steps)
         return diag_fail(diag, DIAG_USAGE, "--live: %s does not say where a step ends",
@@ -83,7 +83,7 @@ static int check_options(const struct recording *recording, struct diag *diag)
 
 static int prepare(struct recording *recording, struct diag *diag)
 {
-    const struct recording_options *options = recording->options;
+    const struct recording_options *options = &recording->options;
     struct recorded_steps *steps = &recording->steps;
     if (choose_egos(recording, options->ego, diag) != 0 || check_options(recording, diag) != 0 ||
         recording_conditions(options, &recording->conditions, recording->arena, diag) != 0)
@@ -120,25 +120,25 @@ const char *recording_name(const char *source, struct arena *arena)
     return length == 0 ? "scene" : arena_text(arena, base, length);
 }
 
-int recording_open(struct recording *recording, struct recorded_reader reader, const char *source,
-                   const struct recording_options *options, bool live, struct arena *arena,
+int recording_open(struct recording *recording, struct recorded_reader reader, struct arena *arena,
                    struct diag *diag)
 {
-    *recording = (struct recording){.source = source, .options = options, .arena = arena};
-    recording->name = recording_name(source, arena);
+    const struct recording_options *options = &recording->options;
+    recording->arena = arena;
+    recording->name = recording_name(recording->source, arena);
     /* Times of frames are compared after rounding to microseconds. So a part that ends at one
      * microsecond and a part that begins at the next share no frame and lose none. */
     recording->from_ns = (int64_t)round(options->from_s * 1e6) * 1000 - 500;
     const int64_t to_ns = (int64_t)round(options->to_s * 1e6) * 1000 + 499;
     recording->steps.reader = reader;
-    recording->steps.live = live;
+    recording->steps.live = recording->live;
     recording->steps.to_ns = options->rate_hz > 0 ? INT64_MAX : to_ns;
     recording->resampling = (struct resampling){.steps = &recording->steps,
                                                 .rate_hz = options->rate_hz,
                                                 .from_ns = recording->from_ns,
                                                 .to_ns = to_ns};
     bool ready = reader.format != NULL && prepare(recording, diag) == 0;
-    return ready ? 0 : diag_prefix(diag, "%s: ", source);
+    return ready ? 0 : diag_prefix(diag, "%s: ", recording->source);
 }
 
 /* ---- steps ---- */
@@ -166,13 +166,13 @@ static void fill_grid(struct recording *recording)
         places[i] = (struct vec2){object->x_m, object->y_m};
     }
     recording->grid =
-        neighbour_grid_of(places, count, recording->options->radius_m, &recording->step_arena);
+        neighbour_grid_of(places, count, recording->options.radius_m, &recording->step_arena);
 }
 
 /* Reads the next step that has egos. */
 static int take_step(struct recording *recording, struct diag *diag)
 {
-    bool resampled = recording->options->rate_hz > 0;
+    bool resampled = recording->options.rate_hz > 0;
     do {
         int more = resampled ? resampling_next(&recording->resampling, &recording->step, diag)
                              : recorded_steps_next(&recording->steps, &recording->step, diag);
@@ -187,7 +187,7 @@ static int take_step(struct recording *recording, struct diag *diag)
             if (is_ego(recording, &recording->step->states.items[i]))
                 *list_add(&recording->step_egos, &recording->step_arena) = i;
     } while (recording->step_egos.count == 0);
-    if (recording->options->radius_m >= 0)
+    if (recording->options.radius_m >= 0)
         fill_grid(recording);
     return 1;
 }
@@ -197,7 +197,7 @@ static int take_step(struct recording *recording, struct diag *diag)
 /* z/2 is the second visit of z, and z/2/1 the first one of z/2, whose id ends in a number. */
 static const char *scene_name(const struct recording *recording, const struct recorded_ego *ego)
 {
-    const char *given = recording->options->scene, *name = given != NULL ? given : recording->name;
+    const char *given = recording->options.scene, *name = given != NULL ? given : recording->name;
     bool named = given == NULL || recording->all || recording->wanted.list.count > 1;
     if (named)
         name = arena_format(recording->arena, "%s/%s", name, ego->id);
@@ -238,7 +238,7 @@ static void add_objects(struct recording *recording, const struct recorded_state
                         struct frame *frame)
 {
     const struct recorded_step *step = recording->step;
-    if (recording->options->radius_m < 0) {
+    if (recording->options.radius_m < 0) {
         for (size_t i = 0; i < step->states.count; i++)
             add_object(frame, &step->states.items[i]);
         return;
@@ -272,7 +272,7 @@ static void fill(struct recording *recording, const struct recorded_state *state
 static int check_egos(const struct recording *recording, struct diag *diag)
 {
     const struct recorded_format *format = recording->steps.reader.format;
-    bool cut = recording->options->from_s > -9e9 || recording->options->to_s < 9e9;
+    bool cut = recording->options.from_s > -9e9 || recording->options.to_s < 9e9;
     for (uint32_t i = 0; i < recording->wanted.list.count; i++) {
         uint32_t number;
         const struct intern_name *name = &recording->wanted.list.items[i];
@@ -333,9 +333,10 @@ int recording_check(const struct recording *recording, const struct frame *frame
     return 0;
 }
 
-void recording_close(struct recording *recording)
+void recording_close(void *recording)
 {
-    recorded_steps_close(&recording->steps);
-    resampling_close(&recording->resampling);
-    arena_free(&recording->step_arena);
+    struct recording *own = recording;
+    recorded_steps_close(&own->steps);
+    resampling_close(&own->resampling);
+    arena_free(&own->step_arena);
 }

@@ -18,10 +18,16 @@ struct recording_options {
 
 extern const struct record recording_options_record;
 
-/* A field for types, for sources that play SUMO: owner is the struct, member its options. */
-#define RECORDING_TYPES(owner, member)                                                             \
+/* Fields of a source whose state begins with a struct recording: what it plays with the options
+ * that all recordings share, and types, for sources that play SUMO. */
+#define RECORDING_SOURCE(help)                                                                     \
+    {FIELD_NAME_OF(struct recording, source, help)},                                               \
     {                                                                                              \
-        .name = "types", .kind = FIELD_NAMES, .offset = offsetof(owner, member.types),             \
+        OPTIONAL_RECORD(struct recording, options, &recording_options_record, "")                  \
+    }
+#define RECORDING_TYPES                                                                            \
+    {                                                                                              \
+        .name = "types", .kind = FIELD_NAMES, .offset = offsetof(struct recording, options.types), \
         .help =                                                                                    \
             "a file of SUMO's routes with vTypes; may be given several times; absent: SUMO's own " \
             "sizes of classes",                                                                    \
@@ -38,8 +44,11 @@ struct recorded_ego {
 };
 
 struct recording {
+    /* What the caller sets. source is the path, for messages and names of scenes. */
     const char *source;
-    const struct recording_options *options;
+    struct recording_options options;
+    bool live; /* nothing waits for the next step (recorded_steps.h) */
+    /* The rest is the recording's own. */
     const char *name; /* of scenes, before the ego's */
     bool all;         /* is every vehicle an ego? */
     int64_t from_ns;
@@ -57,11 +66,9 @@ struct recording {
     struct neighbour_grid grid;
 };
 
-/* Takes over the reader, which is closed with the recording, and after a failure. live: nothing
- * waits for the next step (recorded_steps.h). source is the path, for messages and names of scenes;
- * what the recording keeps lies in the arena. */
-int recording_open(struct recording *recording, struct recorded_reader reader, const char *source,
-                   const struct recording_options *options, bool live, struct arena *arena,
+/* Takes over the reader, which is closed with the recording, and after a failure. What the
+ * recording keeps lies in the arena. */
+int recording_open(struct recording *recording, struct recorded_reader reader, struct arena *arena,
                    struct diag *diag);
 
 /* What --conditions says, for conditions_change; and the part of a source's name that names its
@@ -78,4 +85,5 @@ int recording_next(struct recording *recording, struct frame *frame, struct diag
 int recording_check(const struct recording *recording, const struct frame *frame,
                     struct diag *diag);
 
-void recording_close(struct recording *recording);
+/* Of a struct recording; the release of a stage whose state begins with one. */
+void recording_close(void *recording);

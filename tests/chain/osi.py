@@ -340,7 +340,7 @@ def the_interface_is_part_of_the_standard():
     for name in ("osi_common", "osi_object", "osi_groundtruth", "osi_sensorview"):
         with open(f"{DATA}/osi/proto/{name}.proto", encoding="utf-8") as file:
             full += re.sub(r"//.*", "", file.read())
-    with open(os.path.join(os.path.dirname(__file__), "..", "..", "stages", "traffic_osi.proto"), encoding="utf-8") as file:
+    with open(os.path.join(os.path.dirname(__file__), "..", "..", "lib", "recorded", "recorded_osi.proto"), encoding="utf-8") as file:
         ours = re.sub(r"//.*", "", file.read())
     fields = re.findall(r"(optional|repeated) (\w+) (\w+) = (\d+);", ours)
     check(len(fields) > 30, f"{len(fields)} fields")

@@ -103,7 +103,7 @@ static void utm_places_keep_a_nanometre(void **state)
     int steps = hard_points(100000) / TRACKS;
     struct utm *places = arena_get(&scratch->arena, (size_t)(steps * TRACKS) * sizeof *places);
     assert_int_equal(write_tracks(scratch->path, places, steps), 0);
-    struct recorded_file scene;
+    struct recording scene;
     recorded_file_open(&scene, scratch->path, "000", &scratch->arena);
     double naive = 0, ours = 0;
     mpfr_t work[2];
@@ -130,7 +130,7 @@ static void utm_places_keep_a_nanometre(void **state)
         }
     }
     mpfr_clears(work[0], work[1], (mpfr_ptr)NULL);
-    recording_close(&scene.recording);
+    recording_close(&scene);
     arena_free(&arena);
     hard_case("23", "UTM places of a table, and ranges", "m", naive, ours, 1e-9);
 }

@@ -148,7 +148,7 @@ static void unix_times_keep_their_intervals(void **state)
     for (int i = 0; i < steps; i++)
         fprintf(file, "1,%lld,car,%d,0,50,0\n", (long long)(epoch_ms + 40 * (int64_t)i), 2 * i);
     assert_int_equal(fclose(file), 0);
-    struct recorded_file scene;
+    struct recording scene;
     recorded_file_open(&scene, scratch->path, "1", &scratch->arena);
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
@@ -160,7 +160,7 @@ static void unix_times_keep_their_intervals(void **state)
             naive = fmax(naive, fabs((frame.time_s - before_s) - 0.04));
         ours += frame.time_s != (double)(epoch_ms + 40 * i) / 1000;
     }
-    recording_close(&scene.recording);
+    recording_close(&scene);
     arena_free(&arena);
     hard_case("42", "interval of frames in UNIX time", "s", naive, ours, 0);
 }

@@ -56,17 +56,17 @@ static struct played *play(struct scratch *scratch, const char *text,
     assert_true(fputs(text, file) >= 0);
     assert_int_equal(fclose(file), 0);
     struct played *played = arena_get(&scratch->arena, sizeof *played);
-    struct recorded_file table = {.options = *options};
+    struct recording table = {.options = *options};
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     int more = recorded_file_try(&table, scratch->path, &scratch->arena, &played->diag);
     for (more = more == 0 ? 1 : -1; more > 0;) {
         frame_clear(&frame);
-        more = recording_next(&table.recording, &frame, &played->diag);
+        more = recording_next(&table, &frame, &played->diag);
         if (more > 0)
             keep(played, &frame, &scratch->arena);
     }
-    recording_close(&table.recording);
+    recording_close(&table);
     arena_free(&arena);
     return played;
 }
@@ -374,7 +374,7 @@ static void a_recorded_motorway_is_read(void **state)
     struct scratch *scratch = *state;
     char path[4096];
     snprintf(path, sizeof path, "%s/csv/us101_interaction.csv", data);
-    struct recorded_file table;
+    struct recording table;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     recorded_file_open(&table, path, "all", &scratch->arena);
@@ -388,8 +388,8 @@ static void a_recorded_motorway_is_read(void **state)
         assert_true(fabs(ego->yaw_rate_radps) < 1 && ego->length_m > 3);
     }
     assert_int_equal(states, 384);
-    assert_int_equal(table.recording.egos.count, 12);
-    recording_close(&table.recording);
+    assert_int_equal(table.egos.count, 12);
+    recording_close(&table);
     arena_free(&arena);
 }
 

@@ -1,0 +1,56 @@
+/* Rows of a recording that lies in XML (by expat).
+ *
+ * A file is parsed piece by piece. The reader's handlers add events, which are given out before the
+ * next piece is parsed. A fault ends the file, after the events before it. */
+/* needs: expat */
+#pragma once
+
+#include <expat.h>
+
+#include "recorded/recorded_row.h"
+#include "text/input.h"
+
+/* A row, or the end of a step. */
+struct xml_event {
+    enum recorded_event kind;
+    struct recorded_row row;
+};
+
+struct xml_rows {
+    XML_Parser parser;
+    struct input *input;
+    const char *kind;                          /* in file_format.def */
+    struct diag fault;                         /* that ends the file */
+    const char *advice;                        /* after what is no XML; NULL: none */
+    void (*fail_at_end)(struct xml_rows *xml); /* refuses a file that ends within its root */
+    LIST_OF(struct xml_event) events;          /* of the piece that was parsed last */
+    size_t taken;
+    int64_t bytes, open; /* bytes parsed so far; bytes of the tag or comment that has not ended */
+    struct arena arena;  /* of events and their names */
+    bool in_root, ended;
+};
+
+/* Takes over the input. The handlers, which the caller sets, get the context. */
+void xml_rows_begin(struct xml_rows *xml, const char *kind, struct input *input, void *context);
+
+/* The format's functions next and close, whose state is or begins with a struct xml_rows. */
+int xml_rows_next(void *state, struct recorded_row *row, struct diag *diag);
+void xml_rows_close(void *state);
+
+/* The line that is being parsed. */
+size_t xml_rows_line(const struct xml_rows *xml);
+
+/* Refuses the value of what an element or attribute of this name says; NULL: it is missing. */
+void xml_rows_fail(struct xml_rows *xml, const char *what, const char *value,
+                   const char *expectation);
+
+/* The value of an attribute, or NULL. */
+const char *xml_rows_attribute(const char **attributes, const char *name);
+
+/* Reads a number in [low, high]; false after a message. */
+bool xml_rows_number(struct xml_rows *xml, const char *what, const char *text, double low,
+                     double high, double *value);
+
+/* A copy of a name in the arena, or NULL after a message. */
+const char *xml_rows_name(struct xml_rows *xml, const char *what, const char *text,
+                          struct arena *arena);
