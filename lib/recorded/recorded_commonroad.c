@@ -27,7 +27,8 @@ struct state {
 /* A rectangle, a circle or a point; or the box around several, not turned, if length_m is said. */
 struct area {
     double x_m, y_m, length_m, width_m, orientation_rad, radius_m;
-    unsigned said; /* bit i: members[i] of a part; of a shape or a position: it has ended */
+    unsigned said; /* of a part, bit i: members[i] */
+    bool ended;    /* of a shape or a position */
 };
 
 struct document {
@@ -85,6 +86,8 @@ static const struct member {
 };
 
 enum { MEMBERS = sizeof members / sizeof *members };
+
+_Static_assert(MEMBERS <= 32, "area.said has a bit for each");
 
 /* What is left of a path below an element, or NULL if it is not below it. */
 static const char *below(const char *path, const char *element)
@@ -172,9 +175,9 @@ static void end_in_area(struct document *document, struct area *area, const char
     for (size_t i = 0; i < MEMBERS; i++)
         if (strcmp(members[i].name, name) == 0)
             end_number(document, i);
-    if (area->said != 0)
+    if (area->ended)
         fail(document, "a second element", area == &document->shape ? "shape" : "position", "one");
-    area->said = strcmp(name, "shape") == 0 || strcmp(name, "position") == 0;
+    area->ended = strcmp(name, "shape") == 0 || strcmp(name, "position") == 0;
 }
 
 /* ---- states become rows ---- */
