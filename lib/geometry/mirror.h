@@ -1,9 +1,8 @@
-/* Images of moving points in a wall, and mirror ghosts (MODEL 14.1).
+/* Flat sides that mirror: specular points, images and ghosts (MODEL 2.3, 14.1).
  *
- * The wall is the segment a to b with its outer face to the right of a -> b, like every flat side
- * (specular_point.h). Only that face mirrors: a guardrail has two. The wall may move and turn with
- * the body that carries it. For the unit normal n and a point o at the height h = n · (o - a) over
- * the wall the image is
+ * A flat side, or wall, is the segment a to b with its outer face to the right of a -> b. Only that
+ * face mirrors: a guardrail has two. The wall may move and turn with the body that carries it. For
+ * the unit normal n and a point o at the height h = n · (o - a) over the wall the image is
  *
  *     o' = o - 2 h n,   v' = V(o') + w - 2 (n · w) n,   w = v - V(o),
  *
@@ -12,6 +11,23 @@
 #pragma once
 
 #include "geometry/kinematics.h"
+
+/* True if a side has a specular point for the sensor, the place that mirrors the radar's wave back;
+ * sets foot: the foot of the perpendicular from the sensor, after the segment is shortened by
+ * margin_m at both ends. along is the unit vector from a to b. A segment of length zero (below
+ * 1e-160 m) has no specular point.
+ *
+ * The ends are decided exactly, by the projection onto along: the direction of a -> b would not do,
+ * because rounding bends joints. Two sides in line that share a vertex and have the same direction
+ * as doubles never lose the foot at their joint; both hold the foot only where it is the vertex
+ * itself, and line_of_sight.h gives it to one of them.
+ *
+ * The foot is rounded. On a side parallel to one axis the line of sight is parallel to the other
+ * axis to the last bit, so an outline that it touches blocks it. On other sides the line passes
+ * within 2 ulp of the largest coordinate or distance, so an outline that it only touches may be
+ * missed by that. */
+bool mirror_specular_point(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
+                           struct vec2 sensor, struct vec2 *foot);
 
 /* A wall and one sensor. mirror_of sets what follows from both. */
 struct mirror {

@@ -1,7 +1,7 @@
 #include "ideal/direct_echoes.h"
 
 #include "base/elementary.h"
-#include "geometry/specular_point.h"
+#include "geometry/mirror.h"
 #include "ideal/line_of_sight.h"
 #include "ideal/sight_margins.h"
 
@@ -276,8 +276,8 @@ static void add_plane(struct look *look, const struct look_body *body,
                           ? sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m,
                                                  look->pose.position_m)
                           : 0;
-    if (specular_point_foot(side.from, side.to, side.along, plane->margin_m, look->pose.position_m,
-                            &foot) &&
+    if (mirror_specular_point(side.from, side.to, side.along, plane->margin_m,
+                              look->pose.position_m, &foot) &&
         !line_of_sight_next_side_has_foot(look, &side)) {
         struct candidate candidate = {
             .reflector = plane->name,

@@ -4,7 +4,6 @@
 #include "base/units.h"
 #include "geometry/mirror.h"
 #include "geometry/predicates.h"
-#include "geometry/specular_point.h"
 #include "ideal/line_of_sight.h"
 #include "ideal/sight_margins.h"
 #include "propagation/reflection.h"
@@ -469,7 +468,7 @@ static void add_plane(struct look *look, const struct mirror_face *face,
 {
     const struct side side = line_of_sight_side(body, plane);
     struct vec2 eye = face->mirror.eye_m, foot, bounce;
-    if (!specular_point_foot(side.from, side.to, side.along, plane->margin_m, eye, &foot) ||
+    if (!mirror_specular_point(side.from, side.to, side.along, plane->margin_m, eye, &foot) ||
         !has_bounce(look, face, foot, &bounce))
         return;
     struct ghost_candidate candidate = candidate_of(look, face, body, foot, plane->z, bounce);

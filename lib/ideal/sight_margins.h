@@ -12,7 +12,7 @@ double sight_margins_facing_m(const struct box *box, enum visibility_shape shape
                               double zero_rad, struct vec2 place, struct vec2 sensor);
 
 /* From losing or gaining the specular point on the side a to b, with unit vector along
- * (specular_point_foot). If there is one: the lesser of the foot's distance from the nearer
+ * (mirror_specular_point). If there is one: the lesser of the foot's distance from the nearer
  * shortened end and the sensor's distance from the side's line. If there is none: the greatest of
  * the distances by which foot and sensor are beyond those borders. NaN for a side of length zero,
  * which never has a foot. */

@@ -5,9 +5,9 @@
 
 #include "base/units.h"
 #include "geometry/kinematics.h"
+#include "geometry/mirror.h"
 #include "geometry/obstruction.h"
 #include "geometry/predicates.h"
-#include "geometry/specular_point.h"
 #include "ideal/direct_echoes.h"
 
 __extension__ typedef __int128 wide;
@@ -106,11 +106,12 @@ static void what_has_no_size_has_a_fixed_answer(void **state)
         {0, predicates_orientation(p, p, p), 0},
         {0, predicates_along(p, p, up), 0},
         {0, predicates_along(o, off, o), 0},
-        {no_length / no_length, specular_point_foot(p, p, up, 0, o, &foot), 0},
-        {no_length / no_length, specular_point_foot(p, p, up, 0, p, &foot), 0},
-        {1, specular_point_foot(p, q, p, 0, p, &foot), 0},
-        {1, specular_point_foot(p, q, p, 0.75, (struct vec2){1.5, -1}, &foot), 0},
-        {1, specular_point_foot(o, (struct vec2){1e-170, 0}, p, 0, (struct vec2){0, -1}, &foot), 0},
+        {no_length / no_length, mirror_specular_point(p, p, up, 0, o, &foot), 0},
+        {no_length / no_length, mirror_specular_point(p, p, up, 0, p, &foot), 0},
+        {1, mirror_specular_point(p, q, p, 0, p, &foot), 0},
+        {1, mirror_specular_point(p, q, p, 0.75, (struct vec2){1.5, -1}, &foot), 0},
+        {1, mirror_specular_point(o, (struct vec2){1e-170, 0}, p, 0, (struct vec2){0, -1}, &foot),
+         0},
         {0, here.range_m, 0},
         {no_length / no_length, here.azimuth_rad, 0},
         {no_length / no_length, here.range_rate_mps, 0},
@@ -485,11 +486,11 @@ static void a_joint_up_to_rounding_has_one_foot_beside_it(void **state)
         struct vec2 beside = vec2_add(before, vec2_scale(i % 2 ? 1e-12 : -1e-12, along));
         struct vec2 from = motion_box_place(&one, -0.5, -0.5);
         struct vec2 to = motion_box_place(&two, 0.5, -0.5);
-        naive += specular_point_foot(from, end, along, 0, before, &foot) +
-                     specular_point_foot(begin, to, along, 0, before, &foot) !=
+        naive += mirror_specular_point(from, end, along, 0, before, &foot) +
+                     mirror_specular_point(begin, to, along, 0, before, &foot) !=
                  1;
-        ours += specular_point_foot(from, end, along, 0, beside, &foot) +
-                    specular_point_foot(begin, to, along, 0, beside, &foot) !=
+        ours += mirror_specular_point(from, end, along, 0, beside, &foot) +
+                    mirror_specular_point(begin, to, along, 0, beside, &foot) !=
                 1;
     }
     hard_case("33 apart", "ends that differ: at, and 1e-12 m beside", "wrong", naive, ours, 0);
@@ -517,7 +518,7 @@ static void an_outline_along_the_sight_line_blocks_the_foot(void **state)
                 *all[k] = vec2_left(*all[k]);
             along = vec2_left(along);
         }
-        assert_true(specular_point_foot(a, b, along, 0, sensor, &foot));
+        assert_true(mirror_specular_point(a, b, along, 0, sensor, &foot));
         struct vec2 edge = vec2_sub(b, a);
         double part = vec2_dot(vec2_sub(sensor, a), edge) / vec2_dot(edge, edge);
         struct vec2 plain = vec2_add(a, vec2_scale(part, edge));
@@ -570,7 +571,7 @@ static void a_turned_foot_is_off_its_sight_line_by_rounding_alone(void **state)
         struct vec2 own = {sample_between(&random, 0.1, 0.9) * length_m,
                            -between_powers(&random, -7, 8)};
         struct vec2 sensor = vec2_add(a, vec2_turn(own, along));
-        assert_true(specular_point_foot(a, b, along, 0, sensor, &foot));
+        assert_true(mirror_specular_point(a, b, along, 0, sensor, &foot));
         struct vec2 edge = vec2_sub(b, a);
         double part = vec2_dot(vec2_sub(sensor, a), edge) / vec2_dot(edge, edge);
         struct vec2 plain = vec2_add(a, vec2_scale(part, edge));

@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 #include "check.h"
-#include "geometry/specular_point.h"
+#include "geometry/mirror.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -202,9 +202,9 @@ static void a_plane_that_surely_has_no_foot_has_none(void **state)
         struct vec2 along =
             motion_box_along(&box, plane.from_x, plane.from_y, plane.to_x, plane.to_y);
         bool aside = reflectors_surely_no_foot(&box, &plane, in_own_frame(&box, sensor));
-        bool mirrors = specular_point_foot(motion_box_place(&box, plane.from_x, plane.from_y),
-                                           motion_box_place(&box, plane.to_x, plane.to_y), along,
-                                           plane.margin_m, sensor, &foot);
+        bool mirrors = mirror_specular_point(motion_box_place(&box, plane.from_x, plane.from_y),
+                                             motion_box_place(&box, plane.to_x, plane.to_y), along,
+                                             plane.margin_m, sensor, &foot);
         assert_true(!aside || !mirrors);
         none += !mirrors;
         plain += aside;

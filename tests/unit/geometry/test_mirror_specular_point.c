@@ -1,4 +1,4 @@
-#include "geometry/specular_point.h"
+#include "geometry/mirror.h"
 
 #include "check.h"
 #include "sample.h"
@@ -53,8 +53,8 @@ static void known_sides_have_known_feet(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct vec2 foot = {-1e9, -1e9};
-        bool exists = specular_point_foot(cases[i].a, cases[i].b, unit(cases[i].a, cases[i].b),
-                                          cases[i].margin_m, cases[i].sensor, &foot);
+        bool exists = mirror_specular_point(cases[i].a, cases[i].b, unit(cases[i].a, cases[i].b),
+                                            cases[i].margin_m, cases[i].sensor, &foot);
         assert_int_equal(exists, cases[i].exists);
         if (exists) {
             assert_close(foot.x, cases[i].foot.x, 4e-15);
@@ -81,9 +81,9 @@ static void the_foot_is_where_the_side_was_built_around(void **state)
             continue;
         struct vec2 foot = {0, 0};
         bool exists =
-            specular_point_foot(vec2_sub(built, vec2_scale(before_m, along)),
-                                vec2_add(built, vec2_scale(after_m, along)), along, margin_m,
-                                vec2_sub(built, vec2_scale(range_m, vec2_left(along))), &foot);
+            mirror_specular_point(vec2_sub(built, vec2_scale(before_m, along)),
+                                  vec2_add(built, vec2_scale(after_m, along)), along, margin_m,
+                                  vec2_sub(built, vec2_scale(range_m, vec2_left(along))), &foot);
         assert_int_equal(exists, before_m >= margin_m && after_m >= margin_m && range_m > 0);
         /* Coordinates below 200 m are rounded by up to 1.5e-14 m, which turns a short side and
          * carries the foot of a far sensor along. */
@@ -105,10 +105,10 @@ static void a_mirrored_side_has_the_mirrored_foot_to_the_last_bit(void **state)
             p[k].y = sample_between(&sample, -20, 20);
         }
         struct vec2 foot = {0, 0}, mirrored = {0, 0};
-        bool exists = specular_point_foot(p[0], p[1], unit(p[0], p[1]), 0.1, p[2], &foot);
+        bool exists = mirror_specular_point(p[0], p[1], unit(p[0], p[1]), 0.1, p[2], &foot);
         for (int k = 0; k < 3; k++)
             p[k].y = -p[k].y;
-        assert_int_equal(specular_point_foot(p[1], p[0], unit(p[1], p[0]), 0.1, p[2], &mirrored),
+        assert_int_equal(mirror_specular_point(p[1], p[0], unit(p[1], p[0]), 0.1, p[2], &mirrored),
                          exists);
         assert_true(mirrored.x == foot.x && mirrored.y == -foot.y);
         found += exists;
@@ -136,8 +136,8 @@ static void a_joint_of_collinear_walls_never_loses_the_foot(void **state)
         struct vec2 outward = vec2_scale(-7, vec2_left(step));
         struct vec2 sensor = vec2_add(joint, vec2_add(outward, beside));
         struct vec2 foot;
-        assert_int_equal(specular_point_foot(before, joint, step, 0, sensor, &foot), side >= 0);
-        assert_int_equal(specular_point_foot(joint, after, step, 0, sensor, &foot), side <= 0);
+        assert_int_equal(mirror_specular_point(before, joint, step, 0, sensor, &foot), side >= 0);
+        assert_int_equal(mirror_specular_point(joint, after, step, 0, sensor, &foot), side <= 0);
     }
 }
 
