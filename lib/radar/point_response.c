@@ -56,13 +56,6 @@ double point_response_envelope(enum point_response response, double bins)
     return elementary_min(1 / (PI * d), 1);
 }
 
-double point_response_vertex(double before, double at, double after)
-{
-    double rise = elementary_log(at / before), fall = elementary_log(at / after);
-    double away = (rise - fall) / (2 * (rise + fall));
-    return isfinite(away) ? away : 0;
-}
-
 double point_response_hann_offset(double before, double peak, double after)
 {
     double ratio = elementary_max(before, after) / peak;
@@ -70,7 +63,7 @@ double point_response_hann_offset(double before, double peak, double after)
     return before > after ? -bins : before < after ? bins : 0;
 }
 
-double point_response_wide_offset(double before, double peak, double after)
+double point_response_vertex(double before, double peak, double after)
 {
     if (!(before > 0 && after > 0) || before == after)
         return 0;

@@ -37,12 +37,6 @@ double point_response_main_lobe(enum point_response response);
  * main lobe. */
 double point_response_envelope(enum point_response response, double bins);
 
-/* By how many cells a peak is beyond the cell of the most power, in [-1/2, 1/2]: the vertex of the
- * parabola through the logarithms of its power and of the powers before and after it. For one echo
- * it is exact for pulses; with two cells to a bin it is within 0.0017 bins with Hann's window and
- * 0.0104 without. 0 where a power is 0 or all are equal. */
-double point_response_vertex(double before, double at, double after);
-
 /* The response with a Hann window of a hundred samples or more, W(d) = sin(pi d)/(pi d (1 - d^2)):
  * 1 at 0, 1/2 at -1 and 1, exactly 0 at all other whole numbers, and exactly even. Its main lobe is
  * four bins wide, two at half amplitude, and no side lobe exceeds -31.47 dB. |bins| <= 2^48; within
@@ -56,11 +50,13 @@ double point_response_hann(double bins);
  * both are below half of the peak, which takes several echoes. */
 double point_response_hann_offset(double before, double peak, double after);
 
-/* The same for a response of Hann's shape that is wider than it (MODEL 14.20): the vertex of a
- * parabola through the logarithms of the three magnitudes. For one echo at most a quarter of a bin
- * off it is within 0.016 bins, the nearer the wider the response is. It is 0 if a neighbour is 0.
- */
-double point_response_wide_offset(double before, double peak, double after);
+/* The place of an echo relative to the cell of its peak, in cells, in [-1/2, 1/2]: the vertex of
+ * the parabola through the logarithms of the powers, or magnitudes, of the peak and its neighbours.
+ * It is 0 if a neighbour is 0. For one echo it is exact for pulses; with two cells to a bin it is
+ * within 0.0017 bins with Hann's window and 0.0104 without. For a response of Hann's shape that is
+ * wider than it (MODEL 14.20), and an echo at most a quarter of a bin off, it is within 0.016 bins,
+ * the nearer the wider the response is. */
+double point_response_vertex(double before, double peak, double after);
 
 /* Level of the strongest point, 1 at rest, and width at half that level, 1 + widening times that at
  * rest, of an echo that walks while it is measured. */

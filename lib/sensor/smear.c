@@ -204,7 +204,7 @@ static double offset_of(const struct smear *smear, const struct smear_sample *pe
         return 0;
     double before = magnitude(find(smear, peak->range - range, peak->rate - rate));
     double after = magnitude(find(smear, peak->range + range, peak->rate + rate));
-    double offset = width > 1 ? point_response_wide_offset(before, here, after)
+    double offset = width > 1 ? point_response_vertex(before, here, after)
                               : point_response_hann_offset(before, here, after);
     return elementary_max(elementary_min(offset, most), least);
 }
