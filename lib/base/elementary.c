@@ -395,8 +395,7 @@ static double log_rest(double s)
  * log x = k log 2 + log c + log((1+s)/(1-s)). */
 static struct pair log_of(double x)
 {
-    /* log(j/16), j = 11 to 22. hi is a multiple of 2^-42, so that its sum with
-     * k log 2 is exact. */
+    /* log(j/16), j = 11 to 22. hi is a multiple of 2^-42, so that its sum with k log 2 is exact. */
     static const struct pair sixteenths[] = {
         {-0x1.7fafa3bd81p-2, -0x1.46fb79bf6d4cbp-44}, {-0x1.269621134ep-2, 0x1.1b61f10522625p-44},
         {-0x1.a93ed3c8aep-3, 0x1.8724350562169p-45},  {-0x1.1178e8227ep-3, -0x1.1ef78ce2d07f2p-45},

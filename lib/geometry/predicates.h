@@ -18,8 +18,8 @@
 /* The orientation by exact summation, where the filter cannot decide. */
 int predicates_exact_sign(struct vec2 a, struct vec2 b, struct vec2 c);
 
-/* The sign of (b - a) × (c - a): +1 if c lies to the left of the line from a to b, -1 to the
- * right, 0 exactly on it (or a == b). */
+/* The sign of (b - a) × (c - a): +1 if c lies to the left of the line from a to b, -1 to the right,
+ * 0 exactly on it (or a == b). */
 static inline int predicates_orientation(struct vec2 a, struct vec2 b, struct vec2 c)
 {
     double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);

@@ -2,8 +2,7 @@
  *
  * gzip is unpacked by an inflate loop that insists on the end mark of every member, because zlib's
  * gzread has been measured to accept truncated files silently. Anything after the last member is
- * refused. A directory, a missing file and the like are DIAG_NO_INPUT, damaged gzip is
- * DIAG_DATA.
+ * refused. A directory, a missing file and the like are DIAG_NO_INPUT, damaged gzip is DIAG_DATA.
  *
  * A line is given out as soon as its newline can be read, from pipes, sockets and terminals and out
  * of gzip alike. */
