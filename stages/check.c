@@ -241,11 +241,10 @@ static int check_run(void *state, struct runner *runner)
 }
 
 static const struct field check_options[] = {
-    {OPTIONAL_FLAG(struct check, partial, "scenes may lack frames, and come in any order")},
+    {OPTIONAL_FLAG(struct check, partial, "scenes may lack frames and come in any order")},
     {OPTIONAL_NAME(struct check, sensors, "path of the suite, if it is not found by its name")},
-    {OPTIONAL_NAME(
-        struct check, extract,
-        "the stage that wrote the reflectors, extract-3gpp for instance; absent: extract")},
+    {OPTIONAL_NAME(struct check, extract,
+                   "stage that wrote the reflectors, as extract-3gpp; absent: extract")},
     {0},
 };
 
@@ -253,10 +252,11 @@ const struct tool tool_check = {
     .name = "check",
     .summary = "Check that a stream is whole and its labels agree with its truth.",
     .details =
-        "Every line is held to the schema and its bounds, every scene to its frames from 0 to\n"
-        "the last, every account to its sums. Echoes are made again from the objects: labels are\n"
-        "held to their exact values, losses to reason and place, counts and visibility, to 1e-9.\n"
-        "The first fault ends the check with status 65. scripts/check-set checks tables and sets.",
+        "Checks every line against the schema and its bounds, every scene for all its frames from "
+        "0 to the last, and every account for its sums. Then computes the echoes again from the "
+        "objects and compares with them, to a relative 1e-9, the labels, the lost echoes with "
+        "their reasons and places, the counts and the visibility. The first fault ends the check "
+        "with status 65. scripts/check-set checks tables and sets.",
     .options = STAGE_OPTIONS(struct check, check_options),
     .reads = SECTION_SENSORS | SECTION_TARGETS,
     .run = check_run,

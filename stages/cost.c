@@ -151,13 +151,13 @@ const struct tool tool_cost = {
     .name = "cost",
     .summary = "Print what accuracy costs on these scenes: chains by time and error.",
     .details =
-        "Measures chains of stages on a sample of the frames: CPU time, and error. The error\n"
-        "is the energy distance of a chain's lists from those of a reference, in per cent of\n"
-        "that of ideal echoes: a chain of 0 % is not told from the reference. The reference\n"
-        "is the signal, if the suite has a waveform and glint-sensor-signal lies beside this\n"
-        "program, or all that the suite describes. Of the frames, only the objects are used,\n"
-        "and their reflectors if they are there. Prints at the end of the stream.\n"
-        "pipelines/README.md says how to read the table.",
+        "Measures chains of stages on a sample of the frames: CPU time, and error. The error is "
+        "the energy distance of a chain's lists from those of a reference, in per cent of that of "
+        "ideal echoes. A chain of 0 % is not told from the reference. The reference is the "
+        "signal, if the suite has a waveform and glint-sensor-signal lies beside this program, "
+        "and else all that the suite describes. Of the frames it reads the objects and, if they "
+        "are there, the reflectors. Prints at the end of the stream. pipelines/README.md says how "
+        "to read the table.",
     .options = STAGE_OPTIONS(struct cost_state, cost_options),
     .reads = SECTION_OBJECTS,
     .run = cost_run,

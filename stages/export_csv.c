@@ -45,8 +45,9 @@ static void export_csv_release(void *state)
 const struct stage stage_export_csv = {
     .name = "export-csv",
     .summary = "Write targets as CSV, one row each, with their labels.",
-    .details = "This is the table of detections that glint-tables writes beside five others; its\n"
-               "table of scans has scans without targets too.",
+    .details =
+        "The table is the one of detections that glint-tables writes beside six others. A scan "
+        "without targets has no row here; it has one in the table of scans.",
     .options = STAGE_OPTIONS(struct export_csv, field_none),
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,

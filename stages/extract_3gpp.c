@@ -19,14 +19,14 @@ const struct stage stage_extract_3gpp = {
     .name = "extract-3gpp",
     .summary = "Write the scattering points of 3GPP TR 38.901 for every object.",
     .details =
-        "Stands in for glint-extract: a class whose document says sensing_target vehicle\n"
-        "becomes five points in the middles of front, left, back, right and roof, each with\n"
-        "the report's lobe in azimuth and elevation over a floor that is seen from all\n"
-        "around; human becomes one point that is the same from everywhere. All other classes\n"
-        "keep the reflectors of their document. Mirrors, and whether the outline hides what\n"
-        "is behind it, are the document's for every class. Elevation counts for sensors with\n"
-        "mount_z_m; for all others everything is level. The report's fluctuation is a\n"
-        "property of the sensor: fluctuation log_normal, 3.41 dB for vehicles.",
+        "Stands in for glint-extract. A class whose document says sensing_target vehicle becomes "
+        "five points in the middles of front, left, back, right and roof. Each has the report's "
+        "lobe in azimuth and elevation, over a floor that is seen from all around. A class with "
+        "sensing_target human becomes one point that is the same from everywhere. All other "
+        "classes keep the reflectors of their document. What a body mirrors and hides is what its "
+        "document says, for every class. Elevation counts for sensors with mount_z_m; for all "
+        "others everything is level. The report's fluctuation is a property of the sensor: "
+        "fluctuation log_normal, 3.41 dB for vehicles.",
     .options = &extraction_record,
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS | SECTION_VEHICLES,

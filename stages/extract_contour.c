@@ -33,17 +33,17 @@ const struct stage stage_extract_contour = {
     .name = "extract-contour",
     .summary = "Write the outline of every object as closely spaced scatterers.",
     .details =
-        "Stands in for glint-extract: a class whose document has a contour, its mean cross\n"
-        "section from ahead, from behind, from the side and at 45 degrees, becomes four rows\n"
-        "of equal scatterers, one on each side. Each has its piece's share of the side's\n"
-        "power and is seen from outside; the powers of all add up to the class's cross\n"
-        "section, whatever the spacing. All other classes keep the reflectors of their document.\n"
-        "\n"
-        "Powers add up where phases are random: use a sensor whose cell_phase is random, or\n"
-        "by_path (each scatterer then has a constant phase of its own besides that of its path,\n"
-        "as a rough surface has). With in_phase, amplitudes add up instead, and the closer the\n"
-        "scatterers are, the stronger the contour gets, without end. With the effect rows\n"
-        "switched off no scatterer is seen.",
+        "Stands in for glint-extract. A document may have a contour: the mean cross section of "
+        "its class from ahead, from behind, from the side and at 45 degrees. Such a class becomes "
+        "four rows of equal scatterers, one row on each side. A scatterer has the power of its "
+        "piece of the side and is seen from outside. The powers of all scatterers add up to the "
+        "cross section of the class, whatever the spacing. All other classes keep the reflectors "
+        "of their document.\n\n"
+        "Powers add up where phases are random: use a sensor whose cell_phase is random, or "
+        "by_path (each scatterer then has a constant phase of its own besides that of its path, "
+        "as a rough surface has). With in_phase, amplitudes add up instead, and the closer the "
+        "scatterers are, the stronger the contour gets, without end. If the effect rows is "
+        "switched off, no scatterer is seen.",
     .options = STAGE_OPTIONS(struct extract_contour, extract_contour_options),
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS | SECTION_VEHICLES,

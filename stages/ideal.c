@@ -97,10 +97,11 @@ const struct stage stage_ideal = {
     .name = "ideal",
     .summary = "Write what a perfect radar would see of every reflector.",
     .details =
-        "Computes, for each sensor of the suite that measures in the frame, the exact range,\n"
-        "azimuth, range rate and cross section of all reflectors it can see: in range and\n"
-        "field of view, facing it, and with no other object in the way. Sensors that say so\n"
-        "see ghosts as well: what walls, guardrails and flat sides mirror.",
+        "Computes, for each sensor of the suite that measures in the frame, the exact range, "
+        "azimuth, range rate and cross section of all reflectors that it can see. A reflector is "
+        "seen if it is in range and in the field of view, faces the sensor, and no other object "
+        "stands in the way. A sensor whose document describes ghosts also gets the echoes that "
+        "walls, guardrails and flat sides mirror.",
     .options = STAGE_OPTIONS(struct ideal, ideal_options),
     .reads = SECTION_OBJECTS | SECTION_REFLECTORS,
     .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,

@@ -39,12 +39,12 @@ const struct tool tool_plan = {
     .name = "plan",
     .summary = "Print the pipeline that the scenes need.",
     .details =
-        "Runs the chain on every frame, choosing effects as auto does among those that are\n"
-        "asked for. Prints which effects were needed and why, for which stages a simpler one\n"
-        "can stand in, and the pipeline without the others. On these scenes it gives the\n"
-        "targets of the whole chain, byte for byte. Of the frames, only the objects are used,\n"
-        "and their reflectors if they are there. Prints at the end of the stream.\n"
-        "glint-cost measures what other pipelines save and how far they are off.",
+        "Runs the chain on every frame, choosing effects as auto does among those that are asked "
+        "for. Prints which effects the frames need and why, which stages a simpler one may "
+        "replace, and the pipeline without the rest. On these scenes the pipeline gives the "
+        "targets of the whole chain, byte for byte. Of the frames it reads the objects and, if "
+        "they are there, the reflectors. Prints at the end of the stream. glint-cost measures how "
+        "much time and accuracy other pipelines save and lose.",
     .options = STAGE_OPTIONS(struct plan_state, plan_options),
     .reads = SECTION_OBJECTS,
     .run = plan_run,

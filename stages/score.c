@@ -9,7 +9,7 @@
 struct score_state {
     const char *truth;
     double cutoff, azimuth_cell_rad;
-    bool partial, summary, table, ensemble;
+    bool partial, summary, text, ensemble;
     struct reference_stream *other;
     int64_t frames;
     struct frame_sequence sequence;
@@ -20,7 +20,7 @@ struct score_state {
 static int score_start(void *state, struct runner *runner)
 {
     struct score_state *own = state;
-    own->summary = own->summary || own->table;
+    own->summary = own->summary || own->text;
     own->lists.arena = runner_arena(runner);
     if (own->ensemble && (own->partial || own->cutoff != TARGET_SCORE_CUTOFF))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
@@ -93,7 +93,7 @@ static int write_ensemble(struct score_state *own, struct runner *runner)
     if (more < 0 || ensemble_compare(&truth, &own->lists, own->azimuth_cell_rad,
                                      runner_arena(runner), &score, runner_diag(runner)) != 0)
         return -1;
-    if (!own->table)
+    if (!own->text)
         return runner_write_record(runner, &ensemble_score_record, &score);
     struct text text = {0};
     ensemble_table(&score, &text);
@@ -117,7 +117,7 @@ static int score_stop(void *state, struct runner *runner)
     if (!own->summary)
         return 0;
     score_summarize(&own->sensors, &summary, runner_arena(runner));
-    if (!own->table)
+    if (!own->text)
         return runner_write_record(runner, &score_summary_record, &summary);
     struct text text = {0};
     score_table_summary(&summary, &text, runner_arena(runner));
@@ -135,10 +135,11 @@ static const struct field score_options[] = {
         "cell in azimuth; absent: that of the suite, or a twentieth of the field of view")},
     {OPTIONAL_FLAG(struct score_state, partial,
                    "count frames that only one side has instead of refusing them")},
-    {OPTIONAL_FLAG(struct score_state, summary, "write one line for the whole stream")},
+    {OPTIONAL_FLAG(struct score_state, summary, "write one JSON line for the whole stream")},
     {OPTIONAL_FLAG(struct score_state, ensemble,
                    "compare the lists of many seeds as random lists, by their energy distance")},
-    {OPTIONAL_FLAG(struct score_state, table, "write the summary as a table for people")},
+    {OPTIONAL_FLAG(struct score_state, text,
+                   "write the summary as a table for people instead of JSON")},
     {0},
 };
 
@@ -146,22 +147,22 @@ const struct stage stage_score = {
     .name = "score",
     .summary = "Score targets against those of another stream, frame by frame.",
     .details =
-        "Both streams must be of the same scenes and frames, ascending within a scene; scenes\n"
-        "may interleave differently. A scene is a name and a seed: seeds of one name must stand\n"
-        "in the same order. Suites may differ, but not the names of their sensors.\n"
-        "Writes a JSON line for each frame, with a score for each sensor that measured on\n"
-        "either side: GOSPA (order 2, alpha 2) with its parts, OSPA, counts, differences of the\n"
-        "pairs, and the Wasserstein-1 distance of each component. The distance of two targets\n"
-        "is in cells, d^2 = (range / cell_range_m)^2 + (range rate / cell_range_rate_mps)^2 +\n"
-        "(azimuth / azimuth_cell_rad)^2, with the cells of the truth's sensors. Frames that one\n"
-        "side lacks are errors unless --partial is given. For the summary every value is kept,\n"
-        "half a kilobyte for each target. glint-score-tracks scores trackers.\n"
-        "\n"
-        "With --ensemble each stream holds its scenes with at least 3 seeds each, none of them\n"
-        "in both streams. The lists of a scene, frame and sensor are samples of two random\n"
-        "lists: one line has the energy distance of each scene with its standard error, and the\n"
-        "mean over scenes with a 95 % interval. The distance is 0 in the mean if both streams\n"
-        "draw from one law. Cells are those above, levels count in steps of 3 dB.",
+        "Both streams must have the same scenes and frames, and the frames of a scene must "
+        "ascend; scenes may interleave in another way. A scene is a name and a seed; the seeds of "
+        "one name must come in the same order. Suites may differ, but the names of their sensors "
+        "must not.\n\n"
+        "Writes a JSON line for each frame, with a score for each sensor that measured on either "
+        "side: GOSPA (order 2, alpha 2) with its parts, OSPA, counts, differences of the pairs, "
+        "and the Wasserstein-1 distance of each component. The distance of two targets is in "
+        "cells, d^2 = (range / cell_range_m)^2 + (range rate / cell_range_rate_mps)^2 + (azimuth "
+        "/ azimuth_cell_rad)^2, with the cells of the truth's sensors. A frame that one side "
+        "lacks is an error, unless --partial is given. --summary keeps every value, which takes "
+        "half a kilobyte for each target. glint-score-tracks scores trackers.\n\n"
+        "With --ensemble each stream has every scene with at least 3 seeds; no seed may be in "
+        "both streams. The lists of a scene, frame and sensor are samples of two random lists. "
+        "The output has the energy distance of each scene with its standard error, and the mean "
+        "over scenes with a 95 % interval. The mean distance is 0 if both streams draw from one "
+        "law. Cells are those above; amplitudes count in steps of 3 dB.",
     .options = STAGE_OPTIONS(struct score_state, score_options),
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,

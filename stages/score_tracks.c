@@ -9,7 +9,7 @@ struct score_tracks {
     const char *tracks, *classes;
     enum track_truth objects;
     double cutoff_m;
-    bool partial, summary, table;
+    bool partial, summary, text;
     struct reference_stream *other;
     int64_t frames, id_switches;
     struct score_tally tally; /* for the summary */
@@ -21,7 +21,7 @@ struct score_tracks {
 static int score_tracks_start(void *state, struct runner *runner)
 {
     struct score_tracks *own = state;
-    own->summary = own->summary || own->table;
+    own->summary = own->summary || own->text;
     own->other = runner_reference_stream(runner, own->tracks, own->partial);
     return own->other != NULL ? 0 : -1;
 }
@@ -101,7 +101,7 @@ static int score_tracks_stop(void *state, struct runner *runner)
         .id_switches = own->id_switches,
         .all = score_of(&own->tally, 1, runner_arena(runner)),
     };
-    if (!own->table)
+    if (!own->text)
         return runner_write_record(runner, &score_track_summary_record, &summary);
     struct text text = {0};
     score_table_track_summary(&summary, &text);
@@ -110,10 +110,10 @@ static int score_tracks_stop(void *state, struct runner *runner)
 
 static const struct field score_tracks_options[] = {
     {FIELD_NAME_OF(struct score_tracks, tracks,
-                   "what the tracker says, as schemas/tracks.json has it"),
+                   "the tracker's tracks, as schemas/tracks.json describes them"),
      .word = "FILE"},
     {OPTIONAL_CHOICE(struct score_tracks, objects, track_score_truths,
-                     "which objects a tracker should have; absent: in_view")},
+                     "which objects a tracker should find; absent: in_view")},
     {OPTIONAL_NAME(struct score_tracks, classes, "only objects of these classes: car,truck"),
      .word = "LIST"},
     {OPTIONAL_REAL(struct score_tracks, cutoff_m, 1e-6, 1e6,
@@ -121,8 +121,9 @@ static const struct field score_tracks_options[] = {
      .absent = TRACK_SCORE_CUTOFF_M},
     {OPTIONAL_FLAG(struct score_tracks, partial,
                    "count frames that only one side has instead of refusing them")},
-    {OPTIONAL_FLAG(struct score_tracks, summary, "write one line for the whole stream")},
-    {OPTIONAL_FLAG(struct score_tracks, table, "write the summary as a table for people")},
+    {OPTIONAL_FLAG(struct score_tracks, summary, "write one JSON line for the whole stream")},
+    {OPTIONAL_FLAG(struct score_tracks, text,
+                   "write the summary as a table for people instead of JSON")},
     {0},
 };
 
@@ -130,15 +131,17 @@ const struct stage stage_score_tracks = {
     .name = "score-tracks",
     .summary = "Score a tracker's tracks against the objects of the frames.",
     .details =
-        "The frames that are read are the truth; the tracks are JSON lines, one for each frame,\n"
-        "in the frames' coordinates. In a pipe: tracker <list.jsonl | glint-score-tracks\n"
-        "--tracks - list.jsonl. Writes a JSON line for each frame: GOSPA (order 2, alpha 2) over\n"
-        "the distances of centres in metres, with its parts, OSPA, counts, distances and\n"
-        "differences in velocity of the pairs, and how many objects are paired with another\n"
-        "track than last time. Objects that count are, by --objects: in_view, those whose centre\n"
-        "is within the range and field of view of a sensor; detected, those with an echo in a\n"
-        "target of the frame; all. The ego never counts. Frames that one side lacks are errors\n"
-        "unless --partial is given. Tracks have no seed, so a scene must come with one alone.",
+        "The frames are the truth. The tracks are JSON lines, one for each frame, in the frames' "
+        "coordinates. In a pipe: tracker <list.jsonl | glint-score-tracks --tracks - "
+        "list.jsonl.\n\n"
+        "Writes a JSON line for each frame: GOSPA (order 2, alpha 2) over the distances of "
+        "centres in metres, with its parts, OSPA, counts, distances and differences in velocity "
+        "of the pairs, and how many objects are paired with another track than last time. "
+        "--objects chooses the objects that count: in_view, if their centre is within the range "
+        "and field of view of a sensor; detected, if an echo of theirs is in a target of the "
+        "frame; all. The ego never counts. A frame that one side lacks is an error, unless "
+        "--partial is given. Tracks have no seed, so every scene of the stream must have one seed "
+        "alone.",
     .options = STAGE_OPTIONS(struct score_tracks, score_tracks_options),
     .sink = true,
     .reads = SECTION_OBJECTS,

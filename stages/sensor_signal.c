@@ -133,16 +133,16 @@ const struct stage stage_sensor_signal = {
     .name = "sensor-signal",
     .summary = "Simulate the signal, transform it, and list its peaks as targets.",
     .details =
-        "Stands in for glint-sensor and glint-noise, accurate and slow. It makes the samples of\n"
-        "chirps or pulses, by the sensor's waveform: every echo with its phase, in a sum and a\n"
-        "delta channel or in a row of elements, and thermal noise. It applies windows and the\n"
-        "range-Doppler transform, finds peaks by CFAR, and places them between the bins; their\n"
-        "angle comes from the channels. A second train of chirps or pulses tells fast from slow.\n"
-        "Noise and amplitudes are those of the two stages, the threshold is that of the CFAR.\n"
-        "\n"
-        "The transforms are the FFTW library's. One build of it gives the same bytes on every\n"
-        "machine, fused or piped; another version or another kind of CPU may differ in the last\n"
-        "digits, which no other stage does.",
+        "Stands in for glint-sensor and glint-noise, accurate and slow. It makes the samples of "
+        "chirps or pulses, by the sensor's waveform: every echo with its phase, in a sum and a "
+        "delta channel or in a row of elements, and thermal noise. It applies windows and the "
+        "range-Doppler transform, finds peaks by CFAR, and interpolates their places between the "
+        "bins. The angle comes from the channels. A second train of chirps or pulses resolves "
+        "folded range rates. Noise and amplitudes are those of the two stages; the threshold is "
+        "that of the CFAR.\n\n"
+        "The FFTW library computes the transforms. One build of it gives the same bytes on every "
+        "machine, fused or piped. Another version or another kind of CPU may change the last "
+        "digits, which happens in no other stage.",
     .options = STAGE_OPTIONS(struct sensor_signal, sensor_signal_fields),
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,

@@ -55,15 +55,15 @@ const struct stage stage_sensor_smear = {
     .name = "sensor-smear",
     .summary = "Smear echoes over range and Doppler bins and make cells of the peaks.",
     .details =
-        "Stands in for glint-sensor: instead of sorting echoes into cells, it shows what a\n"
-        "transform with a Hann window would, bins as wide as the sensor's cells. Every echo\n"
-        "is spread over the bins around it with its phase, amplitude and antenna pointers.\n"
-        "Where the sum has a peak that echoes lead up to, there is a cell; its range, rate and\n"
-        "amplitude are interpolated between bins, its angle is that of the sum and the delta\n"
-        "channel. A peak below the detection threshold is lost; peaks of side lobes alone are\n"
-        "not listed. So echoes merge gradually, and shift each other's peaks, apart if they are\n"
-        "out of phase; cell_phase says how their phases differ. Merging and superposition are\n"
-        "one effect here: with --effects=-merging every echo is a cell of its own.",
+        "Stands in for glint-sensor. Instead of sorting echoes into cells, it computes the bins "
+        "of a range-Doppler transform with a Hann window; a bin is as wide as the sensor's cell. "
+        "Every echo is spread over the bins around it with its phase, amplitude and antenna "
+        "pointers. A peak of the sum that an echo leads up to becomes a cell. Its range, rate and "
+        "amplitude are interpolated between bins; its angle is that of the sum and the delta "
+        "channel. A peak below the detection threshold is lost; a peak of side lobes alone is not "
+        "listed. So echoes merge gradually and shift each other's peaks: apart, if they are out "
+        "of phase. cell_phase sets how their phases differ. Merging and superposition are one "
+        "effect here: with --effects=-merging every echo is a cell of its own.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,

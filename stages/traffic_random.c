@@ -15,7 +15,7 @@ struct traffic_random {
     int64_t frames, first; /* -1: not given */
     double rate_hz, seconds;
     const char *scene, *scenes;
-    bool conditions;
+    bool draw_conditions;
     struct random_traffic snapshot;
     int64_t made;
     struct scenario_scenes moving; /* with --seconds */
@@ -87,7 +87,7 @@ static int next_moving(struct traffic_random *traffic, struct frame *frame, stru
     if (more != 1)
         return more;
     runner_expect(runner, scenario_scenes_frames(moving));
-    if (traffic->conditions)
+    if (traffic->draw_conditions)
         random_traffic_conditions(moving->draws, frame);
     frame->conditions.interferers.count = 0;
     return 1;
@@ -107,7 +107,7 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
     frame->interval_s = 1 / traffic->rate_hz;
     frame->last = true;
     random_traffic_fill(&traffic->snapshot, number, frame);
-    if (traffic->conditions)
+    if (traffic->draw_conditions)
         random_traffic_conditions(random_traffic_address(&traffic->snapshot, frame->seed, number),
                                   frame);
     return 1;
@@ -144,7 +144,8 @@ static const struct field traffic_random_options[] = {
     {OPTIONAL_REAL(struct traffic_random, rate_hz, 1, 1e4,
                    "frame number n is at time n / rate; absent: 20 Hz"),
      .absent = 20},
-    {OPTIONAL_FLAG(struct traffic_random, conditions, "draw road, weather and other radars too")},
+    {OPTIONAL_FLAG(struct traffic_random, draw_conditions,
+                   "draw road, weather and other radars too")},
     {0},
 };
 

@@ -9,7 +9,7 @@
 struct view {
     bool svg;
     int64_t frame;
-    const char *scene, *truth, *tracks;
+    const char *only, *truth, *tracks;
     const char *vehicles; /* as in extraction.h */
     bool found;           /* a frame that was asked for */
     struct view_data data;
@@ -75,7 +75,7 @@ static int check_order(struct view *view, const struct frame *frame, struct runn
 static int view_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct view *view = state;
-    if (view->scene != NULL && strcmp(view->scene, frame->scene) != 0)
+    if (view->only != NULL && strcmp(view->only, frame->scene) != 0)
         return 0;
     if (check_order(view, frame, runner) != 0 ||
         view_frame_check_vehicles(&view->data.models, frame, runner_diag(runner)) != 0)
@@ -91,14 +91,14 @@ static int view_step(void *state, struct frame *frame, struct runner *runner)
 /* A stream without frames has a page too; but a scene or frame that was asked for must be there. */
 static int check_found(const struct view *view, struct runner *runner)
 {
-    if (view->found || (view->frame < 0 && view->scene == NULL))
+    if (view->found || (view->frame < 0 && view->only == NULL))
         return 0;
     if (view->frame < 0)
         return diag_fail(runner_diag(runner), DIAG_DATA, "no scene \"%s\" in the stream",
-                         view->scene);
+                         view->only);
     return diag_fail(runner_diag(runner), DIAG_DATA, "no frame %lld in the stream%s%s",
-                     (long long)view->frame, view->scene != NULL ? " of scene " : "",
-                     view->scene != NULL ? view->scene : "");
+                     (long long)view->frame, view->only != NULL ? " of scene " : "",
+                     view->only != NULL ? view->only : "");
 }
 
 static int view_stop(void *state, struct runner *runner)
@@ -122,7 +122,7 @@ static const struct field view_fields[] = {
     {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53,
                       "the page opens at this frame, the still shows it"),
      .absent = -1},
-    {OPTIONAL_NAME(struct view, scene, "only this scene")},
+    {OPTIONAL_NAME(struct view, only, "show only this scene"), .word = "SCENE"},
     {OPTIONAL_NAME(struct view, vehicles, "the folder given to glint-extract, if one was"),
      .word = "DIR"},
     {OPTIONAL_NAME(struct view, truth, "frames to compare with: what is missed and false in them"),

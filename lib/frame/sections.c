@@ -38,8 +38,7 @@ static int refuse_word(const char *text, size_t length, struct diag *diag)
         suggestion_offer(&meant, sections_names[i]);
     return diag_fail(
         diag, DIAG_USAGE,
-        "\"%.*s\" is no section%s; expected objects, reflectors, echoes, cells, account, "
-        "account:every=N, margins, quality, visibility, or - and one; all or none may stand first",
+        "\"%.*s\" is no section%s; glint-ideal --help names those that --sections takes",
         (int)(length < 80 ? length : 80), text, suggestion_question(&meant, remove ? "-" : ""));
 }
 

@@ -80,14 +80,14 @@ int explain_append(const struct common_options *common, const char *stage,
                    const struct effect_log *log, struct diag *diag)
 {
     struct text text = {0};
-    if (common->table)
+    if (common->text)
         text_format(&text, "%-17s %10s %10s %10s  left out when\n", stage, "simulated", "left out",
                     "us a scan");
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const char *home = effect_homes[effect_table[i]->home];
         if (strncmp(stage, home, strlen(home)) != 0)
             continue;
-        if (common->table)
+        if (common->text)
             write_row(i, log, &text);
         else
             write_line(stage, i, log, &text);

@@ -14,7 +14,7 @@ int explain_check(const char *path, struct diag *diag);
 
 /* Appends one line for every effect that is at home in the stage or in the one that it stands in
  * for: in how many scans it was simulated and left out, how much time it took, and when auto leaves
- * it out. Lines are JSON, or with --table rows under a head with the stage's name. The time is null
+ * it out. Lines are JSON, or with --text rows under a head with the stage's name. The time is null
  * or "-" where none was taken: the effect is simulated together with others, or was left out. The
  * lines go out in one write, so stages of one pipeline may share the file. */
 int explain_append(const struct common_options *common, const char *stage,

@@ -17,35 +17,53 @@
 #include "text/output.h"
 #include "text/path.h"
 
+/* What somebody reads who types glint and nothing else. */
+static const char first_hour[] =
+    "glint simulates the target lists that automotive radars report, with labels.\n"
+    "\n"
+    "    glint-traffic | glint-extract | glint-ideal | glint-sensor | glint-noise\n"
+    "    scenes,         reflection      exact         resolution     noise:\n"
+    "    objects         centres         echoes        cells          targets\n"
+    "\n"
+    "    glint two-vehicles > list.jsonl     simulate two cars, as two radars see them\n"
+    "    glint-view list.jsonl -o list.html  see it: a page for any browser\n"
+    "    glint-summary list.jsonl            count targets by class, and by distance\n"
+    "    glint --list pipelines              other scenes and effects, ready to run\n"
+    "    glint --list programs               all programs; each has a --help\n"
+    "\n"
+    "glint --help says how to run a pipeline of your own.\n";
+
 static const char usage[] =
     "Usage: glint FILE\n"
     "  or:  glint -c TEXT\n"
     "  or:  glint --times FILE\n"
-    "  or:  glint --list sensors | scenarios | vehicles | pipelines | stages | tools | effects\n"
+    "  or:  glint --list programs|effects|sensors|scenarios|vehicles|pipelines\n"
     "  or:  glint --list EFFECT\n"
     "  or:  glint --datasheet SUITE\n"
     "Run a pipeline of glint stages, and a tool at its end, in one process.\n"
     "\n"
-    "FILE is a script that bash would run too, with the same output and exit code. It holds\n"
-    "one pipeline: words, quotes, comments, continued lines, |, and the line\n"
-    "`set -o pipefail`. Anything else is refused, with its line. If any program fails, the\n"
-    "file of -o is left as it was. A name without dot and slash that no file has is that of an\n"
-    "installed pipeline: glint two-vehicles.\n"
+    "FILE is a script that bash would run too, with the same output and exit code. It\n"
+    "holds one pipeline: words, quotes, comments, continued lines, |, and the line\n"
+    "`set -o pipefail`. Anything else is refused, with its line. If any program\n"
+    "fails, the file of -o stays as it was. A name without dot and slash is that of a\n"
+    "file or else of an installed pipeline: glint two-vehicles.\n"
     "\n"
     "Options:\n"
     "  -c TEXT              run TEXT instead of a file\n"
-    "      --times FILE     run FILE, then print where the time went to stderr (JSON lines)\n"
-    "      --list WHAT      list what is installed, with a sentence on each; of an effect,\n"
-    "                       by its name, what causes it, when auto leaves it out, its cost\n"
+    "      --times FILE     run FILE, then print to stderr, as JSON lines, how long\n"
+    "                       each part took\n"
+    "      --list WHAT      list what there is, with a sentence on each; of an\n"
+    "                       effect: its cause, when auto leaves it out, its cost\n"
     "      --datasheet SUITE\n"
-    "                       print the radars of a suite (a name in data/sensors/, or a path) as\n"
-    "                       their maker would: resolution, accuracy, ranges of detection, false\n"
-    "                       alarms, and how well the figures agree with each other\n"
+    "                       print the radars of a suite (a name in data/sensors/, or\n"
+    "                       a path) as their maker would: resolution, accuracy,\n"
+    "                       ranges of detection, false alarms, and whether its\n"
+    "                       figures agree\n"
     "  -h, --help           print this help\n"
     "      --version        print the version\n"
     "\n"
-    "Exit status: that of the rightmost program that fails, as with bash's pipefail; 64 if the\n"
-    "pipeline is refused, 78 if a suite is.\n";
+    "Exit status: that of the rightmost program that fails, as with bash's pipefail;\n"
+    "64 if the pipeline is refused, 78 if a suite is.\n";
 
 static int complain(const struct diag *diag)
 {
@@ -217,16 +235,13 @@ static int run_file(const char *name, bool timed, struct arena *arena)
     return code;
 }
 
-static void add_stages(struct text *text)
+/* A stage stands at a place of the chain, a tool at its end or alone. */
+static void add_programs(struct text *text)
 {
     for (size_t i = 0; stages[i] != NULL; i++)
-        text_format(text, "glint-%-18s %s\n", stages[i]->name, stages[i]->summary);
-}
-
-static void add_tools(struct text *text)
-{
+        text_format(text, "glint-%-18s stage  %s\n", stages[i]->name, stages[i]->summary);
     for (size_t i = 0; tools[i] != NULL; i++)
-        text_format(text, "glint-%-18s %s\n", tools[i]->name, tools[i]->summary);
+        text_format(text, "glint-%-18s tool   %s\n", tools[i]->name, tools[i]->summary);
 }
 
 static void add_effects(struct text *text)
@@ -319,7 +334,7 @@ static const struct file_kind {
 static const struct built_kind {
     const char *name;
     void (*add)(struct text *text);
-} built_kinds[] = {{"stages", add_stages}, {"tools", add_tools}, {"effects", add_effects}};
+} built_kinds[] = {{"programs", add_programs}, {"effects", add_effects}};
 
 enum {
     FILE_KINDS = sizeof file_kinds / sizeof file_kinds[0],
@@ -370,8 +385,8 @@ static int add_listing(const char *kind, struct text *text, struct arena *arena,
         }
     }
     return diag_fail(diag, DIAG_USAGE,
-                     "--list %s is unknown%s; expected sensors, scenarios, vehicles, pipelines, "
-                     "stages, tools, effects or the name of an effect",
+                     "--list %s is unknown%s; expected programs, effects, sensors, scenarios, "
+                     "vehicles, pipelines or the name of an effect",
                      kind, suggestion_question(&meant, ""));
 }
 
@@ -426,6 +441,10 @@ static int refuse_options(const char *first)
 static int run(int count, char **words, struct arena *arena)
 {
     const char *first = count > 1 ? words[1] : "", *second = count > 2 ? words[2] : NULL;
+    if (count < 2) {
+        fputs(first_hour, stderr);
+        return DIAG_USAGE;
+    }
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
         return print(usage, sizeof usage - 1);
     if (strcmp(first, "--version") == 0)

@@ -44,27 +44,30 @@ struct program options_program_of_tool(const struct tool *tool)
 static const struct field common_fields[] = {
     {OPTIONAL_NAME(
          struct common_options, output,
-         "write to this file instead of standard output, compressed if it ends in .gz; the file is "
-         "there when it is whole, and takes the place of one that was there, with its mode and "
-         "owner"),
+         "write to this file instead of standard output, compressed if its name ends in .gz; the "
+         "file appears when it is whole, and replaces an older one but keeps its mode and owner"),
      .word = "FILE"},
     {OPTIONAL_NAME(
          struct common_options, sections,
-         "what frames carry from here on: all, none, or words with commas, -WORD to leave one out; "
-         "words: objects, reflectors, echoes, cells, account (account:every=10 for every tenth "
-         "frame), margins, quality, visibility; absent: as the frames say, objects at a source"),
+         "what frames carry from this stage on: all, none, or words with commas, -WORD to leave "
+         "one "
+         "out; words: objects, reflectors, echoes, cells, account (account:every=10 for every "
+         "tenth "
+         "frame), margins, quality, visibility; absent: what the frames say; at a source: objects"),
      .word = "LIST"},
-    {FIELD_SEED_OF(struct common_options, seed,
-                   "seed of the random numbers from here on; absent: 1, or the frames' own"),
+    {FIELD_SEED_OF(
+         struct common_options, seed,
+         "seed of the random numbers from here on; absent: the frames' own; at a source: 1"),
      FIELD_OPTIONAL, .absent = 1},
     {OPTIONAL_NAME(
          struct common_options, explain,
-         "append to this file which effects were simulated or left out, why, and their time"),
+         "append to this file which effects the stage simulated or left out, why, and their time"),
      .word = "FILE"},
-    {OPTIONAL_FLAG(struct common_options, table,
-                   "write the lines of --explain as a table for people")},
-    {OPTIONAL_FLAG(struct common_options, complete,
-                   "fail unless there is a scene, and each has all frames from 0 to its last")},
+    {OPTIONAL_FLAG(struct common_options, text,
+                   "write the lines of --explain as a table for people instead of JSON")},
+    {OPTIONAL_FLAG(
+        struct common_options, complete,
+        "fail unless the stream has a scene, and every scene all its frames from 0 to the last")},
     {OPTIONAL_FLAG(struct common_options, help, "print this help")},
     {OPTIONAL_FLAG(struct common_options, version, "print the version")},
     {0},
@@ -115,7 +118,7 @@ static bool applies(const struct program *program, const struct field *field)
     case offsetof(struct common_options, seed):
         return stage || program->takes_files;
     case offsetof(struct common_options, explain):
-    case offsetof(struct common_options, table):
+    case offsetof(struct common_options, text):
         return simulates;
     case offsetof(struct common_options, complete):
         return program->takes_files;
@@ -312,8 +315,8 @@ int options_read(const struct program *program, size_t count, const char *const 
     if (result == 0 && common->explain != NULL && strcmp(common->explain, "-") == 0)
         result =
             diag_fail(diag, DIAG_USAGE, "--explain: - is the stream of frames; expected a file");
-    if (result == 0 && common->table && common->explain == NULL)
-        result = diag_fail(diag, DIAG_USAGE, "--table: only with --explain");
+    if (result == 0 && common->text && common->explain == NULL)
+        result = diag_fail(diag, DIAG_USAGE, "--text: only with --explain");
     if (result != 0)
         diag->code = DIAG_USAGE;
     return result;
@@ -328,21 +331,54 @@ static const char *value_word(const struct field *field)
     return field->word != NULL ? field->word : words[field->kind];
 }
 
+/* The words of a paragraph, in lines that begin at this column, where the text now ends. */
+static void add_words(const char *words, size_t length, size_t column, struct text *text)
+{
+    enum { WIDTH = 80 };
+    const char *end = words + length;
+    for (size_t at = column; words < end; words++) {
+        size_t word = strcspn(words, " \n");
+        if (at > column && at + 1 + word > WIDTH) {
+            text_format(text, "\n%*s", (int)column, "");
+            at = column;
+        }
+        text_format(text, "%s%.*s", at > column ? " " : "", (int)word, words);
+        at += (at > column) + word;
+        words += word;
+    }
+    text_add_word(text, "\n");
+}
+
+static void add_sentence(const char *words, struct text *text)
+{
+    add_words(words, strlen(words), 0, text);
+}
+
+/* Paragraphs are filled anew; lines that begin with a blank stay as they are. */
+static void add_paragraphs(const char *words, struct text *text)
+{
+    while (*words != '\0') {
+        size_t length = strcspn(words, "\n");
+        bool kept = words[0] == ' ' || length == 0;
+        while (!kept && words[length] == '\n' && strchr(" \n", words[length + 1]) == NULL)
+            length += 1 + strcspn(words + length + 1, "\n");
+        if (kept)
+            text_format(text, "%.*s\n", (int)length, words);
+        else
+            add_words(words, length, 0, text);
+        words += length + (words[length] == '\n');
+    }
+}
+
 /* A name in the left column, and what it means in lines of the right one; a long name has a line of
  * its own. */
 static void add_entry(const char *name, const char *words, struct text *text)
 {
-    enum { NAME = 26, COLUMN = 30, WIDTH = 90 };
-    text_format(text, "  %-*s", NAME + 1, name);
-    size_t at = strlen(name) <= NAME ? COLUMN - 1 : WIDTH;
-    while (*words != '\0') {
-        size_t length = strcspn(words, " ");
-        bool fits = at + 1 + length <= WIDTH;
-        text_format(text, "%s%*s%.*s", fits ? "" : "\n", fits ? 1 : COLUMN, "", (int)length, words);
-        at = (fits ? at + 1 : COLUMN) + length;
-        words += length + (words[length] == ' ');
-    }
-    text_add_word(text, "\n");
+    enum { COLUMN = 30 };
+    text_format(text, "  %-*s", COLUMN - 2, name);
+    if (strlen(name) > COLUMN - 4)
+        text_format(text, "\n%*s", COLUMN, "");
+    add_words(words, strlen(words), COLUMN, text);
 }
 
 static void help_option(const struct field *field, struct text *text)
@@ -367,33 +403,44 @@ static void help_option(const struct field *field, struct text *text)
     add_entry(left, words, text);
 }
 
-static void help_sections(const char *verb, unsigned sections, struct text *text)
+/* A sentence that ends with the names of sections. */
+static void help_sections(const char *words, unsigned sections, struct text *text)
 {
-    text_format(text, "%s", verb);
+    struct text sentence = {0};
+    text_add_word(&sentence, words);
     const char *separator = " ";
     for (unsigned bit = 1; bit <= SECTION_VISIBILITY; bit <<= 1)
         if ((sections & bit) != 0) {
-            text_format(text, "%s%s", separator, frame_section_name(bit));
+            text_format(&sentence, "%s%s", separator, frame_section_name(bit));
             separator = ", ";
         }
-    text_add_word(text, ".\n");
+    text_add(&sentence, ".", 2);
+    add_sentence(sentence.bytes, text);
+    text_free(&sentence);
 }
 
 static void help_usage(const struct program *program, struct text *text)
 {
     const char *operand = program->operand;
-    text_format(text, "Usage: glint-%s [OPTION]...%s%s%s\n%s\n", program->name,
+    text_format(text, "Usage: glint-%s [OPTION]...%s%s%s\n", program->name,
                 operand != NULL ? " " : "", operand != NULL ? operand : "",
-                program->takes_files ? " [FILE]..." : "", program->summary);
-    if (program->operand != NULL)
-        text_format(text, "\n%s: %s.\n", program->operand, program->options->fields->help);
-    if (program->details != NULL)
-        text_format(text, "\n%s\n", program->details);
+                program->takes_files ? " [FILE]..." : "");
+    add_sentence(program->summary, text);
+    if (program->operand != NULL) {
+        char words[512];
+        snprintf(words, sizeof words, "%s: %s.", operand, program->options->fields->help);
+        text_add_word(text, "\n");
+        add_sentence(words, text);
+    }
+    if (program->details != NULL) {
+        text_add_word(text, "\n");
+        add_paragraphs(program->details, text);
+    }
 }
 
-void options_help(const struct program *program, struct text *text)
+/* How frames come and go. */
+static void help_frames(const struct program *program, struct text *text)
 {
-    help_usage(program, text);
     if (program->reads != 0 || program->writes != 0)
         text_add_word(text, "\n");
     if (program->reads != 0)
@@ -402,9 +449,15 @@ void options_help(const struct program *program, struct text *text)
     if (program->writes != 0)
         help_sections("Frames go as JSON lines to standard output; writes", program->writes, text);
     if (program->kind == PROGRAM_FILTER)
-        text_add_word(text, "Each goes out before the program waits for the next.\n");
+        add_sentence("Each goes out before the program waits for the next.", text);
     if (program->takes_files && program->writes == 0)
-        text_add_word(text, "Writes no frames: in a pipeline it stands last.\n");
+        add_sentence("Writes no frames: in a pipeline it stands last.", text);
+}
+
+void options_help(const struct program *program, struct text *text)
+{
+    help_usage(program, text);
+    help_frames(program, text);
     text_add_word(text, "\nOptions:\n");
     for (const struct field *field = named_options(program); field->name != NULL; field++)
         help_option(field, text);
@@ -413,8 +466,9 @@ void options_help(const struct program *program, struct text *text)
             help_option(field, text);
     text_add_word(text, "\nEnvironment:\n");
     add_entry("GLINT_DATA", "folder of your own documents, before the shipped ones", text);
-    text_add_word(text,
-                  "\nExit status: 0, or as in sysexits: 64 usage, 65 bad data, 66 no input, "
-                  "70 internal,\n71 memory or descriptors, 73 cannot create, 74 input/output, 78 "
-                  "configuration.\n");
+    text_add_word(text, "\n");
+    add_sentence("Exit status: 0, or as in sysexits: 64 usage, 65 bad data, 66 no input, "
+                 "70 internal, 71 memory or descriptors, 73 cannot create, 74 input/output, "
+                 "78 configuration.",
+                 text);
 }

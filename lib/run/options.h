@@ -39,7 +39,7 @@ struct program options_program_of_tool(const struct tool *tool);
 struct common_options {
     const char *output; /* NULL: standard output */
     const char *explain;
-    bool table;           /* the lines of explain are a table for people */
+    bool text;            /* the lines of explain are a table for people */
     const char *sections; /* NULL: what the frames say */
     bool complete;
     uint64_t seed;

@@ -119,8 +119,10 @@ static const struct suite *find_suite_of(struct runner *runner, const struct fra
         diag_fail(
             &runner->diag, DIAG_CONFIG,
             "sensors.suite: no \"%s\" among the documents or in the working folder is the one "
-            "that the frame was seen with, %s; give that one: --sensors PATH",
-            name, frame->sensors.digest);
+            "that the frame was seen with, %s; give its path (--sensors PATH), or set GLINT_DATA "
+            "to a "
+            "folder that has it as sensors/%s.json",
+            name, frame->sensors.digest, name);
     return suite;
 }
 

@@ -133,7 +133,7 @@ static void append(struct diag *diag, const char *separator, const char *text)
     snprintf(diag->text + used, sizeof diag->text - used, "%s%s", separator, text);
 }
 
-/* Says what was meant, where it was looked for, and what is there instead. */
+/* Says what was meant, where it was looked for, and how to list what is there. */
 static void refuse_name(const char *kind, const char *name, const char *ending,
                         const struct folders *folders, struct arena *arena, struct diag *diag)
 {
@@ -146,8 +146,8 @@ static void refuse_name(const char *kind, const char *name, const char *ending,
               suggestion_question(&meant, ""));
     for (size_t i = 0; i < folders->count; i++)
         append(diag, i == 0 ? " " : ", ", folders->paths[i]);
-    for (size_t i = 0; i < there.names.count; i++)
-        append(diag, i == 0 ? "; there are " : ", ", there.names.items[i]);
+    if (there.names.count > 0)
+        append(diag, "; all are listed by glint --list ", kind);
 }
 
 static const char *find_in(const char *own, const char *kind, const char *name, const char *ending,

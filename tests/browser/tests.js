@@ -488,7 +488,7 @@ const tests = {
             assert.match(await clock(page), new RegExp(`/${side.length}\\)`));
             assert.ok(await page.isHidden('#notice'));
         });
-        const only = fs.readFileSync(view(mixed, '--scene', side[0].scene), 'utf8');
+        const only = fs.readFileSync(view(mixed, '--only', side[0].scene), 'utf8');
         assert.ok(only.includes(side[0].scene) && !only.includes(corner[0].scene));
     },
 
@@ -616,7 +616,7 @@ const tests = {
     },
 
     async 'asking for what is not there fails'() {
-        for (const options of [['--frame', '4000'], ['--scene', 'nowhere'], ['--svg', '--frame', '4000']]) {
+        for (const options of [['--frame', '4000'], ['--only', 'nowhere'], ['--svg', '--frame', '4000']]) {
             const run = spawnSync('glint-view', options, {input: write(corner.slice(0, 5))});
             assert.strictEqual(run.status, 65, options.join(' '));
         }

@@ -25,7 +25,7 @@ SOUND = [
     ("glint pipelines/intersection.sh", ""), ("glint pipelines/contour.sh", "--extract extract-contour"),
     ("glint pipelines/3gpp.sh", "--extract extract-3gpp"), ("glint pipelines/wheels-and-limbs.sh", ""),
     ("glint pipelines/smear.sh", ""), ("glint pipelines/ghosts.sh", ""), ("glint pipelines/snow.sh", ""),
-    ("glint-traffic-random --frames 60 --conditions --density dense | "
+    ("glint-traffic-random --frames 60 --draw-conditions --density dense | "
      + CHAIN.format("radarscenes77-full --sections account,reflectors"), ""),
     ("glint-traffic-random --frames 60 --density dense | glint-extract --vehicles data/detailed/vehicles --sections "
      "reflectors | glint-ideal --sensors corner77-uncompensated | glint-sensor | glint-noise", ""),

@@ -211,7 +211,7 @@ def every_table_joins_every_other(folder):
                            and name != "contributors"), f"{name}.{key} joins another world"
     lines = os.path.join(folder, "test.jsonl.gz")
     done = run(["bash", "-e", "-o", "pipefail", "-c", f"cat {place}/*/*/*.jsonl.gz > {lines}; scripts/tracker {lines}"
-                f" | glint-score-tracks --tracks - {lines} --table"], cwd=ROOT)
+                f" | glint-score-tracks --tracks - {lines} --text"], cwd=ROOT)
     assert done.returncode == 0 and f"{len(frames)} frames;" in done.stdout, done.stdout
 
 
@@ -227,7 +227,7 @@ def kind_of_target(frame, target):
 
 def counts_of_the_page_add_up(folder):
     """All targets by kind, as the lines have them; and the page says where the traffic comes from."""
-    sources = [{"random": "dense", "frames": 200, "options": "--conditions"}]
+    sources = [{"random": "dense", "frames": 200, "options": "--draw-conditions"}]
     place = made(folder, plan_of(sources, suites=["lrr77-full"], splits={"by": "scene", "shares": SHARES}, frames_per_shard=50))
     with open(os.path.join(place, "README.md"), encoding="utf-8") as file:
         page = file.read()
@@ -305,7 +305,7 @@ def no_two_scenes_share_a_draw(folder):
     with open(os.path.join(folder, "mine.json"), "w", encoding="utf-8") as file:
         json.dump(roads | {"origin": "A copy."}, file)
     scenarios = [{"scenario": name, "scenes": [0, 12]} for name in ("varied-cut-in", "random-roads", "./mine.json")]
-    drawn = [{"random": density, **more, "options": "--conditions"} for density in ("sparse", "medium", "dense")
+    drawn = [{"random": density, **more, "options": "--draw-conditions"} for density in ("sparse", "medium", "dense")
              for more in ({"frames": 12}, {"seconds": 1, "scenes": [0, 12]})]
     place, done = begin(folder, plan_of([*drawn, *scenarios], seeds=[1, 2], frames_per_shard=10000,
                                         splits={"by": "scene", "shares": {"train": 0.5, "test": 0.5}}))
@@ -450,7 +450,7 @@ def what_no_frame_of_a_rehearsal_meets_is_refused(folder):
         (plan_of([{"random": "medium", "frames": 9}, timed | late]), '/sources/1/egos: "1007" has no frame in the block that begins at 6.1 s'),
         (plan_of([timed | {"egos": ["1", "nobody"]}]), '/sources/0: this fails: glint-traffic highway --ego 1,nobody'),
         (plan_of([timed | {"options": "--class-map car=carr"}]), "/chain: this fails: glint -c"),
-        (plan_of([moving | {"options": "--conditions=7"}]), "/sources/0: this fails: glint -c"),
+        (plan_of([moving | {"options": "--draw-conditions=7"}]), "/sources/0: this fails: glint -c"),
         (plan_of([moving | {"options": "--colour red"}]), "/sources/0: this fails: glint -c"),
         (plan_of([moving | {"rate_hz": 5}], suites=["corner77"]), "/chain: this fails: glint -c"),
         (plan_of([timed], suites=["corner77"]), "/chain: this fails: glint -c"),

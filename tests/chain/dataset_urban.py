@@ -13,7 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import dataset as sets  # noqa: E402
 
 PLAN = os.path.join(sets.ROOT, "data", "sets", "urban.json")
-SCORES = ("scripts/tracker {lines} | glint-score-tracks --tracks - {lines} --table")
+SCORES = ("scripts/tracker {lines} | glint-score-tracks --tracks - {lines} --text")
 
 
 def words(text):
@@ -37,7 +37,7 @@ def main():
         done = sets.run(["bash", "-e", "-o", "pipefail", "-c",
                          f"cat {shlex.quote(place)}/test/*/*.jsonl.gz > {shlex.quote(lines)}; {scores}"], cwd=sets.ROOT)
         assert done.returncode == 0, done.stdout
-        shown = re.search(r"--table\n\n((?:    .*\n)+)", published)[1]
+        shown = re.search(r"--text\n\n((?:    .*\n)+)", published)[1]
         wrong = [line for line in words(shown) if line not in words(done.stdout)]
         assert not wrong, f"data/sets/README.md shows other scores than these: {' '.join(wrong[0])}\n{done.stdout}"
     print(f"urban: {found}, and the page's scores")

@@ -247,7 +247,7 @@ def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
             sensors.setdefault(view["name"], Tally()).add(tally)
     summary = bench.run(command + " --summary")[0]
     check_summary(summary, sensors, source)
-    check_table(bench.table(command + " --table"), summary["sensors"] + [summary["all"]] * (len(sensors) > 1), "cells",
+    check_table(bench.table(command + " --text"), summary["sensors"] + [summary["all"]] * (len(sensors) > 1), "cells",
                 source)
     swapped = bench.run(command.replace("truth.jsonl list.jsonl", "list.jsonl truth.jsonl") + " --summary")[0]
     for tally in sensors.values():
@@ -370,7 +370,7 @@ def check_tracks(bench, rng, frames, which, cutoff):
         total += switches
     summary = bench.run(command + " --summary")[0]
     everything.compare(summary["all"], f"tracks {which}, summary")
-    check_table(bench.table(command + " --table"), [summary["all"]], "m", f"tracks {which}")
+    check_table(bench.table(command + " --text"), [summary["all"]], "m", f"tracks {which}")
     check(summary["id_switches"] == total > 0, f"tracks {which}: {summary['id_switches']} switches, expected {total}")
 
 

@@ -87,7 +87,7 @@ def count_in_the_account():
     seen = collections.Counter()
     for source, suite in (("glint-traffic intersection", "srr24-pair"), ("glint-traffic walled-road", "lrr77-full"),
                           ("glint-traffic-random --density dense --frames 60", "corner77-every-frame"),
-                          ("glint-traffic-random --density medium --conditions --frames 60", "lrr77-full")):
+                          ("glint-traffic-random --density medium --draw-conditions --frames 60", "lrr77-full")):
         for frame in run(f"{source} --sections visibility,account,echoes | glint-extract"
                          f" | glint-ideal --sensors {suite} | glint-sensor | glint-noise"):
             compare(frame, seen)

@@ -100,7 +100,7 @@ def walled(draw, number):
 def scenes(bench, density, suite, frames, first):
     if density == "walled":
         return [walled(random.Random(f"{first} {n}"), n) for n in range(frames)]
-    text = bench.stage(random_scenes.source(density, suite, frames, first=first) + ["--conditions"], "")
+    text = bench.stage(random_scenes.source(density, suite, frames, first=first) + ["--draw-conditions"], "")
     return [json.loads(line) for line in text.splitlines()]
 
 

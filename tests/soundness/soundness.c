@@ -3,8 +3,8 @@
  * effects: auto, or auto without one of them.
  *
  * Frame number n is that of glint-traffic-random (or, of the tests' own, glint-traffic-adversarial)
- * --conditions --first n --frames 1 with the same options; --first n --frames 1 --print writes it,
- * for the chain to read. The output is one JSON line: per planner the violations, the first of
+ * --draw-conditions --first n --frames 1 with the same options; --first n --frames 1 --print writes
+ * it, for the chain to read. The output is one JSON line: per planner the violations, the first of
  * them, how often each effect was simulated and left out, and the time. Exit status 1 if there is a
  * violation. */
 #include <inttypes.h>
@@ -141,8 +141,8 @@ static int start_scenes(struct bench *bench)
     bench->scene.arena = &bench->arena;
     return start_stage(&bench->source, adversarial ? "traffic-adversarial" : "traffic-random",
                        (const char *const[]){adversarial ? "--sensors" : "--density", around,
-                                             "--first", first, "--frames", frames, "--conditions",
-                                             NULL}) == 0
+                                             "--first", first, "--frames", frames,
+                                             "--draw-conditions", NULL}) == 0
                ? start_stage(&bench->extract, "extract", (const char *const[]){NULL})
                : -1;
 }

@@ -12,7 +12,7 @@
 struct traffic_adversarial {
     int64_t frames, first;
     double rate_hz;
-    bool conditions;
+    bool draw_conditions;
     const char *sensors;
     const struct suite *suite;
     struct random_traffic scene;
@@ -57,7 +57,7 @@ static int traffic_adversarial_next(void *state, struct frame *frame, struct run
     frame->last = true;
     random_traffic_fill(&traffic->scene, number, frame);
     adversarial_traffic_add(&traffic->scene, traffic->suite, number, frame);
-    if (traffic->conditions)
+    if (traffic->draw_conditions)
         random_traffic_conditions(random_traffic_address(&traffic->scene, frame->seed, number),
                                   frame);
     return 1;
@@ -85,7 +85,7 @@ static const struct field traffic_adversarial_options[] = {
     {FIELD_REAL_IN(struct traffic_adversarial, rate_hz, 1, 1e4,
                    "frame number n is at time n / rate; absent: 20"),
      FIELD_OPTIONAL, .absent = 20},
-    {FIELD_FLAG_OF(struct traffic_adversarial, conditions,
+    {FIELD_FLAG_OF(struct traffic_adversarial, draw_conditions,
                    "draw road, weather and other radars too"),
      FIELD_OPTIONAL},
     {0},

@@ -55,12 +55,12 @@ static void what_is_no_section_is_refused(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"acount", "\"acount\" is no section (did you mean account?); expected objects, "},
+        {"acount", "\"acount\" is no section (did you mean account?); glint-ideal --help"},
         {"-echos", "\"-echos\" is no section (did you mean -echoes?)"},
-        {"", "\"\" is no section; expected"},
-        {"account,", "\"\" is no section; expected"},
-        {"account,all", "\"all\" is no section; expected objects"},
-        {"targets", "\"targets\" is no section; expected"},
+        {"", "\"\" is no section; glint-ideal"},
+        {"account,", "\"\" is no section; glint-ideal"},
+        {"account,all", "\"all\" is no section; glint-ideal"},
+        {"targets", "\"targets\" is no section; glint-ideal"},
         {"-account:every=2", "\"-account:every=2\" is no section"},
         {"account:every=0", "account:every=0; expected a whole number in [1, 1e9]"},
         {"account:every=2.5", "account:every=2.5; expected a whole number in [1, 1e9]"},

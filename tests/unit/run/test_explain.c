@@ -61,7 +61,7 @@ static void stages_share_a_file_and_a_table_is_for_people(void **state)
     struct scratch *scratch = *state;
     struct effect_log log = sample_log();
     struct diag diag = {0};
-    struct common_options common = {.explain = scratch->path, .table = true};
+    struct common_options common = {.explain = scratch->path, .text = true};
     assert_int_equal(explain_check(scratch->path, &diag), 0);
     assert_string_equal(content(scratch), "");
     assert_int_equal(explain_append(&common, "sensor", &log, &diag), 0);

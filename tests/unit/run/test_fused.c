@@ -167,14 +167,12 @@ static void stages_and_tools_have_a_line_each_with_their_sentence(void **state)
     (void)state;
     char line[512];
     for (size_t i = 0; stages[i] != NULL; i++) {
-        snprintf(line, sizeof line, "glint-%-18s %s\n", stages[i]->name, stages[i]->summary);
-        expect_line("stages", line, true);
-        expect_line("tools", line, false);
+        snprintf(line, sizeof line, "glint-%-18s stage  %s\n", stages[i]->name, stages[i]->summary);
+        expect_line("programs", line, true);
     }
     for (size_t i = 0; tools[i] != NULL; i++) {
-        snprintf(line, sizeof line, "glint-%-18s %s\n", tools[i]->name, tools[i]->summary);
-        expect_line("tools", line, true);
-        expect_line("stages", line, false);
+        snprintf(line, sizeof line, "glint-%-18s tool   %s\n", tools[i]->name, tools[i]->summary);
+        expect_line("programs", line, true);
     }
 }
 
@@ -247,9 +245,9 @@ static void an_unknown_kind_is_refused_with_what_was_meant(void **state)
     struct captured *captured = glint("--list", "sensor");
     assert_int_equal(captured->code, DIAG_USAGE);
     assert_string_equal(
-        captured->err, "glint: --list sensor is unknown (did you mean sensors?); expected sensors, "
-                       "scenarios, vehicles, pipelines, stages, tools, effects or the name of an "
-                       "effect\n");
+        captured->err,
+        "glint: --list sensor is unknown (did you mean sensors?); expected programs, "
+        "effects, sensors, scenarios, vehicles, pipelines or the name of an effect\n");
     assert_string_equal(captured->out, "");
 }
 

@@ -111,8 +111,8 @@ static void run_filters(const char *suite, const char *density)
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     begin(&source, stage_of("traffic-random"), 7,
-          (const char *[]){"--density", density, "--conditions", "--frames", "20", "--sections",
-                           "all"});
+          (const char *[]){"--density", density, "--draw-conditions", "--frames", "20",
+                           "--sections", "all"});
     for (size_t i = 0; i < count; i++)
         begin(&runners[i], filters[i], strcmp(filters[i]->name, "ideal") == 0 ? 2 : 0,
               (const char *[]){"--sensors", suite});

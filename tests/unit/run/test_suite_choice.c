@@ -85,7 +85,8 @@ static void a_stage_takes_the_suite_that_the_frame_was_seen_with(void **state)
     expect_refused(&bench, DIAG_CONFIG, "sensors.digest: the frame was seen with ");
     bench.frame.sensors.digest = "0123456789abcdef";
     assert_null(suite_choice_suite(&own, &bench.frame, &bench.runner));
-    expect_refused(&bench, DIAG_CONFIG, "seen with, 0123456789abcdef; give that one: --sensors");
+    expect_refused(&bench, DIAG_CONFIG,
+                   "seen with, 0123456789abcdef; give its path (--sensors PATH)");
     end(&bench);
 }
 
