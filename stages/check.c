@@ -31,7 +31,7 @@ static void begin_ideal(struct check *own, const struct frame *frame)
     const char *key = arena_format(frame->arena, "%s %s", now->digest, effects);
     if (own->key != NULL && strcmp(own->key, key) == 0)
         return;
-    const struct suite *suite = runner_suite_of_frame(own->runner, frame);
+    const struct suite *suite = suite_choice_of_frame(own->runner, frame);
     struct suite_choice choice = {suite != NULL ? suite->given : NULL,
                                   arena_text(arena, effects, strlen(effects))};
     own->key = arena_text(arena, key, strlen(key));
@@ -232,7 +232,7 @@ static int check_run(void *state, struct runner *runner)
             runner_diag(runner), DIAG_USAGE,
             "--extract: there is no stage \"%s\"; expected extract-contour or the like",
             own->extract);
-    if (own->sensors != NULL && runner_suite(runner, own->sensors) == NULL)
+    if (own->sensors != NULL && suite_choice_load(runner, own->sensors) == NULL)
         return -1;
     own->extraction = runner_trial(runner, extract, NULL, NULL);
     struct output *output = runner_output(runner);

@@ -15,7 +15,7 @@ struct ideal {
 static int ideal_start(void *state, struct runner *runner)
 {
     struct ideal *ideal = state;
-    ideal->suite = runner_suite(runner, ideal->choice.sensors);
+    ideal->suite = suite_choice_load(runner, ideal->choice.sensors);
     return ideal->suite == NULL ? -1
                                 : suite_choice_request(&ideal->choice, ideal->suite,
                                                        &ideal->request, runner_diag(runner));

@@ -92,7 +92,7 @@ static int64_t signal_samples(const struct suite *suite)
 int cost_begin(struct cost *cost, int64_t frames)
 {
     struct arena *arena = runner_arena(cost->runner);
-    const struct suite *suite = runner_suite(cost->runner, cost->suite);
+    const struct suite *suite = suite_choice_load(cost->runner, cost->suite);
     if (suite == NULL)
         return -1;
     int64_t samples = signal_samples(suite), most = FRAMES;

@@ -42,7 +42,7 @@ int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runn
     struct sensors request;
     struct selection selection;
     struct diag *diag = runner_diag(runner);
-    const struct suite *suite = runner_suite(runner, choice->sensors);
+    const struct suite *suite = suite_choice_load(runner, choice->sensors);
     if (suite == NULL || suite_choice_request(choice, suite, &request, diag) != 0 ||
         effects_read(request.effects, &selection, diag) != 0)
         return -1;

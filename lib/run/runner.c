@@ -1,14 +1,18 @@
 #include "run/runner.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
 #include <strings.h>
+#include <time.h>
 #include <unistd.h>
 
-#include "documents/suite_file.h"
+#include "base/text.h"
 #include "documents/vehicle.h"
+#include "effects/effect.h"
 #include "frame/frame_account.h"
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
-#include "run/explain.h"
 #include "run/suite_choice.h"
 #include "score/reference_stream.h"
 #include "text/document.h"
@@ -65,73 +69,6 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
     return runner_write_text(runner, &text);
 }
 
-static const struct suite *load_suite(struct runner *runner, const char *name, struct diag *diag)
-{
-    const struct suite *suite = suite_file_load(name, &runner->arena, diag);
-    if (suite != NULL)
-        *list_add(&runner->suites, &runner->arena) = suite;
-    return suite;
-}
-
-const struct suite *runner_suite(struct runner *runner, const char *name)
-{
-    for (size_t i = 0; i < runner->suites.count; i++)
-        if (strcmp(runner->suites.items[i]->given, name) == 0)
-            return runner->suites.items[i];
-    return load_suite(runner, name, &runner->diag);
-}
-
-static bool is_suite_of(const struct suite *suite, const struct frame *frame)
-{
-    return suite != NULL && strcmp(suite->name, frame->sensors.suite) == 0 &&
-           strcmp(suite->digest, frame->sensors.digest) == 0;
-}
-
-static const struct suite *loaded_suite_of(const struct runner *runner, const struct frame *frame)
-{
-    for (; runner != NULL; runner = runner->before)
-        for (size_t i = 0; i < runner->suites.count; i++)
-            if (is_suite_of(runner->suites.items[i], frame))
-                return runner->suites.items[i];
-    return NULL;
-}
-
-/* The document of the frame's suite at that place, or NULL; with a message only where the document
- * could not be opened for want of a descriptor. */
-static const struct suite *suite_at(struct runner *runner, const char *place,
-                                    const struct frame *frame)
-{
-    struct diag fault = {0};
-    const struct suite *suite =
-        document_is_regular(place) ? load_suite(runner, place, &fault) : NULL;
-    if (fault.code == DIAG_MEMORY)
-        runner->diag = fault;
-    return is_suite_of(suite, frame) ? suite : NULL;
-}
-
-static const struct suite *find_suite_of(struct runner *runner, const struct frame *frame)
-{
-    const char *name = frame->sensors.suite;
-    const struct suite *suite = suite_at(runner, name, frame);
-    if (suite == NULL)
-        suite = suite_at(runner, arena_format(&runner->arena, "./%s.json", name), frame);
-    if (suite == NULL)
-        diag_fail(
-            &runner->diag, DIAG_CONFIG,
-            "sensors.suite: no \"%s\" among the documents or in the working folder is the one "
-            "that the frame was seen with, %s; give its path (--sensors PATH), or set GLINT_DATA "
-            "to a "
-            "folder that has it as sensors/%s.json",
-            name, frame->sensors.digest, name);
-    return suite;
-}
-
-const struct suite *runner_suite_of_frame(struct runner *runner, const struct frame *frame)
-{
-    const struct suite *suite = loaded_suite_of(runner, frame);
-    return suite != NULL ? suite : find_suite_of(runner, frame);
-}
-
 const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class)
 {
     for (size_t i = 0; i < runner->vehicles.count; i++)
@@ -175,13 +112,23 @@ struct input *runner_input(struct runner *runner, const char *path)
     return input;
 }
 
+/* Of the times in a log. */
+static int64_t clock_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
 static int prepare(struct runner *runner, size_t count, const char *const *words)
 {
     runner->state = arena_get(&runner->arena, runner->program.options->size);
     int result = options_read(&runner->program, count, words, runner->state, &runner->common,
                               &runner->arena, &runner->diag);
-    if (runner->common.explain != NULL)
-        runner->log = explain_begin(&runner->arena);
+    if (runner->common.explain != NULL) {
+        runner->log = arena_get(&runner->arena, sizeof *runner->log);
+        runner->log->clock_ns = clock_ns;
+    }
     if (result == 0 && runner->common.sections != NULL &&
         sections_read(runner->common.sections, &runner->sections, &runner->diag) != 0)
         return diag_prefix(&runner->diag, "--sections: ");
@@ -289,11 +236,25 @@ static int ensure_message(struct runner *runner, int result)
     return result;
 }
 
+/* Also creates the file, so that one that cannot be written is refused before the run. */
+static int append(const char *path, const struct text *text, struct diag *diag)
+{
+    int file = open(path, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+        return diag_fail(diag, diag_code_by_errno(DIAG_CANNOT_CREATE), "%s: %s", path,
+                         strerror(errno));
+    if (output_write_all(file, text->bytes, text->length) != 0)
+        diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
+    if (close(file) != 0)
+        diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
+    return diag->code == DIAG_OK ? 0 : -1;
+}
+
 int runner_start(struct runner *runner)
 {
     const struct stage *stage = runner->stage;
     if (runner->log != NULL && runner->common.explain != NULL &&
-        explain_check(runner->common.explain, &runner->diag) != 0)
+        append(runner->common.explain, &(struct text){0}, &runner->diag) != 0)
         return -1;
     return stage->start == NULL ? 0 : ensure_message(runner, stage->start(runner->state, runner));
 }
@@ -382,6 +343,65 @@ int runner_try(struct runner *runner, struct runner *trial, struct frame *frame)
     return diag_prefix(&runner->diag, "glint-%s: ", trial->stage->name);
 }
 
+static void write_line(const char *stage, int effect, const struct effect_log *log,
+                       struct text *text)
+{
+    const char *left_out_when = effect_table[effect]->left_out_when;
+    text_format(text,
+                "{\"stage\":\"%s\",\"effect\":\"%s\",\"scans\":%" PRId64 ",\"simulated\":%" PRId64
+                ",\"left_out\":%" PRId64 ",\"ns\":",
+                stage, effects_names[effect], log->scans, log->scans_simulated[effect],
+                log->scans_left_out[effect]);
+    if (log->spent_ns[effect] > 0)
+        text_format(text, "%" PRId64, log->spent_ns[effect]);
+    else
+        text_add_word(text, "null");
+    text_add_word(text, ",\"left_out_when\":");
+    if (left_out_when != NULL)
+        text_add_json(text, left_out_when, strlen(left_out_when));
+    else
+        text_add_word(text, "null");
+    text_add_word(text, "}\n");
+}
+
+static void write_row(int effect, const struct effect_log *log, struct text *text)
+{
+    const char *left_out_when = effect_table[effect]->left_out_when;
+    text_format(text, "%-17s %10" PRId64 " %10" PRId64, effects_names[effect],
+                log->scans_simulated[effect], log->scans_left_out[effect]);
+    if (log->spent_ns[effect] > 0)
+        text_format(text, " %10.2f", 1e-3 * (double)log->spent_ns[effect] / (double)log->scans);
+    else
+        text_format(text, " %10s", "-");
+    text_format(text, "  %s\n", left_out_when != NULL ? left_out_when : "-");
+}
+
+/* Appends one line for every effect that is at home in the stage or in the one that it stands in
+ * for. A time is null or "-" where none was taken: the effect is simulated together with others, or
+ * was left out. The lines go out in one write, so stages of one pipeline may share the file. */
+static int explain(struct runner *runner)
+{
+    const struct common_options *common = &runner->common;
+    const char *stage = runner->stage->name;
+    const struct effect_log *log = runner->log;
+    struct text text = {0};
+    if (common->text)
+        text_format(&text, "%-17s %10s %10s %10s  left out when\n", stage, "simulated", "left out",
+                    "us a scan");
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        const char *home = effect_homes[effect_table[i]->home];
+        if (strncmp(stage, home, strlen(home)) != 0)
+            continue;
+        if (common->text)
+            write_row(i, log, &text);
+        else
+            write_line(stage, i, log, &text);
+    }
+    int result = append(common->explain, &text, &runner->diag);
+    text_free(&text);
+    return result;
+}
+
 int runner_finish(struct runner *runner)
 {
     const struct stage *stage = runner->stage;
@@ -389,9 +409,7 @@ int runner_finish(struct runner *runner)
         return -1;
     if (stage->stop != NULL && ensure_message(runner, stage->stop(runner->state, runner)) != 0)
         return -1;
-    return runner->log == NULL
-               ? 0
-               : explain_append(&runner->common, stage->name, runner->log, &runner->diag);
+    return runner->log == NULL ? 0 : explain(runner);
 }
 
 int runner_run_tool(struct runner *runner)
@@ -442,7 +460,7 @@ struct output *runner_output_beside(struct runner *runner, const char *path)
 }
 
 /* Refuses an output that one of the runners appends its explanations to. */
-static bool is_explained(struct runner *runner, const char *path)
+static bool refuse_explained(struct runner *runner, const char *path)
 {
     const struct runner *from = runner;
     do
@@ -458,7 +476,7 @@ struct output *runner_output_in(struct runner *runner, const char *folder, const
 {
     const char *path = arena_format(&runner->arena, "%s/%s", folder, name);
     if (document_check_folder("DIR", folder, &runner->diag) == 0)
-        return is_explained(runner, path) ? NULL : add_output(runner, path);
+        return refuse_explained(runner, path) ? NULL : add_output(runner, path);
     runner->diag.code = DIAG_CANNOT_CREATE;
     return NULL;
 }

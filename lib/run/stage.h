@@ -76,14 +76,8 @@ const struct stage *runner_stage(const struct runner *runner);
 /* Where the stage notes which effects it simulates and leaves out; NULL without --explain. */
 struct effect_log *runner_log(struct runner *runner);
 
-/* The suite that the command line gives by name or path (documents/suite_file.h), the one that a
- * frame names, and the vehicle document of a class (documents/vehicle.h; folder may be NULL). Each
- * is loaded once. A frame's suite is one that a stage before this one in the process has loaded, or
- * else it lies among the documents, or else in the working folder; it has the frame's digest.
- * Frames, whoever wrote them, give plain names, and only regular files are read for them. Stages
- * after ideal ask for the frame's suite by suite_choice.h. */
-const struct suite *runner_suite(struct runner *runner, const char *name);
-const struct suite *runner_suite_of_frame(struct runner *runner, const struct frame *frame);
+/* The vehicle document of a class (documents/vehicle.h; folder may be NULL), loaded once. Stages
+ * ask for suites by suite_choice.h. */
 const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class);
 
 /* What a sink writes: bytes, a text, whose memory is given back, or a record as a line of JSON. */

@@ -1,11 +1,81 @@
 #include "run/suite_choice.h"
 
+#include "documents/suite_file.h"
 #include "frame/frame_check.h"
+#include "run/runner.h"
+#include "text/document.h"
 
 static const struct field suite_choice_fields[] = {SUITE_CHOICE_AFTER_IDEAL, {0}};
 
 const struct record suite_choice_record = {
     .name = "stage", .size = sizeof(struct suite_choice), .fields = suite_choice_fields};
+
+static const struct suite *load_suite(struct runner *runner, const char *name, struct diag *diag)
+{
+    const struct suite *suite = suite_file_load(name, &runner->arena, diag);
+    if (suite != NULL)
+        *list_add(&runner->suites, &runner->arena) = suite;
+    return suite;
+}
+
+const struct suite *suite_choice_load(struct runner *runner, const char *name)
+{
+    for (size_t i = 0; i < runner->suites.count; i++)
+        if (strcmp(runner->suites.items[i]->given, name) == 0)
+            return runner->suites.items[i];
+    return load_suite(runner, name, &runner->diag);
+}
+
+static bool is_suite_of(const struct suite *suite, const struct frame *frame)
+{
+    return suite != NULL && strcmp(suite->name, frame->sensors.suite) == 0 &&
+           strcmp(suite->digest, frame->sensors.digest) == 0;
+}
+
+static const struct suite *loaded_suite_of(const struct runner *runner, const struct frame *frame)
+{
+    for (; runner != NULL; runner = runner->before)
+        for (size_t i = 0; i < runner->suites.count; i++)
+            if (is_suite_of(runner->suites.items[i], frame))
+                return runner->suites.items[i];
+    return NULL;
+}
+
+/* The document of the frame's suite at that place, or NULL; with a message only where the document
+ * could not be opened for want of a descriptor. */
+static const struct suite *suite_at(struct runner *runner, const char *place,
+                                    const struct frame *frame)
+{
+    struct diag fault = {0};
+    const struct suite *suite =
+        document_is_regular(place) ? load_suite(runner, place, &fault) : NULL;
+    if (fault.code == DIAG_MEMORY)
+        runner->diag = fault;
+    return is_suite_of(suite, frame) ? suite : NULL;
+}
+
+static const struct suite *find_suite_of(struct runner *runner, const struct frame *frame)
+{
+    const char *name = frame->sensors.suite;
+    const struct suite *suite = suite_at(runner, name, frame);
+    if (suite == NULL)
+        suite = suite_at(runner, arena_format(&runner->arena, "./%s.json", name), frame);
+    if (suite == NULL)
+        diag_fail(
+            &runner->diag, DIAG_CONFIG,
+            "sensors.suite: no \"%s\" among the documents or in the working folder is the one "
+            "that the frame was seen with, %s; give its path (--sensors PATH), or set GLINT_DATA "
+            "to a "
+            "folder that has it as sensors/%s.json",
+            name, frame->sensors.digest, name);
+    return suite;
+}
+
+const struct suite *suite_choice_of_frame(struct runner *runner, const struct frame *frame)
+{
+    const struct suite *suite = loaded_suite_of(runner, frame);
+    return suite != NULL ? suite : find_suite_of(runner, frame);
+}
 
 int suite_choice_request(const struct suite_choice *choice, const struct suite *suite,
                          struct sensors *request, struct diag *diag)
@@ -50,7 +120,7 @@ static int check_sensors(const struct suite *suite, const struct frame *frame, s
 static const struct suite *given_suite(const char *given, const struct frame *frame,
                                        struct runner *runner)
 {
-    const struct suite *suite = runner_suite(runner, given);
+    const struct suite *suite = suite_choice_load(runner, given);
     if (suite == NULL || strcmp(suite->digest, frame->sensors.digest) == 0)
         return suite;
     diag_fail(runner_diag(runner), DIAG_CONFIG,
@@ -65,7 +135,7 @@ const struct suite *suite_choice_suite(const struct suite_choice *choice, const 
 {
     const struct suite *suite = choice->sensors != NULL
                                     ? given_suite(choice->sensors, frame, runner)
-                                    : runner_suite_of_frame(runner, frame);
+                                    : suite_choice_of_frame(runner, frame);
     return suite != NULL && check_sensors(suite, frame, runner_diag(runner)) == 0 ? suite : NULL;
 }
 

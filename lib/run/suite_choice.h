@@ -33,6 +33,14 @@ extern const struct record suite_choice_record;
         OPTIONAL_NAME(struct suite_choice, effects, help_), .word = "LIST"                         \
     }
 
+/* The suite that the command line gives by name or path (documents/suite_file.h), and the one that
+ * a frame names. Each is loaded once. A frame's suite is one that a stage before this one in the
+ * process has loaded, or else it lies among the documents, or else in the working folder; it has
+ * the frame's digest. Frames, whoever wrote them, give plain names, and only regular files are read
+ * for them. NULL after a message. */
+const struct suite *suite_choice_load(struct runner *runner, const char *name);
+const struct suite *suite_choice_of_frame(struct runner *runner, const struct frame *frame);
+
 /* What ideal writes into every frame: name and digest of the suite, and the text of the effects,
  * which is the option's, or else the suite's, or else "auto". */
 int suite_choice_request(const struct suite_choice *choice, const struct suite *suite,

@@ -240,6 +240,16 @@ int document_bytes(const char *path, struct text *text, struct diag *diag)
 
 /* ---- distributions ---- */
 
+#define LAW(names, laws)                                                                           \
+    "{\"description\": \"" names "\", \"type\": \"object\", \"minProperties\": 1, "                \
+    "\"maxProperties\": 1, \"additionalProperties\": false, \"properties\": {\n      "             \
+    "\"choice\": {\"type\": \"array\", \"minItems\": 1}" laws "}}"
+#define PAIR                                                                                       \
+    "{\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": 2, \"maxItems\": 2}"
+const char document_drawn_schema[] =
+    ",\n  \"$defs\": {\n    \"drawn\": " LAW("choice", "") ",\n    \"drawn_number\": " LAW(
+        "uniform, normal or choice", ", \"uniform\": " PAIR ", \"normal\": " PAIR) "\n  }";
+
 struct variation {
     struct json_scan scan;
     struct random_address address;

@@ -90,3 +90,6 @@ int document_take(const char *path, const char *line, const struct record *recor
  * ("objects[1].speed_mps") in its item. NULL after a message that begins with the member. */
 const char *document_draw(const char *line, struct random_address address, struct arena *arena,
                           struct diag *diag);
+
+/* The $defs of a JSON Schema: what may stand for a value, drawn, and for a number, drawn_number. */
+extern const char document_drawn_schema[];

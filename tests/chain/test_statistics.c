@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "documents/suite.h"
 #include "run/runner.h"
+#include "run/suite_choice.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -31,7 +32,7 @@ static void bench_open(struct bench *bench, const struct stage *stage, const cha
     const char *words[] = {"--sensors", suite};
     assert_int_equal(runner_prepare(&bench->runner, stage, COUNT(words), words), 0);
     assert_int_equal(runner_start(&bench->runner), 0);
-    bench->suite = runner_suite(&bench->runner, suite);
+    bench->suite = suite_choice_load(&bench->runner, suite);
     if (bench->suite == NULL)
         fail_msg("%s", bench->runner.diag.text);
 }

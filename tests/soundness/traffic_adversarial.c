@@ -7,7 +7,7 @@
 #include "adversarial_traffic.h"
 #include "documents/vehicle.h"
 #include "frame/frame_check.h"
-#include "run/stage.h"
+#include "run/suite_choice.h"
 
 struct traffic_adversarial {
     int64_t frames, first;
@@ -32,7 +32,7 @@ static int traffic_adversarial_start(void *state, struct runner *runner)
             vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
     }
     runner_expect(runner, traffic->frames);
-    traffic->suite = runner_suite(runner, traffic->sensors);
+    traffic->suite = suite_choice_load(runner, traffic->sensors);
     return traffic->suite != NULL ? 0 : -1;
 }
 

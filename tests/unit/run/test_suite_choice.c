@@ -15,7 +15,7 @@ static void begin(struct bench *bench)
 {
     *bench = (struct bench){.frame.arena = &bench->arena};
     begin_stage(&bench->runner, "noise", NO_WORDS);
-    bench->suite = runner_suite(&bench->runner, suite_name);
+    bench->suite = suite_choice_load(&bench->runner, suite_name);
     assert_non_null(bench->suite);
     bench->frame.sensors.suite = bench->suite->name;
     bench->frame.sensors.digest = bench->suite->digest;
