@@ -63,7 +63,8 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
     if (check_pair(own, truth, frame, runner_diag(runner)) != 0)
         return -1;
     own->frames++;
-    struct score_line line = {frame->scene, frame->frame, frame->time_s, {0}};
+    struct score_line line = {
+        .scene = frame->scene, .frame = frame->frame, .time_s = frame->time_s};
     for (size_t i = 0; i < truth->sensors.list.count; i++) {
         const struct sensor_view *view = &truth->sensors.list.items[i];
         if (!view->measured && !frame->sensors.list.items[i].measured)

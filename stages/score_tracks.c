@@ -79,8 +79,12 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
         score_merge(&own->tally, &tally, lasting);
         return 0;
     }
-    struct score_track_line line = {
-        frame->scene, frame->frame, frame->time_s, switches, score_of(&tally, 1, frame->arena),
+    struct score_line line = {
+        .scene = frame->scene,
+        .frame = frame->frame,
+        .time_s = frame->time_s,
+        .id_switches = switches,
+        .all = score_of(&tally, 1, frame->arena),
     };
     return runner_write_record(runner, &score_track_line_record, &line);
 }
@@ -93,7 +97,7 @@ static int score_tracks_stop(void *state, struct runner *runner)
         return -1;
     if (!own->summary)
         return 0;
-    struct score_track_summary summary = {
+    struct score_summary summary = {
         .frames = own->frames,
         .true_frames = reference_stream_missing(own->other),
         .listed_frames = reference_stream_unmatched(own->other),

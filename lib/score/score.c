@@ -69,21 +69,23 @@ const struct record score_record = {FIELD_TABLE(
     "How lists differ from the truth; GOSPA and OSPA are in cells for targets, in metres for "
     "tracks.")};
 
-#define LINE_HEAD(owner)                                                                           \
-    {FIELD_NAME_OF(owner, scene, "scene of the frame")},                                           \
-        {COUNT(owner, frame, "number of the frame in its scene")},                                 \
+#define LINE_HEAD                                                                                  \
+    {FIELD_NAME_OF(struct score_line, scene, "scene of the frame")},                               \
+        {COUNT(struct score_line, frame, "number of the frame in its scene")},                     \
     {                                                                                              \
-        FIELD_REAL_IN(owner, time_s, -1e10, 1e10, "time of the frame")                             \
+        FIELD_REAL_IN(struct score_line, time_s, -1e10, 1e10, "time of the frame")                 \
     }
-#define SUMMARY_HEAD(owner)                                                                        \
-    {COUNT(owner, frames, "frames in both streams, which are scored")},                            \
-        {COUNT(owner, true_frames, "frames in the truth alone")},                                  \
+#define SUMMARY_HEAD                                                                               \
+    {COUNT(struct score_summary, frames, "frames in both streams, which are scored")},             \
+        {COUNT(struct score_summary, true_frames, "frames in the truth alone")},                   \
     {                                                                                              \
-        COUNT(owner, listed_frames, "frames in the scored stream alone")                           \
+        COUNT(struct score_summary, listed_frames, "frames in the scored stream alone")            \
     }
+#define SWITCHES(owner)                                                                            \
+    COUNT(owner, id_switches, "objects paired with another track than the last time")
 
 static const struct field line_fields[] = {
-    LINE_HEAD(struct score_line),
+    LINE_HEAD,
     {FIELD_LIST_OF(struct score_line, sensors, &score_record,
                    "scores of the sensors that measured, by name")},
     {0},
@@ -93,7 +95,7 @@ const struct record score_line_record = {FIELD_TABLE(struct score_line, line_fie
                                                      "Scores of one frame, by glint-score.")};
 
 static const struct field summary_fields[] = {
-    SUMMARY_HEAD(struct score_summary),
+    SUMMARY_HEAD,
     {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "cut-off distance, in cells")},
     {OPTIONAL_REAL(struct score_summary, azimuth_cell_rad, 0, 10,
                    "size of a cell in azimuth; absent: a twentieth of each field of view")},
@@ -108,41 +110,34 @@ const struct record score_summary_record = {
                 "Scores of a stream, by glint-score --summary.")};
 
 static const struct field track_line_fields[] = {
-    LINE_HEAD(struct score_track_line),
-    {COUNT(struct score_track_line, id_switches,
-           "objects paired with another track than the last time")},
-    {FIELD_RECORD_OF(struct score_track_line, all, &score_record, "score over all tracks")},
+    LINE_HEAD,
+    {SWITCHES(struct score_line)},
+    {FIELD_RECORD_OF(struct score_line, all, &score_record, "score over all tracks")},
     {0},
 };
 
 const struct record score_track_line_record = {
-    FIELD_TABLE(struct score_track_line, track_line_fields, "score_track_line",
+    FIELD_TABLE(struct score_line, track_line_fields, "score_track_line",
                 "Score of one frame, by glint-score-tracks.")};
 
 static const struct field track_summary_fields[] = {
-    SUMMARY_HEAD(struct score_track_summary),
-    {FIELD_REAL_IN(struct score_track_summary, cutoff_m, 0, 1e6,
+    SUMMARY_HEAD,
+    {FIELD_REAL_IN(struct score_summary, cutoff_m, 0, 1e6,
                    "tracks this far off or farther are no pair")},
-    {COUNT(struct score_track_summary, id_switches,
-           "objects paired with another track than the last time")},
-    {FIELD_RECORD_OF(struct score_track_summary, all, &score_record, "score over all frames")},
+    {SWITCHES(struct score_summary)},
+    {FIELD_RECORD_OF(struct score_summary, all, &score_record, "score over all frames")},
     {0},
 };
 
 const struct record score_track_summary_record = {
-    FIELD_TABLE(struct score_track_summary, track_summary_fields, "score_track_summary",
+    FIELD_TABLE(struct score_summary, track_summary_fields, "score_track_summary",
                 "Score of a stream, by glint-score-tracks --summary.")};
-
-void score_add_value(struct score_values *values, double value, struct arena *arena)
-{
-    *list_add(&values->list, arena) = value;
-}
 
 static void append(struct score_values *values, const struct score_values *more,
                    struct arena *arena)
 {
     for (size_t i = 0; i < more->list.count; i++)
-        score_add_value(values, more->list.items[i], arena);
+        *list_add(&values->list, arena) = more->list.items[i];
 }
 
 /* Adds counts and sums, but no values. */
@@ -453,7 +448,7 @@ void score_table_summary(const struct score_summary *summary, struct text *text,
     });
 }
 
-void score_table_track_summary(const struct score_track_summary *summary, struct text *text)
+void score_table_track_summary(const struct score_summary *summary, struct text *text)
 {
     write_frames(summary->frames, summary->true_frames, summary->listed_frames, text);
     text_format(text, "; distances in metres, cut off at %g; %" PRId64 " identity switches\n",

@@ -39,36 +39,26 @@ struct score {
     struct score_differences differences[SCORE_COMPONENTS];
 };
 
-/* The scores of one frame and of a stream, of targets and of tracks. */
+/* The scores of one frame: of targets by sensor, of tracks all together. */
 struct score_line {
     const char *scene;
     int64_t frame;
     double time_s;
+    int64_t id_switches; /* of tracks */
+    struct score all;    /* of tracks */
     LIST_OF(struct score) sensors;
 };
 
+/* The scores of a stream. */
 struct score_summary {
     int64_t frames, true_frames, listed_frames; /* in both streams, in the truth alone, in the
                                                  * scored one alone */
-    double cutoff, azimuth_cell_rad;            /* azimuth_cell_rad 0: a twentieth of each field of
-                                                 * view */
+    double cutoff, azimuth_cell_rad; /* of targets; azimuth_cell_rad 0: a twentieth of each field of
+                                      * view */
+    double cutoff_m;                 /* of tracks */
+    int64_t id_switches;
     struct score all;
     LIST_OF(struct score) sensors;
-};
-
-struct score_track_line {
-    const char *scene;
-    int64_t frame;
-    double time_s;
-    int64_t id_switches;
-    struct score all;
-};
-
-struct score_track_summary {
-    int64_t frames, true_frames, listed_frames;
-    double cutoff_m;
-    int64_t id_switches;
-    struct score all;
 };
 
 extern const struct record score_record;
@@ -103,8 +93,6 @@ struct score_tallies {
 void score_add_scan(struct score_tally *tally, double squares, size_t pairs, size_t truths,
                     size_t listed, double cutoff);
 
-void score_add_value(struct score_values *values, double value, struct arena *arena);
-
 /* Adds all values, counts and sums of the other tally. */
 void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena);
 
@@ -137,4 +125,4 @@ double score_wasserstein(double *one, size_t one_count, double *other, size_t ot
  * ones; "-" stands where there are none. */
 void score_table_summary(const struct score_summary *summary, struct text *text,
                          struct arena *arena);
-void score_table_track_summary(const struct score_track_summary *summary, struct text *text);
+void score_table_track_summary(const struct score_summary *summary, struct text *text);

@@ -115,7 +115,7 @@ static void add_values(struct score_values *values, const struct target *target,
                        struct arena *arena)
 {
     for (int which = 0; which < COMPONENTS && target != NULL; which++)
-        score_add_value(&values[which], component(target, which), arena);
+        *list_add(&values[which].list, arena) = component(target, which);
 }
 
 static void add_errors(struct score_values *values, const struct target_pair *pair,
@@ -125,7 +125,7 @@ static void add_errors(struct score_values *values, const struct target_pair *pa
         double error = component(pair->listed, which) - component(pair->truth, which);
         if (which == SCORE_AZIMUTH)
             error = units_wrap_rad(error);
-        score_add_value(&values[which], error, arena);
+        *list_add(&values[which].list, arena) = error;
     }
 }
 

@@ -195,6 +195,7 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           struct arena *lasting)
 {
     struct track_pairs found = track_score_pairs(frame, list, truth, classes, cutoff_m);
+    struct score_values *errors = tally->values[SCORE_ERROR];
     double squares = 0;
     int64_t switches = 0;
     size_t objects = 0, pairs = 0;
@@ -207,11 +208,9 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
             continue;
         pairs++;
         squares += pair->apart_m * pair->apart_m;
-        score_add_value(&tally->values[SCORE_ERROR][SCORE_POSITION], pair->apart_m, frame->arena);
-        score_add_value(
-            &tally->values[SCORE_ERROR][SCORE_VELOCITY],
-            elementary_hypot(object->vx_mps - track->vx_mps, object->vy_mps - track->vy_mps),
-            frame->arena);
+        *list_add(&errors[SCORE_POSITION].list, frame->arena) = pair->apart_m;
+        *list_add(&errors[SCORE_VELOCITY].list, frame->arena) =
+            elementary_hypot(object->vx_mps - track->vx_mps, object->vy_mps - track->vy_mps);
         switches +=
             track_score_replaced(memory, frame->scene, object->id, track->id, lasting) != NULL;
     }

@@ -65,7 +65,7 @@ static void without_any_scan_all_is_zero(void **state)
 
 static void add(struct score_tally *tally, enum score_kind kind, double value, struct arena *arena)
 {
-    score_add_value(&tally->values[kind][SCORE_AZIMUTH], value, arena);
+    *list_add(&tally->values[kind][SCORE_AZIMUTH].list, arena) = value;
 }
 
 static void differences_are_those_of_the_pairs_and_of_the_lists(void **state)
@@ -144,8 +144,8 @@ static void a_merged_tally_says_what_both_say_together(void **state)
     score_add_scan(&tallies[0], 9, 1, 1, 4, 8);
     for (int i = 0; i < SCORE_COMPONENTS; i++)
         for (int kind = 0; kind < SCORE_KINDS; kind++) {
-            score_add_value(&tallies[0].values[kind][i], i + 3 * kind, &arena);
-            score_add_value(&tallies[1].values[kind][i], 10 * i - kind, &arena);
+            *list_add(&tallies[0].values[kind][i].list, &arena) = i + 3 * kind;
+            *list_add(&tallies[1].values[kind][i].list, &arena) = 10 * i - kind;
         }
     struct score apart = score_of(tallies, 2, &arena);
     score_merge(&tallies[0], &tallies[1], &arena);
