@@ -168,7 +168,7 @@ static void add_detail(struct view_data *data, const struct loss_row *row,
     put_real(data, COLUMN_DETAIL_RANGE, echo->range_m);
     put_real(data, COLUMN_DETAIL_AZIMUTH, echo->azimuth_rad);
     for (int i = LOST_OBJECT; i <= LOST_NUMBER; i++)
-        put_count(data, COLUMN_DETAIL_OBJECT + i, row->of[i]);
+        put_count(data, (enum view_column)(COLUMN_DETAIL_OBJECT + i), row->of[i]);
     put_count(data, COLUMN_DETAIL_BY, optional_name(data, echo->by));
 }
 
@@ -273,7 +273,7 @@ static void add_fate(struct view_data *data, const struct loss_row *rows, size_t
         return;
     put_count(data, COLUMN_PATTERN_ITEMS, (uint32_t)count);
     for (size_t i = 0; i < count * ITEM; i++)
-        put_count(data, COLUMN_ITEM_REFLECTOR + i % ITEM, items[i]);
+        put_count(data, (enum view_column)(COLUMN_ITEM_REFLECTOR + i % ITEM), items[i]);
 }
 
 static void add_losses(struct view_data *data, struct loss_scan *scan, const char *sensor)
