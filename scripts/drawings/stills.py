@@ -6,6 +6,7 @@ from played import View
 
 WIDTH, HEAD = 480, 58  # pixels of a figure, and of the title and the key at its top
 BEAM_RAD = math.radians(35)
+SENSORS_KEY = (("left", "left sensor", 124), ("right", "right sensor", 134), ("centre", "reflection centre", 0))
 
 
 def draw_bodies(drawing, frame, view, names):
@@ -103,7 +104,9 @@ def picture_hero(bench, path):
     drawing.note(view.reading(merged), [f"{len(shares)} echoes, 1 target", ", ".join(shares[:2]) + ",",
                                         f"{shares[2]}: one cell of range"], 690, 250)
     told = {(part["object"], part["reflector"]) for t in frame["targets"] for part in t["contributors"]}
-    draw_key(drawing, 50)
+    drawing.add(f'<rect class="paper" width="{drawing.size[0]}" height="64"/>')
+    draw_key(drawing, 20, 50, (("left", "target of the left radar", 206), ("right", "of the right one; its line: radial speed", 302),
+                               ("centre", "echo in a target", 144), ("lost", "echo in no target", 0)))
     drawing.word(f"A car cuts in: two radars report {len(frame['targets'])} targets of {len({name for name, _ in told})}"
                  f" vehicles; {len(lost)} echoes are hidden or too weak", 12, 24, "strong")
     draw_metres(drawing, 5)
@@ -151,24 +154,22 @@ def picture_ghosts(bench, path):
     both = next(t for t in frame["targets"] if t["contributors"][0]["path"] == "object_wall")
     drawing.note(view.reading(both), ["by the wall one way only", f"{len(both['contributors'])} echoes, 1 target"],
                  600, 108, anchor="end")
-    drawing.star(20, 19, "left")
-    drawing.word("target; its line: radial speed", 36, 24)
-    drawing.star(260, 19, "ghost")
-    drawing.word("ghost: a target seen in the wall", 276, 24)
+    draw_key(drawing, 20, 24, (("left", "target; its line: radial speed", 240), ("ghost", "ghost: a target seen in the wall", 0)))
     draw_metres(drawing, 10)
     drawing.save(path)
 
 
-def draw_key(drawing, y):
-    drawing.add(f'<rect class="paper" width="{drawing.size[0]}" height="{y + 14}"/>')
-    drawing.star(20, y - 5, "left")
-    drawing.word("target of the left radar", 36, y)
-    drawing.circle(226, y - 5, "right", 7)
-    drawing.word("of the right one; its line: radial speed", 240, y)
-    drawing.circle(526, y - 5, "centre", 3)
-    drawing.word("echo in a target", 536, y)
-    drawing.cross(672, y - 5)
-    drawing.word("echo in no target", 684, y)
+def draw_key(drawing, x, y, entries):
+    """A row of marks with their names, each as wide as its entry says."""
+    for mark, name, width in entries:
+        if mark == "lost":
+            drawing.cross(x, y - 5)
+        elif mark in ("right", "centre"):
+            drawing.circle(x, y - 5, mark, 6.3 if mark == "right" else 3)
+        else:
+            drawing.star(x, y - 5, mark, 9)
+        drawing.word(name, x + 14, y)
+        x += width
 
 
 # --- the paper's figures ------------------------------------------------------------------------
@@ -197,18 +198,9 @@ def draw_scan(frame, scale, x_range, y_range, title, way_s=0.5, extra=None):
     return drawing
 
 
-def draw_sensors_key(drawing, x):
-    drawing.star(x, 43, "left", 9)
-    drawing.word("left sensor", x + 14, 48)
-    drawing.circle(x + 124, 43, "right", 6.3)
-    drawing.word("right sensor", x + 138, 48)
-    drawing.circle(x + 258, 43, "centre", 3)
-    drawing.word("reflection centre", x + 268, 48)
-
-
 def still(path, frame, x_range, y_range, title, extra=None):
     drawing = draw_scan(frame, WIDTH / (x_range[1] - x_range[0]), x_range, y_range, title, extra=extra)
-    draw_sensors_key(drawing, 20)
+    draw_key(drawing, 20, 48, SENSORS_KEY)
     drawing.save(path)
 
 
@@ -250,5 +242,5 @@ def figure_14(bench, path):
     drawing = Drawing((3 * scans[0].size[0] + 24, scans[0].size[1]), 1, 0, 0)
     for number, scan in enumerate(scans):
         drawing.put(scan, number * (scan.size[0] + 12), 0)
-    draw_sensors_key(drawing, 20)
+    draw_key(drawing, 20, 48, SENSORS_KEY)
     drawing.save(path)
