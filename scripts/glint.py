@@ -101,14 +101,15 @@ def frames(*sources, needs=()):
             yield from _parsed(file, name, needs)
 
 
-def _refuse(word):
+def no_constant(word):
     raise ValueError(f"{word} is no value")
 
 
-def _once(members):
+def once(members):
     found = dict(members)
     if len(found) < len(members):
-        raise ValueError("a key stands twice")
+        seen = set()
+        raise ValueError(f"the key {next(name for name, _ in members if name in seen or seen.add(name))!r} stands twice")
     return found
 
 
@@ -124,12 +125,12 @@ def _whole(digits):
     return int(digits)
 
 
-_DECODER = json.JSONDecoder(parse_constant=_refuse, object_pairs_hook=_once)
+_DECODER = json.JSONDecoder(parse_constant=no_constant, object_pairs_hook=once)
 # A number too large for a double has three digits in its exponent, or 200 digits in a row.
 _DIGITS = bytes(ord("0" if chr(byte) in "0123456789" else "e" if chr(byte) in "eE" else "+" if byte == ord("+") else " ")
                 for byte in range(256))
 _LARGE = (b"e000", b"e+000", b"0" * 200)
-_FINITE = json.JSONDecoder(parse_constant=_refuse, object_pairs_hook=_once, parse_float=_finite, parse_int=_whole)
+_FINITE = json.JSONDecoder(parse_constant=no_constant, object_pairs_hook=once, parse_float=_finite, parse_int=_whole)
 
 
 def decoded(line):
@@ -170,11 +171,9 @@ def place_of(frame):
 def write(frame, out=None):
     """Writes a frame as one line, at once: what stands behind this stage need not wait."""
     try:
-        line = json.dumps(frame, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-        line.encode()
+        print(json.dumps(frame, ensure_ascii=False, allow_nan=False, separators=(",", ":")), file=out or sys.stdout, flush=True)
     except (ValueError, RecursionError) as error:
         raise BadFrame(f"{place_of(frame)}: cannot be written: {error}") from None
-    print(line, file=out or sys.stdout, flush=True)
 
 
 def stage(change):

@@ -4,6 +4,7 @@ import os
 import re
 import shlex
 
+import glint
 import schema
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -40,22 +41,10 @@ def refuse(condition, path, text):
         raise Fault(BAD_DATA, f"{path}: {text}")
 
 
-def once(pairs):
-    members = dict(pairs)
-    if len(members) < len(pairs):
-        names = [name for name, _ in pairs]
-        raise ValueError(f"{next(name for name in names if names.count(name) > 1)} is there twice")
-    return members
-
-
-def no_constant(word):
-    raise ValueError(f"{word} is no number of JSON")
-
-
 def read_json(path):
     try:
         with open(path, encoding="utf-8") as file:
-            return json.load(file, object_pairs_hook=once, parse_constant=no_constant)
+            return json.load(file, object_pairs_hook=glint.once, parse_constant=glint.no_constant)
     except FileNotFoundError as error:
         raise Fault(NO_INPUT, f"{path}: {error.strerror}") from error
     except json.JSONDecodeError as error:
