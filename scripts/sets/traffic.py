@@ -116,11 +116,6 @@ def seconds(time_us):
     return f"{sign}{whole // US}.{whole % US:06}".rstrip("0").rstrip(".")
 
 
-def text_of(value):
-    """The shortest text that reads back to the same number."""
-    return repr(value)
-
-
 def operand(path):
     """A path that no program takes for an option."""
     return "./" + path if path.startswith("-") else path
@@ -134,7 +129,7 @@ def words_of_recording(source, block, title):
     words = [operand(source["recording"]), "--ego", egos, "--scene", name]
     words += ["--from-s", seconds(begin)] if begin is not None else []
     words += ["--to-s", seconds(end - 1)] if end is not None else []
-    return words + (["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else [])
+    return words + (["--rate-hz", repr(source["rate_hz"])] if "rate_hz" in source else [])
 
 
 def source_words(stretch, title):
@@ -148,8 +143,8 @@ def source_words(stretch, title):
     if kind == "random":
         frames = ["--first", str(stretch.first), "--frames", str(stretch.end - stretch.first)]
         return ["--density", source["random"], *frames, *scenes]
-    rate = ["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else []
-    return ["--density", source["random"], "--seconds", text_of(source["seconds"]), *scenes, *rate]
+    rate = ["--rate-hz", repr(source["rate_hz"])] if "rate_hz" in source else []
+    return ["--density", source["random"], "--seconds", repr(source["seconds"]), *scenes, *rate]
 
 
 def command_words(source, words):
