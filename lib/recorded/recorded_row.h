@@ -104,5 +104,5 @@ struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, co
  * time and marks steps; its format is NULL after a message. It takes 64 bytes a row, and some
  * hundred for each step, track and size of a body. A yaw rate is kept to 24 bits, a speed not at
  * all. */
-struct recorded_reader recorded_store_read(struct recorded_reader reader, struct arena *arena,
-                                           struct diag *diag);
+struct recorded_reader recorded_row_store(struct recorded_reader reader, struct arena *arena,
+                                          struct diag *diag);
