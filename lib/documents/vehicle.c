@@ -68,10 +68,23 @@ static int read_vehicle(const char *path, struct vehicle *vehicle, struct arena 
     return result;
 }
 
+int vehicle_check_class(const char *class, struct diag *diag)
+{
+    const char *ending = strrchr(class, '.');
+    if (document_check_plain(class, diag) != 0)
+        return -1;
+    return ending == NULL || strcmp(ending, ".json") == 0
+               ? 0
+               : diag_fail(diag, DIAG_DATA,
+                           "\"%s\" is no class; expected a name in data/vehicles, as glint --list "
+                           "vehicles lists them, or a file NAME.json",
+                           class);
+}
+
 const struct vehicle *vehicle_load(const char *class, const char *folder, struct arena *arena,
                                    struct diag *diag)
 {
-    if (document_check_plain(class, diag) != 0)
+    if (vehicle_check_class(class, diag) != 0)
         return NULL;
     const char *path = document_find_file(folder, "vehicles", class, ".json", arena, diag);
     struct vehicle *vehicle = arena_get(arena, sizeof *vehicle);

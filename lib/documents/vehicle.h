@@ -18,6 +18,10 @@ struct vehicle {
 
 extern const struct record vehicle_record;
 
+/* Refuses what cannot be a class: a path, or a name with a dot that is no file NAME.json of the
+ * working folder (DIAG_DATA). */
+int vehicle_check_class(const char *class, struct diag *diag);
+
 /* Finds, reads and checks the document of a class: in folder, if that is not NULL, before all other
  * places (text/document.h). All it holds lies in the arena; NULL after a message (DIAG_CONFIG). */
 const struct vehicle *vehicle_load(const char *class, const char *folder, struct arena *arena,

@@ -1,5 +1,8 @@
 #include "recorded/recorded_classes.h"
 
+#include "base/suggestion.h"
+#include "documents/vehicle.h"
+
 static const char *after_pair(const char *pair)
 {
     size_t length = strcspn(pair, ",");
@@ -14,6 +17,28 @@ static void add(struct recorded_classes *classes, const struct recorded_word *wo
     classes->words.items[number] = *word;
 }
 
+static int check_class(const char *option, const char *class, struct diag *diag)
+{
+    if (class == NULL || vehicle_check_class(class, diag) == 0)
+        return 0;
+    diag->code = DIAG_USAGE;
+    return diag_prefix(diag, "%s: ", option);
+}
+
+static int check_map(const struct recorded_classes *classes, struct diag *diag)
+{
+    for (const char *pair = classes->map; pair != NULL; pair = after_pair(pair)) {
+        size_t word = strcspn(pair, "=,"), length = strcspn(pair, ",");
+        if (word == 0 || word + 1 >= length)
+            return diag_fail(diag, DIAG_USAGE, "--class-map: \"%.*s\"; expected WORD=CLASS",
+                             (int)length, pair);
+        const char *class = arena_text(classes->arena, pair + word + 1, length - word - 1);
+        if (check_class("--class-map", class, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 int recorded_classes_begin(struct recorded_classes *classes, const struct recorded_format *format,
                            const char *map, const char *otherwise, struct arena *arena,
                            struct diag *diag)
@@ -25,13 +50,9 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
     for (const struct recorded_word *word = format->words; word->word != NULL; word++)
         add(classes, word);
     classes->own_count = classes->words.count;
-    for (const char *pair = map; pair != NULL; pair = after_pair(pair)) {
-        size_t word = strcspn(pair, "=,"), length = strcspn(pair, ",");
-        if (word == 0 || word + 1 >= length)
-            return diag_fail(diag, DIAG_USAGE, "--class-map: \"%.*s\"; expected WORD=CLASS",
-                             (int)length, pair);
-    }
-    return 0;
+    return check_map(classes, diag) == 0 && check_class("--class-default", otherwise, diag) == 0
+               ? 0
+               : -1;
 }
 
 /* NULL if there is none of that name. */
@@ -115,19 +136,16 @@ bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word
 int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,
                             struct diag *diag)
 {
-    struct text list = {0};
+    struct suggestion meant = suggestion_begin(word, strlen(word));
     for (size_t i = 0; i < classes->words.count; i++)
-        text_format(&list, "%s, ", classes->words.items[i].word);
-    text_format(&list, "or a class:");
+        suggestion_offer(&meant, classes->words.items[i].word);
     for (size_t i = 0; i < classes->vehicles.names.count; i++)
-        text_format(&list, "%s %s", i > 0 ? "," : "", classes->vehicles.names.items[i]);
-    diag_fail(diag, DIAG_DATA,
-              "unknown class \"%.80s\"; expected one of %.*s; --class-map %.80s=CLASS or "
-              "--class-default CLASS names one%s",
-              word, (int)(list.length < 1200 ? list.length : 1200), list.bytes, word,
-              classes->format->of_sumo
-                  ? ", but not its size, which is that of its vType: --types FILE"
-                  : "");
-    text_free(&list);
-    return -1;
+        suggestion_offer(&meant, classes->vehicles.names.items[i]);
+    return diag_fail(
+        diag, DIAG_DATA,
+        "unknown class \"%.80s\"%s; expected a word that --help lists, or a name that glint --list "
+        "vehicles lists; --class-map %.80s=CLASS or --class-default CLASS names one%s",
+        word, suggestion_question(&meant, ""), word,
+        classes->format->of_sumo ? ", but not its size, which is that of its vType: --types FILE"
+                                 : "");
 }

@@ -17,8 +17,8 @@ struct recorded_classes {
     struct arena *arena;
 };
 
-/* map is "word=class,word=class" or NULL, otherwise a class or NULL. Refuses a pair without "="
- * (DIAG_USAGE). All of it lies in the arena. */
+/* map is "word=class,word=class" or NULL, otherwise a class or NULL. Refuses a pair without "=" and
+ * what cannot be a class (DIAG_USAGE). All of it lies in the arena. */
 int recorded_classes_begin(struct recorded_classes *classes, const struct recorded_format *format,
                            const char *map, const char *otherwise, struct arena *arena,
                            struct diag *diag);
@@ -34,6 +34,6 @@ bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word
 const struct recorded_word *recorded_classes_find(struct recorded_classes *classes,
                                                   const char *word);
 
-/* Refuses the word with the words and the classes that there are; returns -1. */
+/* Refuses the word, with the nearest one that is known; returns -1. */
 int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,
                             struct diag *diag);

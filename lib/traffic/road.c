@@ -1,6 +1,6 @@
 #include "traffic/road.h"
 
-#include "text/document.h"
+#include "documents/vehicle.h"
 
 #define REAL_OR(owner, member, low, high, missing, help)                                           \
     OPTIONAL_REAL(owner, member, low, high, help), .absent = (missing)
@@ -11,7 +11,7 @@ static const struct field point_fields[] = {
     {0},
 };
 
-static const struct record point_record = {
+static const struct record road_point_record = {
     FIELD_TABLE(struct road_point, point_fields, "point", "A corner of a road's line.")};
 
 static const struct field signal_fields[] = {
@@ -67,7 +67,7 @@ static const struct field road_fields[] = {
     {FIELD_NAME_OF(struct roadway, id, "its vehicles are ID.LANE.NUMBER, from 0")},
     {REAL_OR(struct roadway, radius_m, 3, 1e6, 1e6,
              "of the arcs at corners, at most; legs leave room for less")},
-    {FIELD_LIST_OF(struct roadway, points, &point_record, "the line")},
+    {FIELD_LIST_OF(struct roadway, points, &road_point_record, "the line")},
     {FIELD_LIST_OF(struct roadway, lanes, &lane_record, "beside the line")},
     {0},
 };
@@ -79,7 +79,7 @@ static int check_lane(const struct road_lane *lane, int *egos, struct diag *diag
 {
     for (size_t i = 0; i < lane->arrivals.count; i++) {
         *egos += lane->arrivals.items[i].ego_m >= 0;
-        if (document_check_plain(lane->arrivals.items[i].class, diag) != 0)
+        if (vehicle_check_class(lane->arrivals.items[i].class, diag) != 0)
             return diag_prefix(diag, "arrivals[%zu].class: ", i);
     }
     return 0;

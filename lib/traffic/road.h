@@ -40,8 +40,8 @@ struct roadway {
 
 extern const struct record roadway_record;
 
-/* Refuses what field tables cannot: fewer than two points, equal points, no lane, a class that is a
- * path. egos counts the arrivals that say ego_m. */
+/* Refuses what field tables cannot: fewer than two points, equal points, no lane, what cannot be a
+ * class. egos counts the arrivals that say ego_m. */
 int road_check(const struct roadway *road, int *egos, struct diag *diag);
 
 /* Multiplies every flow. */

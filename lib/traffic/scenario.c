@@ -3,6 +3,7 @@
 #include "base/elementary.h"
 #include "base/intern.h"
 #include "base/units.h"
+#include "documents/vehicle.h"
 #include "frame/frame_check.h"
 #include "text/document.h"
 
@@ -93,6 +94,8 @@ static int check_ids(const struct scenario *scenario, struct intern *names, stru
             return diag_fail(diag, DIAG_CONFIG,
                              "objects[%zu].id: \"%s\" is the id of objects[%u] already", i,
                              actors[i].id, (unsigned)number);
+        if (vehicle_check_class(actors[i].class, diag) != 0)
+            return diag_prefix(diag, "objects[%zu].class: ", i);
         if (actors[i].waypoints.count > 0 && check_waypoints(&actors[i], diag) != 0)
             return diag_prefix(diag, "objects[%zu].", i);
     }

@@ -52,7 +52,8 @@ struct scenario {
 extern const struct record scenario_record;
 
 /* Refuses what field tables cannot: an unknown ego or interferer, an id of two objects or roads,
- * segments or a start together with waypoints, waypoints whose times do not ascend. */
+ * what cannot be a class, segments or a start together with waypoints, waypoints whose times do not
+ * ascend. */
 int scenario_check(struct scenario *scenario, struct diag *diag);
 
 /* Moves every place by -origin_m. Done before anything is computed, so that large coordinates cost

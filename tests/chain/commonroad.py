@@ -360,7 +360,7 @@ def bad_input(folder):
         ('<dynamicObstacle id="30">', "<dynamicObstacle>", "line 13: id is missing; expected 1 to 1024 printable ASCII"),
         ('<dynamicObstacle id="30">', '<dynamicObstacle id="">', 'line 13: id is ""; expected 1 to 1024 printable ASCII'),
         ("<type>car</type>", "", "line 20: type is missing; expected one for every state; type and shape stand before"),
-        ("<type>car</type>", "<type>hovercraft</type>", 'line 20: unknown class "hovercraft"; expected one of car, '),
+        ("<type>car</type>", "<type>hovercraft</type>", 'line 20: unknown class "hovercraft"; expected a word that --help lists'),
         ("<shape><rectangle><length>4.5</length><width>1.8</width></rectangle></shape>", "",
          "line 20: shape is missing; expected one for every state; type and shape stand before"),
         ("<length>4.5", "<length>long", 'line 15: length is "long"; expected a number in [0, 1e+06]'),

@@ -503,7 +503,7 @@ def bad_input(folder):
         ('id="late"', "", "line 18: id is missing; expected a name of 1 to 1024 bytes"),
         ('id="late"', 'id=""', 'line 18: id is ""; expected a name of 1 to 1024 bytes'),
         ('id="late"', 'id="ego"', " 2 s is in line "),
-        ('"bus@late"', '"hovercraft"', 'line 18: unknown class "hovercraft"; expected one of passenger, '),
+        ('"bus@late"', '"hovercraft"', 'line 18: unknown class "hovercraft"; expected a word that --help lists'),
         ('time="2.00"', 'time="0.75"', "0.75 s after a step of 1 s; expected a later time"),
         ('time="2.00"', 'time="noon"', 'line 16: time is "noon"; expected a number'),
         ('time="2.00"', "", "line 16: time is missing; expected a number"),
