@@ -1,7 +1,11 @@
-/* Roads of a scenario: polylines with lanes and arrivals. */
+/* Roads of a scenario: polylines with lanes, corners as arcs.
+ *
+ * At a corner of the line by the angle theta an arc touches both legs at the distance
+ * R tan(theta / 2) from the corner, at most half a leg, so that neighbours have room. A lane's arc
+ * has the same centre. Heading is continuous, and the yaw rate is speed times curvature. */
 #pragma once
 
-#include "base/vec2.h"
+#include "geometry/motion.h"
 #include "text/field.h"
 
 struct road_point {
@@ -49,3 +53,25 @@ void road_scale_flow(struct roadway *road, double factor);
 
 /* Moves every point by -origin_m. */
 void road_shift(struct roadway *road, struct vec2 origin_m);
+
+/* Straight pieces and arcs of a lane. */
+struct road_piece {
+    double from_m; /* along the lane */
+    struct vec2 begin_m;
+    double yaw_rad; /* at its begin */
+    double curvature_radpm;
+};
+
+struct road_path {
+    LIST_OF(struct road_piece) pieces;
+    double length_m;
+    double radius_m; /* of its narrowest arc; INFINITY if it has none */
+};
+
+/* The way of a lane of the road, in the arena. Refuses arcs of less than 3 m. */
+int road_path_make(struct road_path *path, const struct roadway *road, const struct road_lane *lane,
+                   struct arena *arena, struct diag *diag);
+
+/* A body at place_m along the lane; the first and the last piece go on beyond the ends. The yaw is
+ * in (-pi, pi]. */
+struct motion road_path_motion(const struct road_path *path, double place_m, double speed_mps);

@@ -58,6 +58,28 @@ static void draw_next(const struct road_traffic *traffic, struct road_queue *que
 
 /* ---- driving ---- */
 
+double road_traffic_acceleration_mps2(const struct road_driver *driver, double speed_mps,
+                                      double gap_m, double leader_mps)
+{
+    double braking_mps2 = sqrt(driver->acceleration_mps2 * driver->deceleration_mps2);
+    double wanted_m =
+        speed_mps * driver->headway_s + speed_mps * (speed_mps - leader_mps) / (2 * braking_mps2);
+    double closeness = (driver->gap_m + elementary_max(0, wanted_m)) / gap_m;
+    double share = speed_mps / driver->speed_mps;
+    return driver->acceleration_mps2 * (1 - share * share * share * share - closeness * closeness);
+}
+
+void road_traffic_move(double *place_m, double *speed_mps, double acceleration_mps2,
+                       double duration_s)
+{
+    double end_mps = *speed_mps + acceleration_mps2 * duration_s;
+    if (end_mps >= 0)
+        *place_m += (*speed_mps + end_mps) / 2 * duration_s;
+    else
+        *place_m += *speed_mps * *speed_mps / (-2 * acceleration_mps2);
+    *speed_mps = elementary_max(0, end_mps);
+}
+
 static bool is_red(const struct road_signal *signal, double time_s)
 {
     double cycle_s = signal->green_s + signal->red_s, since_s = time_s + signal->offset_s;
@@ -69,11 +91,11 @@ static double acceleration_mps2(const struct road_traffic *traffic, const struct
                                 const struct road_vehicle *vehicle,
                                 const struct road_vehicle *leader)
 {
-    const struct car_following *driver = &vehicle->driver;
+    const struct road_driver *driver = &vehicle->driver;
     double speed_mps = vehicle->speed_mps;
     double gap_m =
         leader != NULL ? leader->front_m - leader->length_m - vehicle->front_m : (double)INFINITY;
-    double least_mps2 = car_following_acceleration_mps2(
+    double least_mps2 = road_traffic_acceleration_mps2(
         driver, speed_mps, gap_m, leader != NULL ? leader->speed_mps : speed_mps);
     for (size_t i = 0; i < queue->lane->signals.count; i++) {
         const struct road_signal *signal = &queue->lane->signals.items[i];
@@ -81,7 +103,7 @@ static double acceleration_mps2(const struct road_traffic *traffic, const struct
         if (stop_m >= 0 && speed_mps * speed_mps <= 4 * driver->deceleration_mps2 * stop_m &&
             is_red(signal, time_of(traffic)))
             least_mps2 = elementary_min(
-                least_mps2, car_following_acceleration_mps2(driver, speed_mps, stop_m, 0));
+                least_mps2, road_traffic_acceleration_mps2(driver, speed_mps, stop_m, 0));
     }
     return least_mps2;
 }
@@ -93,7 +115,7 @@ static void enter(const struct road_traffic *traffic, struct road_queue *queue)
     const struct road_vehicle *last =
         queue->vehicles.count > 0 ? &queue->vehicles.items[queue->vehicles.count - 1] : NULL;
     struct road_vehicle *next = &queue->next;
-    const struct car_following *driver = &next->driver;
+    const struct road_driver *driver = &next->driver;
     if (queue->next_s > time_of(traffic) ||
         (last != NULL && last->front_m - last->length_m - next->front_m < driver->gap_m))
         return;
@@ -118,8 +140,8 @@ static void drive(struct road_traffic *traffic, struct road_queue *queue)
         struct road_vehicle *vehicle = &vehicles[i];
         double from_m = vehicle->front_m, half_m = vehicle->length_m / 2;
         double ego_m = vehicle->arrivals->ego_m;
-        car_following_move(&vehicle->front_m, &vehicle->speed_mps, vehicle->acceleration_mps2,
-                           STEP_S);
+        road_traffic_move(&vehicle->front_m, &vehicle->speed_mps, vehicle->acceleration_mps2,
+                          STEP_S);
         if (vehicle->front_m >= queue->path.length_m)
             left++;
         else if (traffic->awaited != NULL && ego_m >= 0 && from_m - half_m < ego_m &&
@@ -204,7 +226,7 @@ static int add_lane(struct road_traffic *traffic, const struct roadway *road, si
     struct road_queue *queue = list_add(&traffic->queues, traffic->arena);
     *queue = (struct road_queue){.road = road, .lane = lane, .number = number};
     if (find_arrivals(queue, traffic->arena, diag) != 0 ||
-        lane_path_make(&queue->path, road, lane, traffic->arena, diag) != 0 ||
+        road_path_make(&queue->path, road, lane, traffic->arena, diag) != 0 ||
         check_beside(traffic, queue, diag) != 0)
         return diag_prefix(diag, "lanes[%zu].", number);
     draw_next(traffic, queue);
@@ -254,9 +276,9 @@ static struct object object_of(const struct road_queue *queue, const struct road
                                double within_s)
 {
     double front_m = vehicle->front_m, speed_mps = vehicle->speed_mps;
-    car_following_move(&front_m, &speed_mps, vehicle->acceleration_mps2, within_s);
+    road_traffic_move(&front_m, &speed_mps, vehicle->acceleration_mps2, within_s);
     struct motion motion =
-        lane_path_motion(&queue->path, front_m - vehicle->length_m / 2, speed_mps);
+        road_path_motion(&queue->path, front_m - vehicle->length_m / 2, speed_mps);
     return frame_object_in((struct object){.id = vehicle->id,
                                            .class = vehicle->arrivals->class,
                                            .length_m = vehicle->length_m,

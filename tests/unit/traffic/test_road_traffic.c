@@ -86,18 +86,18 @@ static const char CROWDED[] =
 
 /* ---- lanes ---- */
 
-static struct lane_path path_of(struct bench *bench, const char *points, double radius_m,
+static struct road_path path_of(struct bench *bench, const char *points, double radius_m,
                                 double offset_m, bool oncoming)
 {
     char text[512];
-    struct lane_path path;
+    struct road_path path;
     snprintf(text, sizeof text,
              "{\"id\":\"r\",\"radius_m\":%.17g,\"points\":[%s],\"lanes\":[{\"offset_m\":%.17g,"
              "\"oncoming\":%s,\"limit_mps\":9,\"arrivals\":[]}]}",
              radius_m, points, offset_m, oncoming ? "true" : "false");
     begin_well(bench, text, 0, NULL, 0);
     assert_int_equal(
-        lane_path_make(&path, &bench->road, bench->road.lanes.items, &bench->arena, &bench->diag),
+        road_path_make(&path, &bench->road, bench->road.lanes.items, &bench->arena, &bench->diag),
         0);
     return path;
 }
@@ -111,20 +111,20 @@ static void a_right_angle_is_rounded_by_a_quarter_circle(void **state)
     static const double offsets_m[] = {0, 3.5, -3.5};
     for (size_t i = 0; i < COUNT(offsets_m); i++) {
         double offset_m = offsets_m[i], radius_m = 20 - offset_m;
-        struct lane_path path = path_of(*state, CORNER, 20, offset_m, false);
+        struct road_path path = path_of(*state, CORNER, 20, offset_m, false);
         double arc_m = radius_m * PI / 2;
         assert_close(path.length_m, 80 + arc_m + 60, 1e-12);
         assert_close(path.radius_m, radius_m, 1e-13);
         for (int k = 0; k <= 90; k++) {
             double angle_rad = units_wrap_rad(k * PI / 180);
-            struct motion body = lane_path_motion(&path, 80 + radius_m * angle_rad, 10);
+            struct motion body = road_path_motion(&path, 80 + radius_m * angle_rad, 10);
             assert_close(body.position_m.x, 80 + radius_m * sin(angle_rad), 1e-12);
             assert_close(body.position_m.y, 20 - radius_m * cos(angle_rad), 1e-12);
             assert_close(body.yaw_rad, angle_rad, 1e-14);
             if (k > 0 && k < 90)
                 assert_close(body.yaw_rate_radps, 10 / radius_m, 1e-13);
         }
-        struct motion end = lane_path_motion(&path, path.length_m, 10);
+        struct motion end = road_path_motion(&path, path.length_m, 10);
         assert_close(end.position_m.x, 100 - offset_m, 1e-12);
         assert_close(end.position_m.y, 80, 1e-12);
         assert_close(end.velocity_mps.x, 0, 1e-14);
@@ -135,7 +135,7 @@ static void a_right_angle_is_rounded_by_a_quarter_circle(void **state)
 /* Half of the shorter leg is left to the arc: radius 40 m for a right angle. */
 static void without_a_radius_an_arc_takes_half_the_shorter_leg(void **state)
 {
-    struct lane_path path = path_of(*state, CORNER, 1e6, 0, false);
+    struct road_path path = path_of(*state, CORNER, 1e6, 0, false);
     assert_close(path.radius_m, 40, 1e-13);
 }
 
@@ -145,12 +145,12 @@ static const char WINDING[] =
 
 static void velocity_and_yaw_rate_are_derivatives_of_the_pose(void **state)
 {
-    struct lane_path path = path_of(*state, WINDING, 1e6, 1.5, false);
+    struct road_path path = path_of(*state, WINDING, 1e6, 1.5, false);
     double speed_mps = 12, step_s = 1e-4;
     for (double place_m = 0.01; place_m < path.length_m; place_m += 0.37) {
-        struct motion before = lane_path_motion(&path, place_m - speed_mps * step_s, speed_mps);
-        struct motion body = lane_path_motion(&path, place_m, speed_mps);
-        struct motion after = lane_path_motion(&path, place_m + speed_mps * step_s, speed_mps);
+        struct motion before = road_path_motion(&path, place_m - speed_mps * step_s, speed_mps);
+        struct motion body = road_path_motion(&path, place_m, speed_mps);
+        struct motion after = road_path_motion(&path, place_m + speed_mps * step_s, speed_mps);
         if (before.yaw_rate_radps != after.yaw_rate_radps)
             continue; /* where an arc begins or ends */
         struct vec2 moved_m = vec2_sub(after.position_m, before.position_m);
@@ -164,11 +164,11 @@ static void velocity_and_yaw_rate_are_derivatives_of_the_pose(void **state)
 
 static void poses_are_continuous_along_the_lane(void **state)
 {
-    struct lane_path path = path_of(*state, WINDING, 1e6, -2, false);
+    struct road_path path = path_of(*state, WINDING, 1e6, -2, false);
     for (size_t i = 1; i < path.pieces.count; i++) {
         double place_m = path.pieces.items[i].from_m;
-        struct motion before = lane_path_motion(&path, place_m - 1e-9, 1);
-        struct motion after = lane_path_motion(&path, place_m + 1e-9, 1);
+        struct motion before = road_path_motion(&path, place_m - 1e-9, 1);
+        struct motion after = road_path_motion(&path, place_m + 1e-9, 1);
         assert_close(vec2_length(vec2_sub(after.position_m, before.position_m)), 2e-9, 1e-12);
         assert_close(units_wrap_rad(after.yaw_rad - before.yaw_rad), 0, 1e-9);
     }
@@ -176,14 +176,14 @@ static void poses_are_continuous_along_the_lane(void **state)
 
 static void an_oncoming_lane_is_the_same_way_back(void **state)
 {
-    struct lane_path there = path_of(*state, WINDING, 1e6, 1.5, false);
+    struct road_path there = path_of(*state, WINDING, 1e6, 1.5, false);
     struct arena kept = ((struct bench *)*state)->arena;
     ((struct bench *)*state)->arena = (struct arena){0};
-    struct lane_path back = path_of(*state, WINDING, 1e6, 1.5, true);
+    struct road_path back = path_of(*state, WINDING, 1e6, 1.5, true);
     assert_close(back.length_m, there.length_m, 1e-11);
     for (double place_m = 0; place_m < there.length_m; place_m += 1.7) {
-        struct motion one = lane_path_motion(&there, place_m, 1);
-        struct motion other = lane_path_motion(&back, there.length_m - place_m, 1);
+        struct motion one = road_path_motion(&there, place_m, 1);
+        struct motion other = road_path_motion(&back, there.length_m - place_m, 1);
         assert_close(vec2_length(vec2_sub(one.position_m, other.position_m)), 0, 1e-11);
         assert_close(fabs(units_wrap_rad(one.yaw_rad - other.yaw_rad)), PI, 1e-11);
     }
