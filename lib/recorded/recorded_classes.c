@@ -79,6 +79,15 @@ static const char *class_of(const struct recorded_classes *classes,
     return NULL;
 }
 
+/* NULL if no word has this class. */
+static const struct recorded_word *first_of_class(const struct recorded_word *words,
+                                                  const char *class)
+{
+    while (words->word != NULL && strcmp(words->class, class) != 0)
+        words++;
+    return words->word != NULL ? words : NULL;
+}
+
 static struct recorded_word answer_to(const struct recorded_classes *classes, const char *word,
                                       const struct recorded_word *found)
 {
@@ -90,10 +99,8 @@ static struct recorded_word answer_to(const struct recorded_classes *classes, co
         class = class_of(classes, found, word, length);
     }
     struct recorded_word answer = {.class = class != NULL ? class : classes->otherwise};
-    const struct recorded_word *own = classes->format->words;
-    for (; found == NULL && answer.class != NULL && own->word != NULL; own++)
-        if (strcmp(own->class, answer.class) == 0)
-            found = own;
+    if (found == NULL && answer.class != NULL)
+        found = first_of_class(classes->format->words, answer.class);
     if (found != NULL) {
         answer.length_m = found->length_m;
         answer.width_m = found->width_m;
