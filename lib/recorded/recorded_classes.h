@@ -8,7 +8,7 @@
 struct recorded_classes {
     const struct recorded_format *format;
     const char *map, *otherwise;           /* --class-map, --class-default, or NULL */
-    struct intern known;                   /* words of the format, then those that are added */
+    struct intern known;                   /* words of the format, then types that are added */
     LIST_OF(struct recorded_word) words;   /* by the number of the word */
     size_t own_count;                      /* how many of them are the format's */
     struct document_names vehicles;        /* the classes that there are */

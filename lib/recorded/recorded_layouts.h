@@ -1,4 +1,4 @@
-/* Layouts of CSV tables of recorded traffic.
+/* Columns of highD, inD, INTERACTION, NGSIM, SUMO and esmini tables.
  *
  * A layout says what the columns are; their order, the case of their letters and other columns do
  * not matter. The first layout whose mark is among the columns is taken, the last one where none
@@ -33,7 +33,7 @@ struct recorded_kind {
     double ahead; /* recorded_row.ahead */
 };
 
-/* What a row says, with members for the layout's function alone. */
+/* The values of a row, and numbers that only the layout's function complete reads. */
 struct recorded_cells {
     struct recorded_row row;
     double aside[2];
@@ -51,7 +51,7 @@ struct recorded_layout {
         const char *id, *direction;
     } beside;
     /* A row has columns for everybody: "#1 NAME" for one, "#2 NAME" for another, and so on. Columns
-     * of times have their plain names. Who has no id in a row is not there. */
+     * of times have their plain names. A road user without an id in a row is not there. */
     bool wide;
     void (*complete)(struct recorded_cells *cells); /* NULL: its columns say it all */
 };

@@ -20,7 +20,7 @@ int64_t recorded_row_time_ns(double time, double unit_s)
     return (int64_t)whole * (int64_t)per_unit + (int64_t)round((time - whole) * per_unit);
 }
 
-/* Divides in the largest unit of which the time is a whole number, so that the numerator is exact:
+/* Divides whole milliseconds, microseconds or nanoseconds, so that the numerator is exact:
  * milliseconds since 1970 have 41 bits. */
 double recorded_row_seconds(int64_t time_ns)
 {

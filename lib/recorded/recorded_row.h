@@ -1,4 +1,4 @@
-/* Rows of a recording, and the readers that give them.
+/* Rows of a recording: readers, and rows kept in memory.
  *
  * A reader gives a recording row by row, as it stands in the file; recorded_steps.h makes steps of
  * the rows: it maps classes, finds centres, velocities and yaw rates. A new format is a file beside
@@ -30,10 +30,10 @@ struct recorded_row {
     double speed_mps;      /* along the yaw, for the step in which the places tell no velocity */
     double length_m, width_m, height_m; /* 0: that of the word, or of the class */
     size_t place;                       /* row, line or byte in the file, for messages */
-    bool passenger; /* left out where the vehicle in the row before is: who rides is hidden */
+    bool passenger; /* left out at the place of the vehicle in the row before, which hides it */
 };
 
-/* A row of which nothing is said. */
+/* A row without any value: NAN, NULL and 0. */
 extern const struct recorded_row recorded_row_unsaid;
 
 /* What a call of a reader gives; -1 after a message. */

@@ -23,7 +23,7 @@ static double seconds_between(const struct recorded_step *from, const struct rec
 /* ---- rows become states ---- */
 
 /* Is the row a passenger of the vehicle that was taken last? Its place is the vehicle's then, to
- * the last digit; those who wait may share a place too. */
+ * the last digit; persons who wait may share a place, too. */
 static bool rides(const struct recorded_row *row, const struct recorded_step *step)
 {
     if (!row->passenger || step->states.count == 0)

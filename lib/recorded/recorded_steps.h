@@ -37,7 +37,7 @@ struct recorded_state {
     size_t place;                 /* row, line or byte in the file */
     struct vec2 recorded_m;       /* as the file has it */
     struct recorded_jumps *jumps; /* NULL where there are none */
-    struct vec2 at_m;             /* of which velocities are taken */
+    struct vec2 at_m;             /* velocities are differences of this place */
     double direction_rad;         /* recorded_row.direction_rad */
     double ahead_m;               /* of at_m before the centre, while the yaw is not known */
     double speed_mps;             /* recorded_row.speed_mps */

@@ -63,8 +63,8 @@ static void add_row(struct document *document, const char **attributes, const ch
     *list_add(&xml->events, &xml->arena) = (struct xml_event){RECORDED_ROW, row};
 }
 
-/* Who rides in a vehicle is hidden by it: newer SUMO writes riders within the vehicle, older SUMO
- * behind it, at its place. */
+/* A vehicle hides its riders: newer SUMO writes them within the vehicle, older SUMO behind it, at
+ * its place. */
 static void on_begin(void *context, const char *name, const char **attributes)
 {
     struct document *document = context;

@@ -21,7 +21,7 @@ struct part {
     int at[RECORDED_COLUMNS]; /* the places of its columns; ABSENT */
 };
 
-/* What the file of tracks says of one. */
+/* A row of the file of tracks. */
 struct track {
     const char *class;
     double direction_rad; /* of travel; NAN: not said */
@@ -75,8 +75,8 @@ static const char *name_of(const struct recorded_column *column, const char *use
     return room;
 }
 
-/* Finds the columns of a kind. Those that stand together are needed once one of them is there, and
- * the first column of times where there is no other. */
+/* Finds the columns of a kind. Columns that stand together are needed once one of them is there,
+ * and the first column of times where there is no other. */
 static int find_columns(const struct table *table, struct part *part, const char *user,
                         struct diag *diag)
 {
@@ -107,7 +107,8 @@ static int add_part(struct table *table, const struct recorded_kind *kind, const
     return find_columns(table, part, user, diag);
 }
 
-/* Whoever has a column, whatever the numbers are, or else "#1", which is refused. */
+/* Adds every road user that a column names, whatever its number is; without any, "#1" is refused.
+ */
 static int find_users(struct table *table, struct diag *diag)
 {
     const struct recorded_kind *kind = table->layout->kinds;
@@ -310,7 +311,7 @@ static bool is_empty(const struct table *table, int place)
     return place == ABSENT || *csv_table_cell(table->rows, table->row, (size_t)place) == '\0';
 }
 
-/* Who the track is, as the file beside the table says. */
+/* Takes class and direction of travel from the file of tracks. */
 static int find_track(const struct table *table, const struct part *part, struct recorded_row *row,
                       struct diag *diag)
 {

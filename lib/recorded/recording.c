@@ -30,7 +30,7 @@ static const struct field recording_fields[] = {
                    "the class of all words that nothing knows; absent: they are refused"),
      .word = "CLASS"},
     {OPTIONAL_NAME(struct recording_options, conditions,
-                   "road and weather, over what the source says of them: '{\"rain_mmph\": 20}'; "
+                   "road and weather, in place of the source's own: '{\"rain_mmph\": 20}'; "
                    "schemas/scenario.json has the words"),
      .word = "JSON", .high = 1e6},
     {0},

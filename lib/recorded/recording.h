@@ -71,10 +71,11 @@ struct recording {
 int recording_open(struct recording *recording, struct recorded_reader reader, struct arena *arena,
                    struct diag *diag);
 
-/* What --conditions says, for conditions_change; and the part of a source's name that names its
- * scenes, "tracks" of ../tracks.csv.gz. */
+/* Reads --conditions, for conditions_change. */
 int recording_conditions(const struct recording_options *options, struct conditions *changes,
                          struct arena *arena, struct diag *diag);
+
+/* The part of a source's name that names its scenes: "tracks" of ../tracks.csv.gz. */
 const char *recording_name(const char *source, struct arena *arena);
 
 /* Fills header and objects of the next frame: 1; 0 at the end; -1 after a message. */

@@ -40,7 +40,7 @@ void xml_rows_close(void *state);
 /* The line that is being parsed. */
 size_t xml_rows_line(const struct xml_rows *xml);
 
-/* Refuses the value of what an element or attribute of this name says; NULL: it is missing. */
+/* Refuses the value of an element or attribute of this name; NULL: it is missing. */
 void xml_rows_fail(struct xml_rows *xml, const char *what, const char *value,
                    const char *expectation);
 
