@@ -3,7 +3,6 @@
 #include "base/elementary.h"
 #include "geometry/mirror.h"
 #include "ideal/line_of_sight.h"
-#include "ideal/sight_margins.h"
 
 /* The stage that losses name. */
 static const char stage_name[] = "ideal";
@@ -250,8 +249,9 @@ static void add_point(struct look *look, const struct look_body *body,
     double visible = look_visibility(look, body, point, facing, place, look->pose.position_m);
     if (frame_carries(look->frame, CARRY_MARGINS) &&
         effects_enabled(look->selection, EFFECT_VISIBILITY))
-        candidate.margin_m = sight_margins_facing_m(&body->box, point->shape, point->facing_rad,
-                                                    point->zero_rad, place, look->pose.position_m);
+        candidate.margin_m =
+            line_of_sight_facing_margin_m(&body->box, point->shape, point->facing_rad,
+                                          point->zero_rad, place, look->pose.position_m);
     if (visible == 0) {
         lose(look, body, point->name, place, LOSS_FACING_AWAY, NULL, candidate.margin_m);
         return;
@@ -273,8 +273,8 @@ static void add_plane(struct look *look, const struct look_body *body,
     }
     struct vec2 foot;
     double margin_m = frame_carries(look->frame, CARRY_MARGINS)
-                          ? sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m,
-                                                 look->pose.position_m)
+                          ? line_of_sight_foot_margin_m(side.from, side.to, side.along,
+                                                        plane->margin_m, look->pose.position_m)
                           : 0;
     if (mirror_specular_point(side.from, side.to, side.along, plane->margin_m,
                               look->pose.position_m, &foot) &&

@@ -5,7 +5,6 @@
 #include "geometry/mirror.h"
 #include "geometry/predicates.h"
 #include "ideal/line_of_sight.h"
-#include "ideal/sight_margins.h"
 #include "propagation/reflection.h"
 
 /* A path has so many bounces if it takes the mirror one way, or both ways. */
@@ -375,8 +374,8 @@ static void apply_visibility(const struct look *look, const struct ghost_candida
     if (visible < 1)
         route->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
     if (frame_carries(look->frame, CARRY_MARGINS))
-        route->margin_m = sight_margins_facing_m(box, point->shape, point->facing_rad,
-                                                 point->zero_rad, candidate->place, viewer);
+        route->margin_m = line_of_sight_facing_margin_m(box, point->shape, point->facing_rad,
+                                                        point->zero_rad, candidate->place, viewer);
 }
 
 /* A cheap test before all others: false if every path of the point is out of range or, under auto,
@@ -479,7 +478,7 @@ static void add_plane(struct look *look, const struct mirror_face *face,
     route->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     if (frame_carries(look->frame, CARRY_MARGINS))
         route->margin_m =
-            sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m, eye);
+            line_of_sight_foot_margin_m(side.from, side.to, side.along, plane->margin_m, eye);
     add_paths(look, &candidate, false);
 }
 

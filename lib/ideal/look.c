@@ -8,7 +8,6 @@
 #include "geometry/mirror.h"
 #include "geometry/obstruction.h"
 #include "geometry/predicates.h"
-#include "ideal/sight_margins.h"
 #include "propagation/reflection.h"
 #include "radar/radar_equation.h"
 

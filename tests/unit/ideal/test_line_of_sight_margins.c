@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "ideal/sight_margins.h"
+#include "ideal/line_of_sight.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -21,8 +21,8 @@ static void a_facing_margin_is_an_angle_times_the_range(void **state)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct box box = {.heading = vec2_heading(cases[i].yaw_rad)};
-        double margin_m = sight_margins_facing_m(&box, cases[i].shape, 0, cases[i].zero_rad,
-                                                 (struct vec2){3, 4}, (struct vec2){13, 4});
+        double margin_m = line_of_sight_facing_margin_m(&box, cases[i].shape, 0, cases[i].zero_rad,
+                                                        (struct vec2){3, 4}, (struct vec2){13, 4});
         if (isfinite(cases[i].margin_m))
             assert_close(margin_m, cases[i].margin_m, 1e-14);
         else
@@ -41,8 +41,8 @@ static void a_foot_margin_is_the_way_to_the_border(void **state)
                  {{-9, 3.5}, 0},   {{-9, 4}, 0.5}, {{-9, -2}, 2.5},  {{1, 2}, 1},
                  {{0.25, 4}, 0.5}, {{3, -1}, 3}};
     for (size_t i = 0; i < COUNT(cases); i++)
-        assert_close(sight_margins_foot_m((struct vec2){0, 4}, (struct vec2){0, 0},
-                                          (struct vec2){0, -1}, 0.5, cases[i].sensor),
+        assert_close(line_of_sight_foot_margin_m((struct vec2){0, 4}, (struct vec2){0, 0},
+                                                 (struct vec2){0, -1}, 0.5, cases[i].sensor),
                      cases[i].margin_m, 1e-15);
 }
 
@@ -60,9 +60,9 @@ static void a_clear_sight_line_is_a_distance_from_the_outline(void **state)
         {{-1, 0}, {1, 0.5}, 0.5},      /* from inside to inside */
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        assert_close(sight_margins_outline_m(outline, 4, cases[i].from, cases[i].to),
+        assert_close(line_of_sight_outline_margin_m(outline, 4, cases[i].from, cases[i].to),
                      cases[i].margin_m, 1e-15);
-        assert_close(sight_margins_outline_m(outline, 4, cases[i].to, cases[i].from),
+        assert_close(line_of_sight_outline_margin_m(outline, 4, cases[i].to, cases[i].from),
                      cases[i].margin_m, 1e-15);
     }
 }
@@ -84,9 +84,9 @@ static void a_blocked_sight_line_is_a_depth_in_the_outline(void **state)
         {{0, 2.5}, {4, -0.5}, 0},      /* 3 x + 4 y = 10, through the corner */
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        assert_close(sight_margins_depth_m(outline, 4, cases[i].from, cases[i].to),
+        assert_close(line_of_sight_depth_margin_m(outline, 4, cases[i].from, cases[i].to),
                      cases[i].margin_m, 1e-15);
-        assert_close(sight_margins_depth_m(outline, 4, cases[i].to, cases[i].from),
+        assert_close(line_of_sight_depth_margin_m(outline, 4, cases[i].to, cases[i].from),
                      cases[i].margin_m, 1e-15);
     }
 }
@@ -95,10 +95,12 @@ static void an_outline_without_size_is_a_point(void **state)
 {
     (void)state;
     static const struct vec2 point[4] = {{1, 2}, {1, 2}, {1, 2}, {1, 2}};
-    assert_close(sight_margins_outline_m(point, 4, (struct vec2){0, 0}, (struct vec2){4, 0}), 2, 0);
-    assert_close(sight_margins_depth_m(point, 4, (struct vec2){0, 2}, (struct vec2){4, 2}), 0, 0);
-    assert_true(isnan(
-        sight_margins_foot_m(point[0], point[1], (struct vec2){1, 0}, 0, (struct vec2){0, 0})));
+    assert_close(line_of_sight_outline_margin_m(point, 4, (struct vec2){0, 0}, (struct vec2){4, 0}),
+                 2, 0);
+    assert_close(line_of_sight_depth_margin_m(point, 4, (struct vec2){0, 2}, (struct vec2){4, 2}),
+                 0, 0);
+    assert_true(isnan(line_of_sight_foot_margin_m(point[0], point[1], (struct vec2){1, 0}, 0,
+                                                  (struct vec2){0, 0})));
 }
 
 int main(void)
