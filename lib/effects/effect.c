@@ -148,3 +148,29 @@ void effect_measure(const struct effect_scan *scan, enum effect_step step,
             measurement->effects |= EFFECT_BIT(id);
     }
 }
+
+bool effect_has_moving_part(const struct echo *parent, enum moving_part part)
+{
+    return parent->moving_part == part && parent->ground_rate_mps != 0;
+}
+
+bool effect_any_moving_part(const struct effect_scan *scan, enum moving_part part)
+{
+    for (size_t i = 0; i < scan->echoes.count; i++)
+        if (effect_has_moving_part(&scan->echoes.items[i], part))
+            return true;
+    return false;
+}
+
+struct echo effect_part_of_echo(const struct echo *parent, enum path path, int64_t number,
+                                double factor, enum effect_id effect)
+{
+    struct echo part = *parent;
+    part.id.path = path;
+    part.id.number = number;
+    part.ercs *= factor;
+    part.moving_part = MOVING_NONE;
+    part.effects |= EFFECT_BIT(effect);
+    part.extra = NULL;
+    return part;
+}

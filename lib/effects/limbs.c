@@ -2,13 +2,12 @@
 #include "effects/effect.h"
 
 #include "base/elementary.h"
-#include "effects/moving_part.h"
 #include "frame/draw_address.h"
 #include "propagation/micro_doppler.h"
 
 static bool described(const struct effect_scan *scan)
 {
-    return moving_part_any(scan, MOVING_LIMBS);
+    return effect_any_moving_part(scan, MOVING_LIMBS);
 }
 
 /* Moves a limb offset_m ahead of the torso, along the person's heading. */
@@ -30,7 +29,7 @@ static void add_limbs(const struct effect_scan *scan, const struct echo *torso,
     int64_t count = random_poisson(MICRO_DOPPLER_LIMB_COUNT, 1, uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
         struct echo part =
-            moving_part_of(torso, PATH_LIMB, number, MICRO_DOPPLER_LIMB_FACTOR, EFFECT_LIMBS);
+            effect_part_of_echo(torso, PATH_LIMB, number, MICRO_DOPPLER_LIMB_FACTOR, EFFECT_LIMBS);
         random_uniform(&address, RANDOM_LIMBS, (uint32_t)number, uniform);
         struct limb limb = micro_doppler_limb(uniform);
         part.range_rate_mps =
@@ -43,7 +42,7 @@ static void add_limbs(const struct effect_scan *scan, const struct echo *torso,
 static void add_echoes(const struct effect_scan *scan, struct effect_echoes *echoes)
 {
     for (size_t i = 0; i < scan->echoes.count; i++)
-        if (moving_part_is(&scan->echoes.items[i], MOVING_LIMBS))
+        if (effect_has_moving_part(&scan->echoes.items[i], MOVING_LIMBS))
             add_limbs(scan, &scan->echoes.items[i], echoes);
 }
 

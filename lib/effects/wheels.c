@@ -1,13 +1,12 @@
 /* Points on rolling wheels (MODEL 14.11). */
 #include "effects/effect.h"
 
-#include "effects/moving_part.h"
 #include "frame/draw_address.h"
 #include "propagation/micro_doppler.h"
 
 static bool described(const struct effect_scan *scan)
 {
-    return moving_part_any(scan, MOVING_WHEEL);
+    return effect_any_moving_part(scan, MOVING_WHEEL);
 }
 
 static void add_points(const struct effect_scan *scan, const struct echo *hub,
@@ -19,7 +18,7 @@ static void add_points(const struct effect_scan *scan, const struct echo *hub,
     int64_t count = random_poisson(MICRO_DOPPLER_WHEEL_COUNT, 1, uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
         struct echo point =
-            moving_part_of(hub, PATH_WHEEL, number, MICRO_DOPPLER_WHEEL_FACTOR, EFFECT_WHEELS);
+            effect_part_of_echo(hub, PATH_WHEEL, number, MICRO_DOPPLER_WHEEL_FACTOR, EFFECT_WHEELS);
         random_uniform(&address, RANDOM_WHEELS, (uint32_t)number, uniform);
         point.range_rate_mps = micro_doppler_wheel_rate_mps(
             hub->range_rate_mps, hub->ground_rate_mps, micro_doppler_wheel_point(uniform));
@@ -30,7 +29,7 @@ static void add_points(const struct effect_scan *scan, const struct echo *hub,
 static void add_echoes(const struct effect_scan *scan, struct effect_echoes *echoes)
 {
     for (size_t i = 0; i < scan->echoes.count; i++)
-        if (moving_part_is(&scan->echoes.items[i], MOVING_WHEEL))
+        if (effect_has_moving_part(&scan->echoes.items[i], MOVING_WHEEL))
             add_points(scan, &scan->echoes.items[i], echoes);
 }
 
