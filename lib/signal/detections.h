@@ -46,3 +46,24 @@ void detections_label(struct detections *detections, struct frame *frame, const 
 /* Writes the target list: misaligned, in the sensor's order, up to its limit, rounded. */
 void detections_list(const struct detections *detections, struct frame *frame, const char *stage,
                      const struct effect_scan *noise);
+
+/* Powers over that of a bin's noise, >= 0: in the cell of the spectrum where the peak was found,
+ * and there in the beam of the detection. Elsewhere in its bin an echo is weaker than at its place.
+ */
+struct peak_snr {
+    double found, in_beam;
+};
+
+struct peak_accuracy {
+    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
+};
+
+/* Standard deviations of the place in the spectrum of an echo alone, at an azimuth (MODEL 14.21):
+ * by the Cramer-Rao bound of the window and of the elements, or by the slope of sum and delta. A
+ * chirp's range error contains the error of the range rate. Each is at most that of a value
+ * anywhere in a cell, or in the field of view. */
+struct peak_accuracy detections_accuracy(const struct signal_cube *signal, double azimuth_rad,
+                                         struct peak_snr snr);
+
+/* How many independent bins of noise the sensor searches: ranges times rates times beams. */
+double detections_noise_bins(const struct signal_cube *signal);

@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "signal/peak_accuracy.h"
+#include "signal/detections.h"
 
 #define DEGREE (PI / 180)
 
@@ -30,7 +30,7 @@ static struct peak_accuracy accuracy_of(const struct sensor *sensor, double azim
                                         double found, double in_beam)
 {
     struct signal_cube signal = signal_cube_of(sensor, &arena);
-    return peak_accuracy_of(&signal, azimuth_rad, (struct peak_snr){found, in_beam});
+    return detections_accuracy(&signal, azimuth_rad, (struct peak_snr){found, in_beam});
 }
 
 /* The Cramer-Rao bound of a frequency in white noise, sqrt(6)/(2 pi sqrt(snr)) bins, and with a
@@ -88,9 +88,9 @@ static void bins_are_ranges_times_rates_times_beams(void **state)
     (void)state;
     struct sensor sensor = radar(POINT_RESPONSE_HANN, 0), array = radar(POINT_RESPONSE_HANN, 8);
     struct signal_cube signal = signal_cube_of(&sensor, &arena);
-    assert_close(peak_accuracy_bins(&signal), 50 * 32, 1e-9);
+    assert_close(detections_noise_bins(&signal), 50 * 32, 1e-9);
     signal = signal_cube_of(&array, &arena);
-    assert_close(peak_accuracy_bins(&signal), 50 * 32 * 8, 1e-9);
+    assert_close(detections_noise_bins(&signal), 50 * 32 * 8, 1e-9);
 }
 
 static int release(void **state)
