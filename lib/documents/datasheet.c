@@ -1,7 +1,11 @@
 #include "documents/datasheet.h"
 
+#include <math.h>
+#include <stdio.h>
+
 #include "base/elementary.h"
 #include "base/units.h"
+#include "documents/consistency.h"
 #include "radar/detection.h"
 
 #define LEAST_GAIN 1e-6 /* less is rounding where a pattern ends in a zero */
@@ -78,4 +82,173 @@ void datasheet_of(const struct sensor *sensor, struct datasheet *sheet)
     double ercs = sensor->threshold / radar_amplitude(&sensor->amplitude_law, &sensor->antenna,
                                                       sensor->range_max_m, 0, 1);
     sheet->weakest_dbsm = 10 * elementary_log10(radar_cross_section_m2(ercs));
+}
+
+#define DEGREES (180 / PI)
+#define KMH 3.6
+
+static void add_update(const struct sensor *sensor, struct text *text)
+{
+    text_add_word(text, "  update             ");
+    if (sensor->cycle_s > 0)
+        text_format(text, "every %.4g ms", 1e3 * sensor->cycle_s);
+    else
+        text_add_word(text, "in every frame");
+    text_format(text, ", from a dwell of %.3g ms; latency %.4g ms\n", 1e3 * sensor->dwell_s,
+                1e3 * sensor->latency_s);
+}
+
+static void add_ambiguity(const struct sensor *sensor, struct text *text)
+{
+    text_add_word(text, "  unambiguous        ");
+    if (sensor->unambiguous_range_m > 0)
+        text_format(text, "to %.4g m, ", sensor->unambiguous_range_m);
+    else
+        text_add_word(text, "at every range, ");
+    if (sensor->unambiguous_rate_mps > 0)
+        text_format(text, "within +-%.4g km/h", KMH * sensor->unambiguous_rate_mps);
+    else
+        text_add_word(text, "at every rate");
+    if (sensor->waveform.samples > 0)
+        text_format(text, "; the signal within +-%.4g km/h", KMH * consistency_fold_mps(sensor));
+    text_add_word(text, "\n");
+}
+
+static void add_resolution(const struct sensor *sensor, struct text *text)
+{
+    text_format(text, "  resolution         %.3g m, %.3g km/h", 2 * sensor->half_range_m,
+                2 * KMH * sensor->half_range_rate_mps);
+    if (sensor->azimuth_cell_rad > 0)
+        text_format(text, ", %.3g degrees", DEGREES * sensor->azimuth_cell_rad);
+    text_format(text, "; beam of %.3g degrees\n", DEGREES * consistency_beam_rad(sensor));
+}
+
+static void add_figures(const struct sensor *sensor, const struct datasheet *sheet,
+                        struct text *text)
+{
+    text_format(text, "  carrier            %.5g GHz\n", 1e-9 * sensor->carrier_hz);
+    text_format(text, "  field of view      +-%.4g degrees\n",
+                DEGREES * sensor->field_of_view_rad / 2);
+    text_format(text,
+                "  range              %.4g (blind before) to %.4g m, where %.1f dBsm are seen\n",
+                sensor->range_min_m, sensor->range_max_m, sheet->weakest_dbsm);
+    add_resolution(sensor, text);
+    add_ambiguity(sensor, text);
+    add_update(sensor, text);
+    text_format(text, "  false alarms       %.3g a scan\n", sensor->false_alarms);
+    if (sensor->list_limit > 0)
+        text_format(text, "  list               the %s %lld\n",
+                    sensor->list_order == LIST_STRONGEST ? "strongest" : "nearest",
+                    (long long)sensor->list_limit);
+}
+
+static void add_accuracy(const struct datasheet *sheet, struct text *text)
+{
+    text_add_word(text, "\n  accuracy, 1 sigma      range, m   rate, km/h   azimuth, degrees, at");
+    for (int i = 0; i < DATASHEET_AZIMUTHS; i++)
+        text_format(text, " %6.3g", DEGREES * sheet->azimuth_rad[i]);
+    for (int i = 0; i < DATASHEET_LEVELS; i++) {
+        const struct datasheet_accuracy *accuracy = &sheet->accuracy[i];
+        if (isfinite(accuracy->snr_db))
+            text_format(text, "\n  SNR %5.1f dB       ", accuracy->snr_db);
+        else
+            text_format(text, "\n  threshold + %2d dB  ", 10 * i);
+        text_format(text, "  %12.2g %12.2g%22s", accuracy->range_sigma_m,
+                    KMH * accuracy->range_rate_sigma_mps, "");
+        for (int k = 0; k < DATASHEET_AZIMUTHS; k++)
+            if (isfinite(accuracy->azimuth_sigma_rad[k]))
+                text_format(text, " %6.2g", DEGREES * accuracy->azimuth_sigma_rad[k]);
+            else
+                text_format(text, " %6s", "-");
+    }
+    text_add_word(text, "\n");
+}
+
+static void add_range(double range_m, double range_max_m, struct text *text)
+{
+    char word[16] = "-";
+    if (range_m > 0)
+        snprintf(word, sizeof word, "%s%.4g", range_m < range_max_m ? "" : ">", range_m);
+    text_format(text, " %7s", word);
+}
+
+static void add_detection(const struct sensor *sensor, const struct datasheet *sheet,
+                          struct text *text)
+{
+    text_format(text, "\n  detected up to, m, with a probability of %.2f and of %.2f\n  %-13s",
+                sheet->chance[0], sheet->chance[1], "at");
+    for (int k = 0; k < DATASHEET_ECHOES; k++)
+        text_format(text, "%11.0f dBsm", sheet->echo_dbsm[k]);
+    for (int i = 0; i < DATASHEET_AZIMUTHS; i++) {
+        text_format(text, "\n  %5.3g degrees", DEGREES * sheet->azimuth_rad[i]);
+        for (int k = 0; k < DATASHEET_ECHOES; k++)
+            for (int chance = 0; chance < DATASHEET_CHANCES; chance++)
+                add_range(sheet->range_m[i][k][chance], sensor->range_max_m, text);
+    }
+    text_add_word(text, "\n");
+}
+
+static void add_checks(const struct sensor *sensor, struct text *text)
+{
+    static const struct {
+        const char *name;
+        double per_unit;
+    } units[] = {
+        [CONSISTENCY_S] = {" ms", 1e3}, [CONSISTENCY_HZ] = {" MHz", 1e-6},
+        [CONSISTENCY_M] = {" m", 1},    [CONSISTENCY_MPS] = {" km/h", KMH},
+        [CONSISTENCY_ONE] = {"", 1},    [CONSISTENCY_RAD] = {" degrees", DEGREES},
+    };
+    struct consistency checks[CONSISTENCY_MOST];
+    size_t count = consistency_list(sensor, checks);
+    text_add_word(text, "\n");
+    for (size_t i = 0; i < count; i++) {
+        const struct consistency *check = &checks[i];
+        double per_unit = units[check->unit].per_unit;
+        const char *unit = units[check->unit].name;
+        text_format(text, "  %s %s, %.4g%s, %s %s, %.4g%s\n",
+                    consistency_holds(check) ? "holds:" : "doubt:", check->left,
+                    per_unit * check->left_value, unit,
+                    check->kind == CONSISTENCY_EQUAL ? "about" : "at most", check->right,
+                    per_unit * check->right_value, unit);
+    }
+}
+
+static struct text sheet_of(const struct sensor *sensor)
+{
+    struct text text = {0};
+    struct datasheet sheet;
+    datasheet_of(sensor, &sheet);
+    add_figures(sensor, &sheet, &text);
+    add_accuracy(&sheet, &text);
+    add_detection(sensor, &sheet, &text);
+    add_checks(sensor, &text);
+    return text;
+}
+
+static void add_mount(const struct sensor *sensor, struct text *text)
+{
+    text_format(text, "%s: at x %.4g m, y %.4g m, looking to %.4g degrees\n", sensor->name,
+                sensor->mount_x_m, sensor->mount_y_m, DEGREES * sensor->mount_yaw_rad);
+}
+
+static bool same(const struct text *a, const struct text *b)
+{
+    return a->length == b->length && memcmp(a->bytes, b->bytes, a->length) == 0;
+}
+
+void datasheet_add(const struct suite *suite, struct text *text)
+{
+    struct text before = {0};
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        struct text sheet = sheet_of(&suite->sensors.items[i]);
+        if (i > 0 && !same(&before, &sheet)) {
+            text_add(text, before.bytes, before.length);
+            text_add_word(text, "\n");
+        }
+        add_mount(&suite->sensors.items[i], text);
+        text_free(&before);
+        before = sheet;
+    }
+    text_add(text, before.bytes, before.length);
+    text_free(&before);
 }

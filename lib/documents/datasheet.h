@@ -1,8 +1,9 @@
-/* Figures of a sensor as its maker would print them.
+/* Data sheet of a suite: figures as a maker would print them.
  *
  * They follow from the document alone: one echo, no rain, no interference, heights left aside. */
 #pragma once
 
+#include "base/text.h"
 #include "documents/suite.h"
 
 enum { DATASHEET_AZIMUTHS = 4, DATASHEET_LEVELS = 3, DATASHEET_ECHOES = 3, DATASHEET_CHANCES = 2 };
@@ -28,3 +29,7 @@ struct datasheet {
 
 /* The figures of a sensor with its derived members. */
 void datasheet_of(const struct sensor *sensor, struct datasheet *sheet);
+
+/* Adds a sheet for every sensor, in degrees, dBsm, m and km/h; sensors that differ in nothing but
+ * name and mount share one. A check that does not hold is a line that begins with "doubt:". */
+void datasheet_add(const struct suite *suite, struct text *text);

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "base/suggestion.h"
-#include "documents/datasheet_text.h"
+#include "documents/datasheet.h"
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "effects/effect.h"
@@ -413,7 +413,7 @@ static int print_datasheet(const char *name, struct arena *arena)
     if (suite == NULL)
         return complain(&diag);
     struct text text = {0};
-    datasheet_text_add(suite, &text);
+    datasheet_add(suite, &text);
     int code = print(text.bytes, text.length);
     text_free(&text);
     return code;

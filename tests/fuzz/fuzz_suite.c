@@ -1,5 +1,5 @@
 /* Documents of sensor suites, with the data sheet of those that are taken. */
-#include "documents/datasheet_text.h"
+#include "documents/datasheet.h"
 #include "documents/suite_file.h"
 #include "fuzz/fuzz.h"
 
@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     struct text sheet = {0};
     const struct suite *suite = suite_file_load(file.path, &arena, &diag);
     if (suite != NULL)
-        datasheet_text_add(suite, &sheet);
+        datasheet_add(suite, &sheet);
     fuzz_judge(&diag);
     text_free(&sheet);
     arena_free(&arena);

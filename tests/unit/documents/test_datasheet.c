@@ -7,7 +7,6 @@
 #include "base/units.h"
 #include "documents/consistency.h"
 #include "documents/datasheet.h"
-#include "documents/datasheet_text.h"
 #include "documents/suite_file.h"
 
 #define DEGREE (PI / 180)
@@ -280,7 +279,7 @@ static void without_noise_rows_of_accuracy_say_how_strong_an_echo_is(void **stat
     struct suite suite = {.sensors = {&sensor, 1, 1}};
     struct text text = {0};
     suite_derive(&sensor);
-    datasheet_text_add(&suite, &text);
+    datasheet_add(&suite, &text);
     text_add(&text, "", 1);
     assert_non_null(strstr(text.bytes, "\n  threshold +  0 dB             0.1        0.036"));
     assert_non_null(strstr(text.bytes, "\n  threshold + 20 dB             0.1        0.036"));
@@ -300,7 +299,7 @@ static void sensors_that_differ_in_their_mount_share_a_sheet(void **state)
     sensors[2].range_max_m = 200;
     for (int i = 0; i < 3; i++)
         suite_derive(&sensors[i]);
-    datasheet_text_add(&suite, &text);
+    datasheet_add(&suite, &text);
     text_add(&text, "", 1);
     int sheets = 0;
     for (const char *at = text.bytes; (at = strstr(at, "carrier")) != NULL; at++)
