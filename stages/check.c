@@ -99,7 +99,7 @@ static int check_count(const struct count *told, const struct count *truth, stru
     for (enum path path = PATH_DIRECT; path < PATH_WHEEL; path++)
         if (check_value("echoes", (double)frame_counted_echoes(told, path),
                         (double)frame_counted_echoes(truth, path), diag) != 0)
-            return diag_prefix(diag, "paths: %s ", frame_path_name(path));
+            return diag_prefix(diag, "paths: %s ", frame_paths[path]);
     return check_value("pairs", (double)told->pairs, (double)truth->pairs, diag);
 }
 
@@ -135,7 +135,7 @@ static int check_contributor(const struct contributor *told, const char *sensor,
         (frame_object(again, told->id.object) != NULL) == frame_shows_object(told->id.path))
         return 0;
     return diag_fail(diag, DIAG_DATA, "reflector: the objects make no echo of \"%s\", \"%s\", %s",
-                     told->id.object, told->id.reflector, frame_path_name(told->id.path));
+                     told->id.object, told->id.reflector, frame_paths[told->id.path]);
 }
 
 static int check_target(const struct target *target, const struct frame *again, struct check *own,

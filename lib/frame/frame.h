@@ -16,7 +16,6 @@
 #include "frame/conditions.h"
 #include "frame/effects.h"
 #include "frame/margins.h"
-#include "frame/quality.h"
 #include "frame/reflectors.h"
 #include "frame/sections.h"
 #include "frame/sightings.h"
@@ -150,6 +149,32 @@ struct cell {
     const char *extra;
 };
 
+/* Members of a target's quality that are known together. */
+enum quality_group {
+    QUALITY_NOISE = 1 << 0, /* snr_db, existence */
+    QUALITY_RCS = 1 << 1,
+    QUALITY_ERRORS = 1 << 2, /* standard deviations */
+    QUALITY_FOLDS = 1 << 3,  /* interval and ambiguity_number */
+    QUALITY_MERGED = 1 << 4,
+    QUALITY_MOUNT = 1 << 5, /* places from the sensor and the centre */
+    QUALITY_EGO = 1 << 6,   /* places and rate that need to know the ego */
+};
+
+/* What the sensor itself knows of a detection, from its report and its document (MODEL 14.21), and
+ * labels, which are exact. */
+struct quality {
+    double snr_db, rcs_dbsm;
+    double range_sd_m, range_rate_sd_mps, azimuth_sd_rad; /* standard deviations */
+    double existence;                                     /* probability of an echo */
+    double range_rate_interval_mps;                       /* rates this far apart read alike */
+    int64_t ambiguity_number; /* label: true rate less reported one, in such intervals */
+    bool merged_objects, merged_reflectors; /* labels: are contributors of several? */
+    double range_rate_over_ground_mps;      /* without the sensor's own motion */
+    double x_sensor_m, y_sensor_m, x_centre_m, y_centre_m;
+    double x_rear_axle_m, y_rear_axle_m, x_world_m, y_world_m;
+    unsigned present; /* enum quality_group */
+};
+
 /* An entry of the target list with its exact label: values and members of its cell. */
 struct target {
     const char *sensor;
@@ -257,6 +282,7 @@ extern const struct record echo_record;
 extern const struct record contributor_record;
 extern const struct record cell_record;
 extern const struct record target_record;
+extern const struct record quality_record;
 extern const struct record lost_echo_record;
 extern const struct record lost_group_record;
 
@@ -279,9 +305,8 @@ static inline bool frame_carries(const struct frame *frame, enum carried what)
 /* The key of a section on the wire. */
 const char *frame_section_name(enum section section);
 
-/* Names on the wire; NULL for the value after the last. */
-const char *frame_path_name(enum path path);
-const char *frame_loss_name(enum loss loss);
+/* Names on the wire; NULL follows the last. */
+extern const char *const frame_paths[], *const frame_losses[];
 
 /* The reason of that name; LOSS_OWN for any other. */
 enum loss frame_loss_of(const char *reason);

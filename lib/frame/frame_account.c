@@ -197,7 +197,7 @@ static int compare(const int64_t *entries, const struct count *counted, struct d
         if (entries[path] != due)
             return diag_fail(
                 diag, DIAG_DATA, "account: sensor \"%s\" has %lld entries of path %s; %lld are due",
-                counted->sensor, (long long)entries[path], frame_path_name(path), (long long)due);
+                counted->sensor, (long long)entries[path], frame_paths[path], (long long)due);
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-/* A frame as a line of JSON (record_text.h), and back. */
+/* A frame as a line of JSON (record_text.h), and back: the tables of its members. */
 #pragma once
 
 #include "base/text.h"

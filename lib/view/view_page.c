@@ -157,13 +157,13 @@ static void add_numbered(const struct view_data *data, struct head *head)
     struct arena *arena = data->arena;
     for (size_t i = 0; i < data->names.list.count; i++)
         *list_add(&head->names, arena) = data->names.list.items[i].text;
-    for (enum path path = 0; frame_path_name(path) != NULL; path++)
-        *list_add(&head->paths, arena) = frame_path_name(path);
+    for (enum path path = 0; frame_paths[path] != NULL; path++)
+        *list_add(&head->paths, arena) = frame_paths[path];
     for (int effect = 0; effect < EFFECT_COUNT; effect++)
         *list_add(&head->effects, arena) = effects_names[effect];
-    for (enum loss loss = 0; frame_loss_name(loss) != NULL; loss++)
+    for (enum loss loss = 0; frame_losses[loss] != NULL; loss++)
         *list_add(&head->reasons, arena) =
-            (struct reason){frame_loss_name(loss), view_frame_loss_is_notable(loss)};
+            (struct reason){frame_losses[loss], view_frame_loss_is_notable(loss)};
     for (size_t i = 0; i < data->own_reasons.list.count; i++)
         *list_add(&head->reasons, arena) =
             (struct reason){data->own_reasons.list.items[i].text, true};
