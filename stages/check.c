@@ -103,7 +103,7 @@ static int check_count(const struct count *told, const struct count *truth, stru
     return check_value("pairs", (double)told->pairs, (double)truth->pairs, diag);
 }
 
-/* What ideal counts: direct echoes, ghosts and reflectors in view. frame_account_check knows what
+/* What ideal counts: direct echoes, ghosts and reflectors in view. frame_check_account knows what
  * later stages count. */
 static int check_counts(const struct frame *frame, struct frame *again, struct diag *diag)
 {

@@ -234,7 +234,7 @@ struct path_count {
     int64_t echoes;
 };
 
-/* What one sensor has to account for (frame_account.h): its pairs with a reflector, and the echoes
+/* What one sensor has to account for (frame_check.h): its pairs with a reflector, and the echoes
  * that were made. */
 struct count {
     const char *sensor;

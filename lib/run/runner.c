@@ -10,7 +10,6 @@
 #include "base/text.h"
 #include "documents/vehicle.h"
 #include "effects/effect.h"
-#include "frame/frame_account.h"
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "run/suite_choice.h"
@@ -224,7 +223,7 @@ static int finish_step(struct runner *runner, struct frame *frame)
     if (frame_check_part(frame, written, &runner->diag) != 0)
         return refuse(runner, frame);
     if (frame_carries(frame, CARRY_ACCOUNT) && (stage->writes & SECTION_TARGETS) != 0)
-        return frame_account_check(frame, &runner->diag);
+        return frame_check_account(frame, &runner->diag);
     return 0;
 }
 
@@ -279,7 +278,7 @@ static int check_account(const struct runner *runner, const struct frame *frame,
     if (!ends || !whole || !frame_carries(frame, CARRY_ACCOUNT) || runner->before != NULL ||
         runner->input == NULL)
         return 0;
-    return frame_account_check(frame, diag);
+    return frame_check_account(frame, diag);
 }
 
 /* Before every step: the frame takes the seed of the command line, must have the sections that the

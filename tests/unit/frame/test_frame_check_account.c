@@ -1,4 +1,4 @@
-#include "frame/frame_account.h"
+#include "frame/frame_check.h"
 
 #include "accounted_frame.h"
 #include "check.h"
@@ -12,9 +12,9 @@ static void a_whole_account_passes_in_any_order(void **state)
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     struct diag diag = {0};
-    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    assert_int_equal(frame_check_account(&frame, &diag), 0);
     frame_order(&frame);
-    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    assert_int_equal(frame_check_account(&frame, &diag), 0);
     arena_free(&arena);
 }
 
@@ -28,7 +28,7 @@ static void an_echo_may_feed_several_targets(void **state)
         accounted_cell(&arena, "left", 1, (struct contributor[]){accounted_echo("b", "corner")});
     frame_add_target(&frame, &cell, 2);
     frame_add_target(&frame, &cell, 1);
-    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    assert_int_equal(frame_check_account(&frame, &diag), 0);
     arena_free(&arena);
 }
 
@@ -51,12 +51,12 @@ static void before_there_are_targets_cells_or_echoes_stand_for_them(void **state
         }
         frame_drop(&frame, SECTION_TARGETS);
         frame.present |= early ? SECTION_ECHOES : SECTION_CELLS | SECTION_ECHOES;
-        assert_int_equal(frame_account_check(&frame, &diag), 0);
+        assert_int_equal(frame_check_account(&frame, &diag), 0);
         if (early)
             frame.echoes.count--;
         else
             frame.cells.items[1].members.count--;
-        assert_int_equal(frame_account_check(&frame, &diag), -1);
+        assert_int_equal(frame_check_account(&frame, &diag), -1);
         assert_string_equal(diag.text,
                             "account: sensor \"left\" has 2 entries of path direct; 3 are due");
         arena_free(&arena);
@@ -141,7 +141,7 @@ static void planted_faults_in_the_account_are_caught(void **state)
         struct frame frame = accounted_frame(&arena);
         struct diag diag = {0};
         cases[i].plant(&frame);
-        assert_int_equal(frame_account_check(&frame, &diag), -1);
+        assert_int_equal(frame_check_account(&frame, &diag), -1);
         assert_string_equal(diag.text, cases[i].message);
         assert_int_equal(diag.code, DIAG_DATA);
         arena_free(&arena);
@@ -157,7 +157,7 @@ static void echoes_of_other_paths_are_due_beyond_the_pairs(void **state)
     struct diag diag = {0};
     frame_count_echoes(&frame, "left", PATH_WHEEL, 2);
     frame_count_echoes(&frame, "left", PATH_WALL_OBJECT, 1);
-    assert_int_equal(frame_account_check(&frame, &diag), -1);
+    assert_int_equal(frame_check_account(&frame, &diag), -1);
     assert_string_equal(diag.text,
                         "account: sensor \"left\" has 0 entries of path wall_object; 1 are due");
     struct lost_echo lost[] = {
@@ -167,11 +167,11 @@ static void echoes_of_other_paths_are_due_beyond_the_pairs(void **state)
     };
     for (size_t i = 0; i < 3; i++)
         frame_lose(&frame, "sensor", "left", LOSS_BELOW_THRESHOLD, &lost[i]);
-    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    assert_int_equal(frame_check_account(&frame, &diag), 0);
     frame_count_echoes(&frame, "left", PATH_WHEEL, -1);
     frame_count_echoes(&frame, "left", PATH_LIMB, 1);
     diag = (struct diag){0};
-    assert_int_equal(frame_account_check(&frame, &diag), -1);
+    assert_int_equal(frame_check_account(&frame, &diag), -1);
     assert_string_equal(diag.text,
                         "account: sensor \"left\" has 2 entries of path wheel; 1 are due");
     arena_free(&arena);
@@ -197,7 +197,7 @@ static void echoes_that_differ_in_one_member_are_two_entries(void **state)
         frame_lose(&frame, "sensor", "s", LOSS_NO_ANGLE, &(struct lost_echo){.id = one});
         frame_lose(&frame, "noise", "s", LOSS_NO_ANGLE,
                    &(struct lost_echo){.id = i < COUNT(others) ? others[i] : one});
-        assert_int_equal(frame_account_check(&frame, &diag), i < COUNT(others) ? 0 : -1);
+        assert_int_equal(frame_check_account(&frame, &diag), i < COUNT(others) ? 0 : -1);
         arena_free(&arena);
     }
 }
@@ -214,7 +214,7 @@ static void the_same_echo_of_two_sensors_is_one_entry_of_each(void **state)
         frame_lose(&frame, "ideal", sensors[i], LOSS_BLOCKED,
                    &(struct lost_echo){.id = {.object = "a", .reflector = "p"}});
     }
-    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    assert_int_equal(frame_check_account(&frame, &diag), 0);
     arena_free(&arena);
 }
 
@@ -230,10 +230,10 @@ static void one_that_is_doubled_is_found_among_many(void **state)
     struct lost_echo lost = {.id = {.object = "a", .reflector = "p"}};
     for (lost.id.number = 1; lost.id.number <= MANY; lost.id.number++)
         frame_lose(&frame, "ideal", "s", LOSS_BLOCKED, &lost);
-    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    assert_int_equal(frame_check_account(&frame, &diag), 0);
     lost.id.number = MANY;
     frame_lose(&frame, "noise", "s", LOSS_NO_ANGLE, &lost);
-    assert_int_equal(frame_account_check(&frame, &diag), -1);
+    assert_int_equal(frame_check_account(&frame, &diag), -1);
     assert_string_equal(diag.text,
                         "account: sensor \"s\", object \"a\", reflector \"p\" has two entries");
     arena_free(&arena);
