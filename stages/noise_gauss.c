@@ -2,14 +2,15 @@
 #include "base/elementary.h"
 #include "base/random.h"
 #include "base/units.h"
-#include "frame/draw_address.h"
+#include "frame/frame.h"
 #include "noise/target_list.h"
 #include "run/suite_choice.h"
 
 static struct effect_measurement measure(const struct frame *frame, const struct sensor *sensor,
                                          const struct cell *cell)
 {
-    struct random_address address = draw_address_of(frame, sensor->name, cell->members.items[0].id);
+    struct random_address address =
+        frame_draw_address_of(frame, sensor->name, cell->members.items[0].id);
     double range_and_rate[2], azimuth[2];
     random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, range_and_rate);
     random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, azimuth);

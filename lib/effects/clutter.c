@@ -4,7 +4,6 @@
 
 #include "base/elementary.h"
 #include "base/random.h"
-#include "frame/draw_address.h"
 #include "geometry/kinematics.h"
 #include "propagation/ground_return.h"
 
@@ -64,7 +63,7 @@ static void add_echoes(const struct effect_scan *scan, struct effect_echoes *ech
         .time_s = scan->time_s,
         .effects = EFFECT_BIT(EFFECT_CLUTTER),
     };
-    struct random_address address = draw_address_in(scan->address, ground.id);
+    struct random_address address = frame_draw_address_in(scan->address, ground.id);
     double uniform[4];
     random_uniform(&address, RANDOM_CLUTTER, 0, uniform);
     int64_t count = point_count(scan, uniform[0]);

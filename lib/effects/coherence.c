@@ -3,7 +3,6 @@
 #include "effects/effect.h"
 
 #include "base/units.h"
-#include "frame/draw_address.h"
 #include "propagation/carrier.h"
 
 static bool described(const struct effect_scan *scan)
@@ -16,7 +15,7 @@ static bool described(const struct effect_scan *scan)
 static double phase_rad(const struct effect_scan *scan, const struct echo *echo)
 {
     const struct sensor *sensor = scan->sensor;
-    struct random_address address = draw_address_in(scan->address, echo->id);
+    struct random_address address = frame_draw_address_in(scan->address, echo->id);
     double uniform[4];
     if (sensor->cell_phase == CELL_RANDOM_PHASE) {
         random_uniform(&address, RANDOM_PHASE, 0, uniform);

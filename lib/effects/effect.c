@@ -1,7 +1,6 @@
 #include "effects/effect.h"
 
 #include "base/elementary.h"
-#include "frame/draw_address.h"
 #include "radar/scan_timing.h"
 
 #define EFFECT(id, name) extern const struct effect effect_##name;
@@ -62,7 +61,7 @@ struct effect_scan effect_begin(const struct frame *frame, const struct sensor *
         .frame = frame,
         .sensor = sensor,
         .time_s = shown_instant_s(frame, sensor, selection),
-        .address = draw_address_of_scan(frame, sensor->name),
+        .address = frame_draw_address_of_scan(frame, sensor->name),
     };
     if (home == EFFECT_HOME_SENSOR)
         scan.echoes = frame_echoes_of(frame, sensor->name);
@@ -133,7 +132,7 @@ struct effect_measurement effect_measurement_of(const struct effect_scan *scan,
     };
     if (scan == NULL)
         return measurement;
-    measurement.address = draw_address_in(scan->address, cell->members.items[0].id);
+    measurement.address = frame_draw_address_in(scan->address, cell->members.items[0].id);
     measurement.range_sigma_m = scan->sensor->range_sigma_m;
     measurement.range_rate_sigma_mps = scan->sensor->range_rate_sigma_mps;
     return measurement;

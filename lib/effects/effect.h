@@ -37,10 +37,11 @@ enum effect_step {
 struct effect_scan {
     const struct frame *frame;
     const struct sensor *sensor;
-    double time_s;                 /* of the measurement */
-    struct echo_span echoes;       /* those of ideal; none in noise */
-    struct random_address address; /* the scan's; draw_address_in adds an echo or a cell's leader */
-    uint64_t effects;              /* the set of effects that are simulated */
+    double time_s;           /* of the measurement */
+    struct echo_span echoes; /* those of ideal; none in noise */
+    struct random_address
+        address;      /* the scan's; frame_draw_address_in adds an echo or a cell's leader */
+    uint64_t effects; /* the set of effects that are simulated */
     uint64_t receiving, measuring[EFFECT_STEPS]; /* those of them that have the hook */
     double (*constants)[EFFECT_CONSTANTS];       /* by effect_id, as the hooks begin set them */
     double interference; /* power of other radars over that of the sensor's own noise */

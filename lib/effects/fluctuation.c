@@ -1,8 +1,6 @@
 /* Fluctuation of echoes from scan to scan (MODEL 14.14). */
 #include "effects/effect.h"
 
-#include "frame/draw_address.h"
-
 static bool described(const struct effect_scan *scan)
 {
     return scan->sensor->fluctuation != FLUCTUATION_NONE;
@@ -11,7 +9,7 @@ static bool described(const struct effect_scan *scan)
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
 {
     const struct sensor *sensor = scan->sensor;
-    struct random_address address = draw_address_in(scan->address, reception->echo->id);
+    struct random_address address = frame_draw_address_in(scan->address, reception->echo->id);
     double uniform[4];
     random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
     return effect_scale(reception, detection_fluctuation(sensor->fluctuation,

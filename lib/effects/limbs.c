@@ -2,7 +2,6 @@
 #include "effects/effect.h"
 
 #include "base/elementary.h"
-#include "frame/draw_address.h"
 #include "propagation/micro_doppler.h"
 
 static bool described(const struct effect_scan *scan)
@@ -23,7 +22,7 @@ static void shift(struct echo *limb, double offset_m)
 static void add_limbs(const struct effect_scan *scan, const struct echo *torso,
                       struct effect_echoes *echoes)
 {
-    struct random_address address = draw_address_in(scan->address, torso->id);
+    struct random_address address = frame_draw_address_in(scan->address, torso->id);
     double uniform[4];
     random_uniform(&address, RANDOM_LIMBS, 0, uniform);
     int64_t count = random_poisson(MICRO_DOPPLER_LIMB_COUNT, 1, uniform[0]);

@@ -1,7 +1,6 @@
 /* Points on rolling wheels (MODEL 14.11). */
 #include "effects/effect.h"
 
-#include "frame/draw_address.h"
 #include "propagation/micro_doppler.h"
 
 static bool described(const struct effect_scan *scan)
@@ -12,7 +11,7 @@ static bool described(const struct effect_scan *scan)
 static void add_points(const struct effect_scan *scan, const struct echo *hub,
                        struct effect_echoes *echoes)
 {
-    struct random_address address = draw_address_in(scan->address, hub->id);
+    struct random_address address = frame_draw_address_in(scan->address, hub->id);
     double uniform[4];
     random_uniform(&address, RANDOM_WHEELS, 0, uniform);
     int64_t count = random_poisson(MICRO_DOPPLER_WHEEL_COUNT, 1, uniform[0]);

@@ -13,6 +13,7 @@
  * end in _db. */
 #pragma once
 
+#include "base/random.h"
 #include "frame/conditions.h"
 #include "frame/effects.h"
 #include "frame/margins.h"
@@ -389,3 +390,15 @@ int64_t frame_counted_echoes(const struct count *count, enum path path);
 /* Appends a target with the cell as its label; the target's own values and margins are the cell's,
  * without noise. */
 struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db);
+
+/* Addresses of random numbers (random.h) hold the frame's seed, scene and number, the sensor, and
+ * the identity of the echo. Random numbers of a cell have the address of its leader.
+ *
+ * The address of a sensor's whole scan, with no echo. */
+struct random_address frame_draw_address_of_scan(const struct frame *frame, const char *sensor);
+
+/* The address of an echo in that scan. */
+struct random_address frame_draw_address_in(struct random_address scan, struct echo_id id);
+
+struct random_address frame_draw_address_of(const struct frame *frame, const char *sensor,
+                                            struct echo_id id);

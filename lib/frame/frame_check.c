@@ -1,6 +1,6 @@
 #include "frame/frame_check.h"
 
-#include "base/hash_table.h"
+#include "base/hash.h"
 #include "base/intern.h"
 #include "frame/frame_order.h"
 #include "text/document.h"

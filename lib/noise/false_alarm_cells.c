@@ -3,7 +3,6 @@
 #include "base/elementary.h"
 #include "base/random.h"
 #include "effects/effect.h"
-#include "frame/draw_address.h"
 
 struct contributor false_alarm_cells_contributor(int64_t number)
 {
@@ -54,7 +53,7 @@ struct cell_span false_alarm_cells_of(struct frame *frame, const struct effect_s
     const struct sensor *sensor = context->sensor;
     const struct sensor_view *view = frame_view(frame, sensor->name);
     struct random_address address =
-        draw_address_in(context->address, false_alarm_cells_contributor(0).id);
+        frame_draw_address_in(context->address, false_alarm_cells_contributor(0).id);
     double uniform[4];
     if (!effect_simulates(context, EFFECT_FALSE_ALARMS) || view == NULL || !view->measured)
         return (struct cell_span){0};

@@ -4,7 +4,6 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "frame/draw_address.h"
 #include "noise/false_alarm_cells.h"
 #include "radar/interferer.h"
 #include "sensor/scan.h"
@@ -303,7 +302,7 @@ struct signal_input signal_cube_input(const struct signal_cube *signal, const st
     const struct effect_scan *context = &scan->context;
     struct signal_input input = signal_cube_sources(signal, scan->received.echoes,
                                                     scan->received.count, context->frame->arena);
-    input.address = draw_address_in(context->address, false_alarm_cells_contributor(0).id);
+    input.address = frame_draw_address_in(context->address, false_alarm_cells_contributor(0).id);
     if (noisy)
         input.sigma =
             signal->sensor->pointer_sigma * interferer_noise_factor(context->interference);

@@ -8,7 +8,6 @@
 
 #include "base/units.h"
 #include "effects/effect.h"
-#include "frame/draw_address.h"
 
 #define EVERY_EFFECT (EFFECT_BIT(EFFECT_COUNT) - 1)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -119,7 +118,8 @@ static inline double effect_bench_factor(struct effect_bench *bench, enum effect
 static inline void effect_bench_draw(const struct effect_bench *bench, const struct echo *echo,
                                      enum random_purpose purpose, uint32_t index, double uniform[4])
 {
-    struct random_address address = draw_address_of(&bench->frame, bench->sensor.name, echo->id);
+    struct random_address address =
+        frame_draw_address_of(&bench->frame, bench->sensor.name, echo->id);
     random_uniform(&address, purpose, index, uniform);
 }
 

@@ -18,7 +18,7 @@ static void both_channels_get_the_noise_of_their_cell(void **state)
                                   .members = {&leader, 1, 1}};
         struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
         struct effect_measurement read = effect_measurement_of(&scan, &cell);
-        struct random_address address = draw_address_of(&bench->frame, "radar", leader.id);
+        struct random_address address = frame_draw_address_of(&bench->frame, "radar", leader.id);
         double draw[4], sigma = 0.5 * sqrt(0.5) * sqrt(1 + interference[i]);
         random_gaussian(&address, RANDOM_POINTERS, 0, draw);
         effect_measure(&scan, EFFECT_STEP_POINTERS, &read);
@@ -38,7 +38,7 @@ static void the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read(void **s
     const struct cell cell = {.range_m = 10, .members = {&leader, 1, 1}};
     bench->sensor.azimuth_floor_rad = 0.5;
     for (bench->frame.frame = 0; bench->frame.frame < 20; bench->frame.frame++) {
-        struct random_address address = draw_address_of(&bench->frame, "radar", leader.id);
+        struct random_address address = frame_draw_address_of(&bench->frame, "radar", leader.id);
         struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
         struct effect_measurement read = effect_measurement_of(&scan, &cell);
         double draw[2];

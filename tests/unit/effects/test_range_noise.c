@@ -17,7 +17,7 @@ static void range_and_rate_get_the_noise_of_their_cell(void **state)
     bench->sensor.range_sigma_m = 0.02;
     bench->sensor.range_rate_sigma_mps = 0.05;
     for (bench->frame.frame = 0; bench->frame.frame < 20; bench->frame.frame++) {
-        struct random_address address = draw_address_of(&bench->frame, "radar", leader.id);
+        struct random_address address = frame_draw_address_of(&bench->frame, "radar", leader.id);
         double draw[2];
         random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, draw);
         struct effect_measurement read = measure_cell(bench, &cell);

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "frame/draw_address.h"
+#include "frame/frame.h"
 
 static const struct echo_id SUBJECT = {"car", "front_left", PATH_WALL_OBJECT, "wall", 2};
 static const struct frame FRAME = {.seed = 7, .scene = "scene/ego", .frame = 3};
@@ -40,12 +40,12 @@ static void addresses_differ_by_each_of_their_parts(void **state)
     ids[14].number = 0x302;
     ids[15].path = PATH_DIRECT;
     for (int i = 0; i < CASES; i++)
-        addresses[i] = draw_address_of(&frames[i], i == 4 ? "rear" : "front", ids[i]);
+        addresses[i] = frame_draw_address_of(&frames[i], i == 4 ? "rear" : "front", ids[i]);
     for (int i = 0; i < CASES; i++)
         for (int j = 0; j < CASES; j++)
             if (equal(addresses[i], addresses[j]) != (i == j))
                 fail_msg("cases %d and %d", i, j);
-    assert_true(equal(addresses[0], draw_address_of(&FRAME, "front", SUBJECT)));
+    assert_true(equal(addresses[0], frame_draw_address_of(&FRAME, "front", SUBJECT)));
 }
 
 /* Promises of bytes: FNV-1a and its final mix, worked out apart from this code. Whoever changes one
@@ -72,7 +72,7 @@ static void addresses_are_these_on_every_machine(void **state)
          UINT64_C(0x2ad856944850622b)},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct random_address address = draw_address_of(&FRAME, cases[i].sensor, cases[i].id);
+        struct random_address address = frame_draw_address_of(&FRAME, cases[i].sensor, cases[i].id);
         assert_true(address.seed == 7 && address.frame == 3);
         assert_true(address.scene == UINT64_C(0x64f84b6fffa5f816));
         assert_true(address.sensor == cases[i].sensor_hash);
