@@ -1,4 +1,4 @@
-/* Consistency of a frame beyond its field tables, and its account.
+/* Consistency of a frame's sections, and its account.
  *
  * Tables hold single members to their bounds; this holds sections to each other. */
 #pragma once

@@ -1,4 +1,4 @@
-/* A frame as a line of JSON (record_text.h), and back: the tables of its members. */
+/* A frame as a line of JSON: tables, reading, writing (record_text.h). */
 #pragma once
 
 #include "base/text.h"
