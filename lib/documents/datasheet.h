@@ -1,4 +1,4 @@
-/* Data sheet of a suite: figures as a maker would print them.
+/* Data sheet of a suite: its figures, and their text.
  *
  * They follow from the document alone: one echo, no rain, no interference, heights left aside. */
 #pragma once
