@@ -64,23 +64,14 @@ static int check_value(const char *member, double told, double truth, struct dia
     return diag_fail(diag, DIAG_DATA, "%s: %.17g; recomputed, it is %.17g", member, told, truth);
 }
 
-/* A member's number; 0 for what is none. */
-static double number_in(const struct field *field, const void *base)
-{
-    return field->kind == FIELD_REAL      ? FIELD_LOAD(double, field, base)
-           : field->kind == FIELD_INTEGER ? (double)FIELD_LOAD(int64_t, field, base)
-           : field->kind == FIELD_CHOICE
-               ? FIELD_LOAD(int, field, base)
-               : field->kind == FIELD_FLAG && FIELD_LOAD(bool, field, base);
-}
-
 /* All numbers of a struct must be those that are made again. */
 static int check_numbers(const struct record *record, const void *told, const void *truth,
                          struct diag *diag)
 {
     int result = 0;
     for (const struct field *field = record->fields; field->name != NULL && result == 0; field++)
-        result = check_value(field->name, number_in(field, told), number_in(field, truth), diag);
+        result =
+            check_value(field->name, field_number(field, told), field_number(field, truth), diag);
     return result;
 }
 

@@ -197,9 +197,8 @@ static void send_on(void *with)
 static bool is_option(const char *path, const struct field *fields, const char *base)
 {
     for (const struct field *field = fields; field->name != NULL; field++) {
-        const char *const *value = (const void *)(base + field->offset);
-        bool name = field->kind == FIELD_NAME && *value != NULL;
-        if (name && path_same_file(path, strcmp(*value, "-") == 0 ? "/dev/stdin" : *value))
+        const char *name = field->kind == FIELD_NAME ? FIELD_LOAD(const char *, field, base) : NULL;
+        if (name != NULL && path_same_file(path, strcmp(name, "-") == 0 ? "/dev/stdin" : name))
             return true;
         if (field->kind == FIELD_RECORD &&
             is_option(path, field->record->fields, base + field->offset))

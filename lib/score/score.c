@@ -355,9 +355,10 @@ static void fill_row(const struct table *table, const struct record *record,
 {
     for (size_t i = 0; i < table->count; i++) {
         const char *base = (const char *)&table->scores[i] + offset;
+        double number = field_number(field, base);
         table->row[i] = !field_present(record, field, base) ? (double)NAN
-                        : field->kind == FIELD_INTEGER ? (double)FIELD_LOAD(int64_t, field, base)
-                                                       : scale * FIELD_LOAD(double, field, base);
+                        : field->kind == FIELD_REAL         ? scale * number
+                                                            : number;
     }
 }
 

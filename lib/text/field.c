@@ -286,17 +286,27 @@ void field_mark_present(const struct record *record, const struct field *field, 
     memcpy((char *)base + record->present_offset, &present, sizeof present);
 }
 
-int field_require(const struct record *record, uint64_t seen, struct diag *diag)
+int field_missing(const struct field *field, struct diag *diag)
 {
-    for (size_t i = 0; record->fields[i].name != NULL; i++) {
-        const struct field *field = &record->fields[i];
-        if (field->optional || field->section != 0 || (seen >> i & 1) != 0)
-            continue;
-        char expected[512];
-        field_expectation(field, expected, sizeof expected);
-        return diag_fail(diag, DIAG_DATA, "%s: missing; expected %s", field->name, expected);
+    char expected[512];
+    field_expectation(field, expected, sizeof expected);
+    return diag_fail(diag, DIAG_DATA, "%s: missing; expected %s", field->name, expected);
+}
+
+double field_number(const struct field *field, const void *base)
+{
+    switch (field->kind) {
+    case FIELD_REAL:
+        return FIELD_LOAD(double, field, base);
+    case FIELD_INTEGER:
+        return (double)FIELD_LOAD(int64_t, field, base);
+    case FIELD_CHOICE:
+        return FIELD_LOAD(int, field, base);
+    case FIELD_FLAG:
+        return FIELD_LOAD(bool, field, base);
+    default:
+        return 0;
     }
-    return 0;
 }
 
 void field_expectation(const struct field *field, char *text, size_t size)

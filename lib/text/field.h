@@ -66,11 +66,14 @@ struct record {
     size_t document_offset;
 };
 
-/* The members of a record: at most 64, since readers note in a uint64_t which ones they have seen.
- * A longer table does not compile. */
+/* The most members of a record: readers note in a set of 64-bit words which ones they have seen. A
+ * longer table does not compile. */
+enum { FIELD_MOST = 127, FIELD_SEEN_WORDS = (FIELD_MOST + 64) / 64 };
+
 #define FIELD_TABLE(owner, fields_, name_, help_)                                                  \
     .name = (name_), .help = (help_), .size = sizeof(owner),                                       \
-    .fields = (fields_) + 0 * sizeof(char[sizeof(fields_) / sizeof *(fields_) <= 64 + 1 ? 1 : -1])
+    .fields = (fields_) +                                                                          \
+              0 * sizeof(char[sizeof(fields_) / sizeof *(fields_) <= FIELD_MOST + 1 ? 1 : -1])
 
 /* The table of a record without members. */
 extern const struct field field_none[];
@@ -175,9 +178,8 @@ int field_read_number(const char *text, size_t length, double *value);
 bool field_present(const struct record *record, const struct field *field, const void *base);
 void field_mark_present(const struct record *record, const struct field *field, void *base);
 
-/* Refuses a struct with "name: missing; expected ..." if a required field is not among those seen
- * (bit i stands for fields[i]). */
-int field_require(const struct record *record, uint64_t seen, struct diag *diag);
+/* Refuses a struct without this member with "name: missing; expected ...". */
+int field_missing(const struct field *field, struct diag *diag);
 
 /* The values that the field takes, for messages: "a number in [0, 1e+06] m", "one of a, b, c",
  * ... */
@@ -193,6 +195,9 @@ int field_out_of_bounds(const struct field *field, double value, struct diag *di
  * character ...". */
 int field_require_name(const struct field *field, const char *text, size_t length,
                        struct diag *diag);
+
+/* The value of a number, choice or flag; 0 for every other kind. */
+double field_number(const struct field *field, const void *base);
 
 /* The layout of every LIST_OF, whatever the type of its items. */
 struct field_list {

@@ -304,7 +304,7 @@ static const struct field *take_key(struct json_scan *scan, const struct field *
 
 /* Reads the key and the colon of any member, in any spelling; NULL after a message. */
 static const struct field *read_key(struct json_scan *scan, const struct record *record,
-                                    uint64_t seen)
+                                    const uint64_t *seen)
 {
     struct json_string key;
     const struct field *field = NULL;
@@ -315,7 +315,7 @@ static const struct field *read_key(struct json_scan *scan, const struct record 
     field = field_find(record, key.text, key.length);
     if (field == NULL)
         field_unknown(record, key.text, key.length, scan->diag);
-    else if ((seen >> (field - record->fields) & 1) != 0)
+    else if ((seen[(field - record->fields) / 64] >> (field - record->fields) % 64 & 1) != 0)
         field_twice(field, scan->diag);
     else if (!json_scan_take(scan, ':'))
         unexpected(scan, "':'");
@@ -329,19 +329,17 @@ static int read_members(struct reader *reader, const struct record *record, void
 {
     struct json_scan *scan = &reader->scan;
     const struct field *next = record->fields;
-    uint64_t bit = 1; /* of the next member */
     do {
         const struct field *field = take_key(scan, next);
         if (field == NULL)
-            field = read_key(scan, record, *seen);
+            field = read_key(scan, record, seen);
         if (field == NULL)
             return -1;
-        if (field != next)
-            bit = UINT64_C(1) << (field - record->fields);
-        if ((*seen & bit) != 0)
+        size_t number = (size_t)(field - record->fields);
+        uint64_t *word = &seen[number / 64], bit = UINT64_C(1) << number % 64;
+        if ((*word & bit) != 0)
             return field_twice(field, scan->diag);
-        *seen |= bit;
-        bit <<= 1;
+        *word |= bit;
         next = field + 1;
         if (read_member(reader, field, base) != 0)
             return -1;
@@ -355,18 +353,20 @@ static int read_members(struct reader *reader, const struct record *record, void
 static int read_record(struct reader *reader, const struct record *record, void *base)
 {
     struct json_scan *scan = &reader->scan;
-    uint64_t seen = 0;
+    uint64_t seen[FIELD_SEEN_WORDS] = {0};
     json_scan_take(scan, '{');
-    if (!json_scan_take(scan, '}') && read_members(reader, record, base, &seen) != 0)
+    if (!json_scan_take(scan, '}') && read_members(reader, record, base, seen) != 0)
         return -1;
-    for (uint64_t unseen = ~seen; unseen != 0; unseen &= unseen - 1) {
-        const struct field *field = &record->fields[__builtin_ctzll(unseen)];
-        if (field->name == NULL)
-            return 0;
-        if (!field->optional)
-            return field_require(record, seen, scan->diag);
-        field_set_absent(field, base);
-    }
+    for (size_t word = 0; word < FIELD_SEEN_WORDS; word++)
+        for (uint64_t unseen = ~seen[word]; unseen != 0; unseen &= unseen - 1) {
+            const struct field *field = &record->fields[64 * word + (size_t)__builtin_ctzll(unseen)];
+            if (field->name == NULL)
+                return 0;
+            if (field->optional)
+                field_set_absent(field, base);
+            else if (field->section == 0)
+                return field_missing(field, scan->diag);
+        }
     return 0;
 }
 

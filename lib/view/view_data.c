@@ -131,10 +131,8 @@ static void add_quality(struct view_data *data, const struct quality *quality)
          field++, column++) {
         if (quality->present == 0)
             continue;
-        double value = field->kind == FIELD_REAL      ? FIELD_LOAD(double, field, quality)
-                       : field->kind == FIELD_INTEGER ? (double)FIELD_LOAD(int64_t, field, quality)
-                                                      : FIELD_LOAD(bool, field, quality);
-        put_real(data, column, (quality->present & field->section) != 0 ? value : (double)NAN);
+        bool known = (quality->present & field->section) != 0;
+        put_real(data, column, known ? field_number(field, quality) : (double)NAN);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "text/field.h"
+#include "text/record_text.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -329,15 +330,10 @@ static void a_text_is_a_number_only_as_a_whole(void **state)
     assert_close(value, -1.5e-3, 0);
 }
 
-static void the_first_missing_member_is_named(void **state)
+static void a_missing_member_is_named_with_what_it_may_be(void **state)
 {
     (void)state;
     struct diag diag = {0};
-    uint64_t all = (UINT64_C(1) << COUNT(fields)) - 1;
-    assert_int_equal(field_require(&record, all, &diag), 0);
-    uint64_t optional =
-        1 << FLAG | 1 << PARTS | 1 << EXTRA | 1 << MAYBE | 1 << TINT | 1 << IN_SECTION;
-    assert_int_equal(field_require(&record, all & ~optional, &diag), 0);
     static const struct {
         int field;
         const char *message;
@@ -350,7 +346,7 @@ static void the_first_missing_member_is_named(void **state)
                  {PART, "part: missing; expected an object"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         diag = (struct diag){0};
-        assert_int_equal(field_require(&record, all & ~(UINT64_C(1) << cases[i].field), &diag), -1);
+        assert_int_equal(field_missing(&fields[cases[i].field], &diag), -1);
         assert_string_equal(diag.text, cases[i].message);
     }
     diag = (struct diag){0};
@@ -360,6 +356,59 @@ static void the_first_missing_member_is_named(void **state)
     diag = (struct diag){0};
     assert_int_equal(field_twice(&fields[NAME], &diag), -1);
     assert_string_equal(diag.text, "name: the key stands twice");
+}
+
+/* Seventy numbers: m00 to m68 may be absent, and are 3 then; m69 must be there. */
+#define TEN(EACH, tens)                                                                            \
+    EACH(tens##0)                                                                                  \
+    EACH(tens##1)                                                                                  \
+    EACH(tens##2)                                                                                  \
+    EACH(tens##3)                                                                                  \
+    EACH(tens##4)                                                                                  \
+    EACH(tens##5) EACH(tens##6) EACH(tens##7) EACH(tens##8) EACH(tens##9)
+#define SEVENTY(EACH)                                                                              \
+    TEN(EACH, m0)                                                                                  \
+    TEN(EACH, m1) TEN(EACH, m2) TEN(EACH, m3) TEN(EACH, m4) TEN(EACH, m5) TEN(EACH, m6)
+#define MEMBER(name) double name;
+#define FIELD(name) {FIELD_REAL_IN(struct wide, name, 0, 9, ""), FIELD_OPTIONAL, .absent = 3},
+struct wide {
+    SEVENTY(MEMBER)
+};
+
+static void a_table_may_have_more_than_64_members(void **state)
+{
+    (void)state;
+    struct field wide_fields[] = {SEVENTY(FIELD){0}};
+    wide_fields[69].optional = false;
+    const struct record wide_record = {.size = sizeof(struct wide), .fields = wide_fields};
+    static const char good[] = "{\"m68\":1,\"m69\":2,\"m02\":4}", last[] = "{\"m02\":4,\"m68\":1}",
+                      twice[] = "{\"m68\":1,\"m69\":2,\"m68\":1}";
+    struct arena arena = {0};
+    struct wide wide = {0};
+    struct diag diag = {0};
+    assert_int_equal(record_text_read(good, strlen(good), &wide_record, &wide, &arena, NULL, &diag),
+                     0);
+    assert_true(wide.m68 == 1 && wide.m69 == 2 && wide.m02 == 4);
+    assert_true(wide.m00 == 3 && wide.m63 == 3 && wide.m64 == 3 && wide.m67 == 3);
+    assert_int_equal(record_text_read(last, strlen(last), &wide_record, &wide, &arena, NULL, &diag),
+                     -1);
+    assert_string_equal(diag.text, "m69: missing; expected a number in [0, 9]");
+    diag = (struct diag){0};
+    assert_int_equal(
+        record_text_read(twice, strlen(twice), &wide_record, &wide, &arena, NULL, &diag), -1);
+    assert_string_equal(diag.text, "m68: the key stands twice");
+    arena_free(&arena);
+}
+
+static void a_number_is_that_of_the_fields_kind(void **state)
+{
+    (void)state;
+    struct thing thing = {.gain = 0.05, .number = -4, .flag = true, .colour = BLUE, .name = "n"};
+    assert_close(field_number(&fields[GAIN], &thing), 0.05, 0);
+    assert_close(field_number(&fields[NUMBER], &thing), -4, 0);
+    assert_close(field_number(&fields[FLAG], &thing), 1, 0);
+    assert_close(field_number(&fields[COLOUR], &thing), 2, 0);
+    assert_close(field_number(&fields[NAME], &thing), 0, 0);
 }
 
 int main(void)
@@ -374,7 +423,9 @@ int main(void)
         cmocka_unit_test(seeds_have_64_bits),
         cmocka_unit_test(names_and_choices_are_checked),
         cmocka_unit_test(a_text_is_a_number_only_as_a_whole),
-        cmocka_unit_test(the_first_missing_member_is_named),
+        cmocka_unit_test(a_missing_member_is_named_with_what_it_may_be),
+        cmocka_unit_test(a_table_may_have_more_than_64_members),
+        cmocka_unit_test(a_number_is_that_of_the_fields_kind),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
