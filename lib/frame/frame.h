@@ -38,6 +38,8 @@ enum section {
     SECTION_VISIBILITY = 1 << 9,
 };
 
+_Static_assert(SECTION_VISIBILITY < 1U << 31, "a set of sections is an unsigned");
+
 /* The part of a frame that one stage may have written. */
 struct frame_part {
     unsigned sections; /* enum section */
@@ -160,6 +162,7 @@ enum quality_group {
     QUALITY_MOUNT = 1 << 5, /* places from the sensor and the centre */
     QUALITY_EGO = 1 << 6,   /* places and rate that need to know the ego */
 };
+_Static_assert(QUALITY_EGO < 1U << 31, "a set of groups is an unsigned");
 
 /* What the sensor itself knows of a detection, from its report and its document (MODEL 14.21), and
  * labels, which are exact. */

@@ -18,6 +18,7 @@ enum margin {
     MARGIN_LIMIT_DB = 1 << 5,
     MARGIN_LIMIT_M = 1 << 6,
 };
+_Static_assert(MARGIN_LIMIT_M < 1U << 31, "a set of margins is an unsigned");
 
 struct margins {
     double sight_m;           /* of range, view, visibility and sight lines; angles times range */

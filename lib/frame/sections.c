@@ -24,6 +24,10 @@ static const struct {
     {SECTION_VISIBILITY, SECTION_SENSORS, "glint-ideal"},
 };
 
+_Static_assert(CARRY_ALL + 1 == 1 << sizeof places / sizeof *places &&
+                   sizeof sections_names == (1 + sizeof places / sizeof *places) * sizeof(char *),
+               "each bit of enum carried has its word and its place");
+
 /* Do the length bytes at text spell the word? */
 static bool is_word(const char *text, size_t length, const char *word)
 {

@@ -73,6 +73,9 @@ static const struct field common_fields[] = {
     {0},
 };
 
+_Static_assert(sizeof common_fields / sizeof *common_fields <= 64,
+               "a set of options is a uint64_t");
+
 static const struct record common_record = {
     .name = "stage",
     .size = sizeof(struct common_options),

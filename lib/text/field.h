@@ -22,7 +22,7 @@ enum field_kind {
                     * choices they are well-known values among words of a to z and _ */
     FIELD_CHOICE,  /* an enum: the index of one of choices */
     FIELD_SEED, /* uint64_t, in text a string of decimal digits: JSON readers lose 64-bit numbers */
-    FIELD_SET,  /* uint64_t: bit i stands for choices[i]; in text an array of their names */
+    FIELD_SET, /* uint64_t: bit i stands for choices[i], of at most 64; in text an array of names */
     FIELD_NAMES,  /* LIST_OF(const char *) */
     FIELD_RECORD, /* an embedded struct. An optional one is absent while all its members are; all or
                    * none of its members are then sections */
