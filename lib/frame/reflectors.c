@@ -119,6 +119,17 @@ static const struct field row_fields[] = {
     {0},
 };
 
+static const struct record point_record = {
+    FIELD_TABLE(struct point_reflector, point_fields, "point reflector",
+                "A reflection centre, seen from a range of angles.")};
+
+static const struct record plane_record = {
+    FIELD_TABLE(struct plane_reflector, plane_fields, "plane reflector",
+                "A flat side that mirrors the radar from the foot of the perpendicular.")};
+
+static const struct record row_record = {
+    FIELD_TABLE(struct post_row, row_fields, "row of posts", "Equal points along a line.")};
+
 /* A vehicle document has all but the first two: the class and its objects are a frame's. */
 static const struct field reflector_set_fields[] = {
     {FIELD_NAME_OF(struct reflector_set, model, "the class that the vehicle document describes")},
@@ -133,17 +144,6 @@ static const struct field reflector_set_fields[] = {
      FIELD_STEADY},
     {0},
 };
-
-const struct record point_record = {
-    FIELD_TABLE(struct point_reflector, point_fields, "point reflector",
-                "A reflection centre, seen from a range of angles.")};
-
-const struct record plane_record = {
-    FIELD_TABLE(struct plane_reflector, plane_fields, "plane reflector",
-                "A flat side that mirrors the radar from the foot of the perpendicular.")};
-
-const struct record row_record = {
-    FIELD_TABLE(struct post_row, row_fields, "row of posts", "Equal points along a line.")};
 
 const struct record reflector_set_record = {
     FIELD_TABLE(struct reflector_set, reflector_set_fields, "reflector set",

@@ -96,7 +96,6 @@ struct reflectors_face {
     double dark_cosine; /* directivity_dark_cosine */
 };
 
-extern const struct record point_record, plane_record, row_record;
 extern const struct record reflector_set_record;   /* of a frame: with model and objects */
 extern const struct record reflector_model_record; /* of a vehicle document: without these */
 

@@ -86,6 +86,7 @@ static const struct member {
 };
 
 enum { MEMBERS = sizeof members / sizeof *members };
+_Static_assert(MEMBERS <= 32, "a set of members is an unsigned");
 
 _Static_assert(MEMBERS <= 32, "area.said has a bit for each");
 
