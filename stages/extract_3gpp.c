@@ -7,7 +7,7 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 {
     (void)state;
     if (vehicle->sensing_target != SENSING_TARGET_3GPP_NONE)
-        sensing_target_3gpp_describe(vehicle->sensing_target, set, arena);
+        reflector_models_of_3gpp(vehicle->sensing_target, set, arena);
 }
 
 static int extract_3gpp_step(void *state, struct frame *frame, struct runner *runner)

@@ -12,8 +12,8 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 {
     const struct extract_contour *extract = state;
     if (vehicle->contour.given != 0)
-        contour_describe(&vehicle->contour, vehicle->length_m, vehicle->width_m, extract->spacing_m,
-                         set, arena);
+        reflector_models_of_contour(&vehicle->contour, vehicle->length_m, vehicle->width_m,
+                                    extract->spacing_m, set, arena);
 }
 
 static int extract_contour_step(void *state, struct frame *frame, struct runner *runner)

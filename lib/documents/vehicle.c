@@ -14,7 +14,7 @@ static const struct field vehicle_fields[] = {
                    "from the centre of the box; absent: 5/18 of the length behind it")},
     {FIELD_RECORD_OF(struct vehicle, reflectors, &reflector_model_record,
                      "reflection centres of the class")},
-    {OPTIONAL_CHOICE(struct vehicle, sensing_target, sensing_target_3gpp_names,
+    {OPTIONAL_CHOICE(struct vehicle, sensing_target, reflector_models_3gpp_names,
                      "sensing target of 3GPP TR 38.901, for glint-extract-3gpp")},
     {OPTIONAL_RECORD(struct vehicle, contour, &contour_record, "for glint-extract-contour")},
     {0},
@@ -95,7 +95,7 @@ const struct vehicle *vehicle_load(const char *class, const char *folder, struct
         diag_prefix(diag, "%s: reflectors: ", path);
         return NULL;
     }
-    if (contour_check(&vehicle->contour, diag) != 0) {
+    if (reflector_models_check_contour(&vehicle->contour, diag) != 0) {
         diag_prefix(diag, "%s: contour.", path);
         return NULL;
     }

@@ -2,8 +2,7 @@
  * models of a class (data/vehicles/). */
 #pragma once
 
-#include "documents/contour.h"
-#include "documents/sensing_target_3gpp.h"
+#include "documents/reflector_models.h"
 #include "frame/frame.h"
 
 struct vehicle {

@@ -1,4 +1,4 @@
-#include "documents/contour.h"
+#include "documents/reflector_models.h"
 
 #include "base/elementary.h"
 #include "base/units.h"
@@ -21,7 +21,7 @@ const struct record contour_record = {
                 "Cross section by aspect, in decibels over 1 m^2."),
     .present_offset = offsetof(struct contour, given)};
 
-int contour_check(const struct contour *contour, struct diag *diag)
+int reflector_models_check_contour(const struct contour *contour, struct diag *diag)
 {
     if (contour->given == 0)
         return 0;
@@ -33,14 +33,14 @@ int contour_check(const struct contour *contour, struct diag *diag)
                 field->name);
     double least =
         elementary_min(elementary_min(contour->front_dbsm, contour->rear_dbsm), contour->side_dbsm);
-    if (contour->oblique_dbsm > least + CONTOUR_OBLIQUE_DB)
+    if (contour->oblique_dbsm > least + REFLECTOR_MODELS_OBLIQUE_DB)
         return diag_fail(diag, DIAG_CONFIG,
                          "oblique_dbsm: %g is more than %g dB above %g, the least of the others",
-                         contour->oblique_dbsm, CONTOUR_OBLIQUE_DB, least);
+                         contour->oblique_dbsm, REFLECTOR_MODELS_OBLIQUE_DB, least);
     return 0;
 }
 
-struct contour_view contour_view(double face_dbsm, double oblique_dbsm)
+struct contour_view reflector_models_contour_view(double face_dbsm, double oblique_dbsm)
 {
     /* Visibility at 45 degrees: its square is half of the oblique cross section over the face's. */
     double diagonal =
@@ -65,7 +65,7 @@ static struct post_row row_of(const struct face *face, double oblique_dbsm, doub
 {
     double pieces = ceil(face->length_m / spacing_m), half_piece = 0.5 / pieces;
     double along_x = face->to_x - face->from_x, along_y = face->to_y - face->from_y;
-    struct contour_view view = contour_view(face->dbsm, oblique_dbsm);
+    struct contour_view view = reflector_models_contour_view(face->dbsm, oblique_dbsm);
     return (struct post_row){
         .name = face->name,
         .from_x = face->from_x + half_piece * along_x,
@@ -82,8 +82,8 @@ static struct post_row row_of(const struct face *face, double oblique_dbsm, doub
     };
 }
 
-void contour_describe(const struct contour *contour, double length_m, double width_m,
-                      double spacing_m, struct reflector_set *set, struct arena *arena)
+void reflector_models_of_contour(const struct contour *contour, double length_m, double width_m,
+                                 double spacing_m, struct reflector_set *set, struct arena *arena)
 {
     const struct face faces[] = {
         {"front", 0.5, -0.5, 0.5, 0.5, 0, width_m, contour->front_dbsm},
@@ -96,4 +96,66 @@ void contour_describe(const struct contour *contour, double length_m, double wid
     set->rows.count = set->rows.room = 0;
     for (size_t i = 0; i < sizeof faces / sizeof *faces; i++)
         *list_add(&set->rows, arena) = row_of(&faces[i], contour->oblique_dbsm, spacing_m);
+}
+
+#define DEGREE (PI / 180)
+
+const char *const reflector_models_3gpp_names[] = {[SENSING_TARGET_3GPP_NONE] = "none",
+                                                   [SENSING_TARGET_3GPP_VEHICLE] = "vehicle",
+                                                   [SENSING_TARGET_3GPP_HUMAN] = "human",
+                                                   NULL};
+
+/* One row of the report's tables for several scattering points; angles in degrees. */
+struct scattering_point {
+    const char *name;
+    double x, y, z; /* the middle of its face */
+    double azimuth, azimuth_width, zenith, zenith_width;
+    double most_dbsm, depth_db;
+};
+
+static const struct scattering_point vehicle[] = {
+    {"front", 0.5, 0, 0.5, 0, 40.54, 71.75, 29.13, 14.99, 14.91},
+    {"left", 0, 0.5, 0.5, 90, 26.90, 79.70, 44.42, 20.60, 20.52},
+    {"back", -0.5, 0, 0.5, 180, 36.32, 79.65, 36.73, 13.90, 13.82},
+    {"right", 0, -0.5, 0.5, -90, 26.90, 79.70, 44.42, 20.60, 20.52},
+    {"roof", 0, 0, 1, 0, 0, 0, 18.13, 21.12, 21.05},
+};
+
+/* The report's adult is 1.75 m high, its point at 1.5 m; no lobe. */
+static const struct scattering_point human = {"body", 0, 0, 1.5 / 1.75, 0, 0, 0, 0, -1.37, 0};
+
+static struct point_reflector point_of(const struct scattering_point *point)
+{
+    return (struct point_reflector){
+        .name = point->name,
+        .x = point->x,
+        .y = point->y,
+        .z = point->z,
+        .facing_rad = point->azimuth * DEGREE,
+        .full_rad = PI,
+        .zero_rad = PI,
+        .shape = VISIBILITY_HARD,
+        .ercs = radar_ercs(radar_cross_section_from_dbsm_m2(point->most_dbsm)),
+        .lobe = {.width_rad = point->azimuth_width * DEGREE,
+                 .zenith_rad = point->zenith * DEGREE,
+                 .zenith_width_rad = point->zenith_width * DEGREE,
+                 .depth_db = point->depth_db},
+    };
+}
+
+void reflector_models_of_3gpp(enum sensing_target_3gpp target, struct reflector_set *set,
+                              struct arena *arena)
+{
+    bool is_human = target == SENSING_TARGET_3GPP_HUMAN;
+    const struct scattering_point *points = is_human ? &human : vehicle;
+    size_t count = is_human ? 1 : sizeof vehicle / sizeof *vehicle;
+    struct reflector_set described = *set;
+    described.points.items = NULL;
+    described.points.count = described.points.room = 0;
+    described.planes.count = described.rows.count = 0;
+    for (size_t i = 0; i < count; i++)
+        *list_add(&described.points, arena) = point_of(&points[i]);
+    if (is_human)
+        described.points.items[0].moving_part = MOVING_LIMBS;
+    *set = described;
 }

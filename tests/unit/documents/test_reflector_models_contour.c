@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "base/units.h"
-#include "documents/contour.h"
+#include "documents/reflector_models.h"
 #include "propagation/carrier.h"
 #include "radar/radar_equation.h"
 #include "text/field_check.h"
@@ -57,7 +57,7 @@ static double incoherent_dbsm(const struct contour *contour, struct box box, dou
     struct arena arena = {0};
     struct reflector_set set = {.model = "m"};
     double total_m2 = 0;
-    contour_describe(contour, 4.6, 1.8, spacing_m, &set, &arena);
+    reflector_models_of_contour(contour, 4.6, 1.8, spacing_m, &set, &arena);
     size_t count = posts_of(&set, &box, sensor_at(aspect_rad, FAR_M), posts, COUNT(posts));
     for (size_t i = 0; i < count; i++)
         total_m2 += posts[i].amplitude * posts[i].amplitude;
@@ -111,8 +111,8 @@ static void a_longer_object_has_more_power_in_proportion(void **state)
 static void a_face_has_half_of_the_oblique_cross_section_at_45_degrees(void **state)
 {
     (void)state;
-    for (double below_db = -CONTOUR_OBLIQUE_DB; below_db < 40; below_db += 0.25) {
-        struct contour_view view = contour_view(20, 20 - below_db);
+    for (double below_db = -REFLECTOR_MODELS_OBLIQUE_DB; below_db < 40; below_db += 0.25) {
+        struct contour_view view = reflector_models_contour_view(20, 20 - below_db);
         double half_way =
             directivity_visibility(VISIBILITY_RAISED_COSINE, view.full_rad, view.zero_rad, PI / 4);
         assert_close(20 * log10(half_way), -below_db - 10 * log10(2), 1e-9);
@@ -148,7 +148,7 @@ static double mean_over_incoherent_db(double spacing_m, bool rough)
     const struct vec2 sensor = sensor_at(PI / 4, 50);
     const int draws = rough ? 4000 : 1;
     double total = 0;
-    contour_describe(&car, 4.6, 1.8, spacing_m, &set, &arena);
+    reflector_models_of_contour(&car, 4.6, 1.8, spacing_m, &set, &arena);
     for (int i = 0; i < draws; i++)
         total += coherent_over_incoherent(&set, sensor, rough, (uint64_t)i);
     arena_free(&arena);
@@ -178,13 +178,13 @@ static void rows_replace_the_reflectors_of_the_document(void **state)
     set.points.items = &corner;
     set.mirrors.items = &mirror;
     set.points.count = set.mirrors.count = 1;
-    contour_describe(&bicycle, 0.01, 0.01, 0.02, &set, &arena);
+    reflector_models_of_contour(&bicycle, 0.01, 0.01, 0.02, &set, &arena);
     assert_int_equal(set.points.count, 0);
     assert_int_equal(set.rows.count, 4);
     assert_int_equal(set.mirrors.count, 1);
     assert_true(set.blocks);
     assert_int_equal(field_check(&reflector_set_record, &set, &diag), 0);
-    contour_describe(&car, 1e4, 0.021, 0.02, &set, &arena);
+    reflector_models_of_contour(&car, 1e4, 0.021, 0.02, &set, &arena);
     assert_int_equal(field_check(&reflector_set_record, &set, &diag), 0);
     arena_free(&arena);
 }
@@ -195,13 +195,13 @@ static void an_oblique_cross_section_must_fit_the_others(void **state)
     struct diag diag = {0};
     const struct contour none = {.oblique_dbsm = 20}, most = {15, 2, 3, 4, 5};
     const struct contour more = {15, 2, 3, 4, 5.1};
-    assert_int_equal(contour_check(&none, &diag), 0);
-    assert_int_equal(contour_check(&most, &diag), 0);
+    assert_int_equal(reflector_models_check_contour(&none, &diag), 0);
+    assert_int_equal(reflector_models_check_contour(&most, &diag), 0);
     const struct contour some = {11, 2, 3, 0, 1};
-    assert_int_equal(contour_check(&some, &diag), -1);
+    assert_int_equal(reflector_models_check_contour(&some, &diag), -1);
     assert_non_null(strstr(diag.text, "side_dbsm: missing"));
     diag = (struct diag){0};
-    assert_int_equal(contour_check(&more, &diag), -1);
+    assert_int_equal(reflector_models_check_contour(&more, &diag), -1);
     assert_non_null(strstr(diag.text, "oblique_dbsm: 5.1 is more than 3 dB above 2"));
 }
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "documents/sensing_target_3gpp.h"
+#include "documents/reflector_models.h"
 #include "radar/radar_equation.h"
 #include "text/field_check.h"
 
@@ -18,7 +18,7 @@ static double cross_section_dbsm(enum sensing_target_3gpp target, double azimuth
     const struct box box = {.heading = {1, 0}, .length_m = 5, .width_m = 2};
     const struct vec2 middle = {0, 0}, direction = {cos(azimuth * DEGREE), sin(azimuth * DEGREE)};
     double total_m2 = 0;
-    sensing_target_3gpp_describe(target, &set, &arena);
+    reflector_models_of_3gpp(target, &set, &arena);
     for (size_t i = 0; i < set.points.count; i++) {
         const struct point_reflector *point = &set.points.items[i];
         double factor =
@@ -51,7 +51,7 @@ static void only_a_human_moves_its_limbs(void **state)
         struct arena arena = {0};
         struct reflector_set set = {.model = "m"};
         bool human = target == SENSING_TARGET_3GPP_HUMAN;
-        sensing_target_3gpp_describe((enum sensing_target_3gpp)target, &set, &arena);
+        reflector_models_of_3gpp((enum sensing_target_3gpp)target, &set, &arena);
         assert_int_equal(set.points.count, human ? 1 : 5);
         for (size_t i = 0; i < set.points.count; i++)
             assert_int_equal(set.points.items[i].moving_part, human ? MOVING_LIMBS : MOVING_NONE);
@@ -87,7 +87,7 @@ static void the_points_replace_the_reflectors_of_the_document(void **state)
     set.planes.items = &side;
     set.mirrors.items = &mirror;
     set.points.count = set.planes.count = set.mirrors.count = 1;
-    sensing_target_3gpp_describe(SENSING_TARGET_3GPP_VEHICLE, &set, &arena);
+    reflector_models_of_3gpp(SENSING_TARGET_3GPP_VEHICLE, &set, &arena);
     assert_int_equal(set.points.count, 5);
     assert_int_equal(set.planes.count, 0);
     assert_int_equal(set.mirrors.count, 1);
