@@ -13,14 +13,11 @@ from traffic import chain_of, packed, source_command, stretches_of
 WORK, LAYOUT = "work", "work/layout.json"
 
 
-def table_names():
-    return list(read_json(os.path.join(ROOT, "schemas", "tables.json")))
-
-
 def shard_of(stretches, split, suite, number, plan, plan_folder):
     place = f"{split}/{suite}/{number:05}"
+    tables = read_json(os.path.join(ROOT, "schemas", "tables.json")) if plan.get("tables") else []
     return {"path": place + ".jsonl.gz", "split": split, "suite": suite,
-            "tables": [f"{place}/{name}.csv.gz" for name in table_names() if plan.get("tables")],
+            "tables": [f"{place}/{name}.csv.gz" for name in tables],
             "inputs": sorted({name for stretch in stretches for name in files_of(stretch.source, plan_folder)}),
             "commands": [f"{source_command(plan, stretch, suite)} | {chain_of(plan, suite)}" for stretch in stretches]}
 

@@ -9,7 +9,7 @@ PAGE = """\
 
 {origin}
 
-{rows} frames in {shards} shards, with {targets} targets of all kinds, by {program}. `datapackage.json` describes every file
+{rows:,} frames in {shards} shards, with {targets:,} targets of all kinds, by {program}. `datapackage.json` describes every file
 (Frictionless): rows, bytes, SHA-256 of the file (`hash`) and of its uncompressed bytes (`content_hash`), and the command
 lines that made it. Its last line is the SHA-256 of all bytes before that line.
 
@@ -116,10 +116,6 @@ LEAKS = {None: "The set is one split.",
          "recording": "Splits share no recording."}
 
 
-def counted(number):
-    return f"{number:,}"
-
-
 def split_table(layout, records):
     """Rows of the table of splits and suites."""
     sums = collections.defaultdict(lambda: [0, 0, 0, 0])
@@ -128,7 +124,7 @@ def split_table(layout, records):
         for i, count in enumerate((1, record["files"][0]["rows"], sum(record["targets"].values()),
                                    sum(file["bytes"] for file in record["files"]))):
             sums[shard["split"], shard["suite"]][i] += count
-    rows = [f"| `{split}/{suite}` | {' | '.join(map(counted, row))} |" for (split, suite), row in sums.items()]
+    rows = [f"| `{split}/{suite}` | {' | '.join(f'{count:,}' for count in row)} |" for (split, suite), row in sums.items()]
     return "\n".join(["| folder | shards | frames | targets | bytes |", "|---|---:|---:|---:|---:|", *rows])
 
 
@@ -142,7 +138,7 @@ def classes_by_split(layout, records):
 def class_table(counts):
     """Rows of classes, the most frequent first, then by name."""
     whole = sum(counts.values(), collections.Counter())
-    rows = [[name, *(counted(of_split[name]) for of_split in counts.values())]
+    rows = [[name, *(f"{of_split[name]:,}" for of_split in counts.values())]
             for name, _ in sorted(whole.items(), key=lambda item: (-item[1], item[0]))]
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
@@ -162,8 +158,8 @@ def page_of(layout, records):
     first = layout["shards"][0]
     return PAGE.format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
-        rows=counted(sum(record["files"][0]["rows"] for record in records)),
-        targets=counted(sum(sum(record["targets"].values()) for record in records)),
+        rows=sum(record["files"][0]["rows"] for record in records),
+        targets=sum(sum(record["targets"].values()) for record in records),
         table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
         classes=class_table(counts), traffic="\n".join(map(traffic_of, plan["sources"])),
         leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
