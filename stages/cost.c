@@ -4,7 +4,7 @@
 #include "run/plan.h"
 #include "run/tool.h"
 #include "text/output.h"
-#include "text/record_text.h"
+#include "text/record_write.h"
 
 struct cost_state {
     struct suite_choice choice; /* first: the options */
@@ -104,7 +104,7 @@ static int print(const struct cost_state *own, struct output *output, struct run
     if (cost->chains.count == 0)
         return 0;
     if (own->json || runner_output_ends(runner, ".json"))
-        record_text_write(&cost_record, cost, NULL, text);
+        record_write(&cost_record, cost, NULL, text);
     else if (own->chosen != NULL)
         cost_write_pipeline(cost, own->chosen, text);
     else

@@ -4,7 +4,7 @@
 #include "base/intern.h"
 #include "frame/frame_order.h"
 #include "text/document.h"
-#include "text/field_check.h"
+#include "text/record_write.h"
 
 static int check_objects(struct frame *frame, struct diag *diag)
 {
@@ -156,7 +156,7 @@ static int check_lost_members(const struct frame *frame, const char *stage, stru
     for (size_t i = 0; i < frame->lost.count; i++) {
         const struct lost_group *group = &frame->lost.items[i];
         bool own = stage == NULL || frame_same_name(group->stage, stage);
-        if (own && field_check(&lost_group_record, group, diag) != 0)
+        if (own && record_write_check(&lost_group_record, group, ~0U, diag) != 0)
             return diag_prefix(diag, "lost[%zu].", i);
     }
     return 0;
@@ -165,7 +165,7 @@ static int check_lost_members(const struct frame *frame, const char *stage, stru
 int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag)
 {
     unsigned whole = part.sections & ~(unsigned)SECTION_LOST;
-    if (field_check_sections(&frame_record, frame, whole, diag) != 0 ||
+    if (record_write_check(&frame_record, frame, whole, diag) != 0 ||
         ((part.sections & SECTION_LOST) != 0 && check_lost_members(frame, part.stage, diag) != 0))
         return -1;
     return check_sections(frame, part.sections, diag);
@@ -177,7 +177,7 @@ static int check_entry(const struct record *record, const void *entry, double am
 {
     int result =
         isfinite(amplitude)
-            ? field_check(record, entry, diag)
+            ? record_write_check(record, entry, ~0U, diag)
             : diag_fail(diag, DIAG_DATA, "amplitude: %g; expected a finite number", amplitude);
     return result == 0 ? 0 : diag_prefix(diag, "object \"%s\", seen by \"%s\": ", object, sensor);
 }
@@ -186,7 +186,7 @@ int frame_check_object(const struct object *object, struct diag *diag)
 {
     if (document_check_plain(object->class, diag) != 0)
         return diag_prefix(diag, "class: ");
-    return field_check(&object_record, object, diag);
+    return record_write_check(&object_record, object, ~0U, diag);
 }
 
 int frame_check_extremes(const struct frame *frame, struct diag *diag)
@@ -211,7 +211,7 @@ int frame_check_extremes(const struct frame *frame, struct diag *diag)
             result = check_entry(&target_record, target, target->cell_amplitude, target->sensor,
                                  target->contributors.items[0].id.object, diag);
     }
-    return result != 0 ? -1 : field_check_sections(&frame_record, frame, SECTION_COUNTS, diag);
+    return result != 0 ? -1 : record_write_check(&frame_record, frame, SECTION_COUNTS, diag);
 }
 
 /* The place of an echo that is in no target. */

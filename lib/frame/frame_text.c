@@ -1,7 +1,8 @@
 #include "frame/frame_text.h"
 
 #include "base/units.h"
-#include "text/record_text.h"
+#include "text/record_read.h"
+#include "text/record_write.h"
 
 /* Bounds of members. No scene reaches beyond 1e7 m and no radar beyond 1e6 m; reported values, with
  * noise and rounding, may be ten times the exact ones. A scan may show the world earlier than its
@@ -346,14 +347,13 @@ const struct record frame_record = {
 int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
 {
     frame_clear(frame);
-    return record_text_read(line, length, &frame_record, frame, frame->arena, frame->list_cache,
-                            diag);
+    return record_read(line, length, &frame_record, frame, frame->arena, frame->list_cache, diag);
 }
 
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)
 {
     size_t begin = text->length;
-    record_text_write(&frame_record, frame, frame->list_cache, text);
+    record_write(&frame_record, frame, frame->list_cache, text);
     size_t length = text->length - begin;
     if (length > FRAME_TEXT_SIZE) {
         text->length = begin;

@@ -1,4 +1,4 @@
-/* A frame as a line of JSON: tables, reading, writing (record_text.h). */
+/* A frame as a line of JSON: tables, reading, writing (record_write.h). */
 #pragma once
 
 #include "base/text.h"
@@ -11,6 +11,6 @@ enum { FRAME_TEXT_SIZE = 16 * 1024 * 1024 };
  * the line. */
 int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag);
 
-/* Appends the frame's line, with its newline, to text. The frame must have passed field_check.
- * Fails if the line is longer than FRAME_TEXT_SIZE. */
+/* Appends the frame's line, with its newline, to text. The frame must have passed
+ * record_write_check. Fails if the line is longer than FRAME_TEXT_SIZE. */
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag);

@@ -16,7 +16,7 @@
 #include "score/reference_stream.h"
 #include "text/document.h"
 #include "text/path.h"
-#include "text/record_text.h"
+#include "text/record_write.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -64,7 +64,7 @@ int runner_write_text(struct runner *runner, struct text *text)
 int runner_write_record(struct runner *runner, const struct record *record, const void *base)
 {
     struct text text = {0};
-    record_text_write(record, base, NULL, &text);
+    record_write(record, base, NULL, &text);
     return runner_write_text(runner, &text);
 }
 

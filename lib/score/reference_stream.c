@@ -8,7 +8,7 @@
 #include "frame/frame_text.h"
 #include "text/file_format.h"
 #include "text/json_scan.h"
-#include "text/record_text.h"
+#include "text/record_read.h"
 
 /* A line that waits for its frame, with its text in one piece of memory. */
 struct waiting_line {
@@ -325,8 +325,8 @@ int reference_stream_tracks(struct reference_stream *reference, const struct fra
     if (found <= 0)
         return found;
     field_clear(&track_list_record, tracks);
-    if (record_text_read(reference->line, reference->length, &track_list_record, tracks,
-                         frame->arena, NULL, diag) != 0 ||
+    if (record_read(reference->line, reference->length, &track_list_record, tracks, frame->arena,
+                    NULL, diag) != 0 ||
         track_score_order(tracks, frame->arena, diag) != 0 ||
         ((tracks->present & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
         return reference_stream_prefix(reference, diag);

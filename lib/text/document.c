@@ -16,7 +16,7 @@
 #include "text/file_format.h"
 #include "text/input.h"
 #include "text/json_scan.h"
-#include "text/record_text.h"
+#include "text/record_read.h"
 
 void document_guard_memory(void)
 {
@@ -216,7 +216,7 @@ int document_take(const char *path, const char *line, const struct record *recor
                   struct arena *arena, struct diag *diag)
 {
     memset(base, 0, record->size);
-    if (record_text_read(line, strlen(line), record, base, arena, NULL, diag) == 0)
+    if (record_read(line, strlen(line), record, base, arena, NULL, diag) == 0)
         return 0;
     diag->code = DIAG_CONFIG;
     file_format_explain(record->name, line, strlen(line), diag);

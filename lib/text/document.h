@@ -1,5 +1,5 @@
 /* JSON documents for people: found, read, checked and drawn. jansson checks their text; the reader
- * of records (record_text.h) reads what it says.
+ * of records (record_read.h) reads what it says.
  *
  * A bare name (no slash, no dot) is <kind>/<name>.json in $GLINT_DATA, then in ../share/glint and
  * in ../../data beside the executable, then in ./data; anything else is a path. Every fault of a

@@ -3,7 +3,7 @@
  * A struct record lists the members of a C struct: the name (one spelling for C member, JSON key,
  * option and schema property, with the unit at its end), kind, bounds and help. The text of frames
  * in both directions, documents, command-line options, --help, the schemas and the check that
- * nothing out of bounds leaves a stage (field_check.h) all follow from it. Functions that fail
+ * nothing out of bounds leaves a stage (record_write.h) all follow from it. Functions that fail
  * leave a message that starts with the member's name, so that callers can put the path in front of
  * it. */
 #pragma once

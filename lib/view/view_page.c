@@ -1,6 +1,6 @@
 #include "view/view_page.h"
 
-#include "text/record_text.h"
+#include "text/record_write.h"
 
 struct reason {
     const char *name;
@@ -184,7 +184,7 @@ void view_page_write_head(const struct view_data *data, int64_t open_frame, stru
     struct text plain = {0};
     view_page_places(&data->columns, places);
     add_numbered(data, &head);
-    record_text_write(&head_record, &head, NULL, &plain);
+    record_write(&head_record, &head, NULL, &plain);
     for (size_t i = 0; i < plain.length; i++)
         if (plain.bytes[i] == '<')
             text_add_word(text, "\\u003c");

@@ -12,7 +12,7 @@
 #include "frame/frame_text.h"
 #include "text/csv_table.h"
 #include "text/document.h"
-#include "text/field_check.h"
+#include "text/record_write.h"
 #include "traffic/scenario.h"
 
 enum { PRECISION = 200 };
@@ -234,7 +234,7 @@ static bool refuses(const struct field *field, double value)
     char *base = calloc(1, field->offset + sizeof value);
     assert_non_null(base);
     memcpy(base + field->offset, &value, sizeof value);
-    field_check(&record, base, &diag);
+    record_write_check(&record, base, ~0U, &diag);
     free(base);
     return diag.code == DIAG_DATA && strncmp(diag.text, field->name, length) == 0 &&
            diag.text[length] == ':';

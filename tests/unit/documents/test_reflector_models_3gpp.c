@@ -5,7 +5,7 @@
 #include "base/units.h"
 #include "documents/reflector_models.h"
 #include "radar/radar_equation.h"
-#include "text/field_check.h"
+#include "text/record_write.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -95,7 +95,7 @@ static void the_points_replace_the_reflectors_of_the_document(void **state)
     assert_string_equal(corner.name, "corner");
     assert_null(reflectors_name_twice(&set, &arena));
     struct diag diag = {0};
-    assert_int_equal(field_check(&reflector_set_record, &set, &diag), 0);
+    assert_int_equal(record_write_check(&reflector_set_record, &set, ~0U, &diag), 0);
     arena_free(&arena);
 }
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "frame/conditions.h"
-#include "text/field_check.h"
+#include "text/record_write.h"
 
 static void what_is_said_replaces_and_what_is_not_stays(void **state)
 {
@@ -104,11 +104,11 @@ static void impossible_conditions_are_refused(void **state)
     struct interferer good = {.object = "a", .eirp_dbm = 33, .hit_share = 1};
     struct conditions conditions = {
         .road = ROAD_CONCRETE, .rain_mmph = 500, .fog_gpm3 = 10, .interferers = {&good, 1, 0}};
-    assert_int_equal(field_check(&conditions_record, &conditions, &diag), 0);
+    assert_int_equal(record_write_check(&conditions_record, &conditions, ~0U, &diag), 0);
     for (size_t i = 0; i < 4; i++) {
-        assert_int_equal(field_check(&conditions_record, &bad[i], &diag), -1);
+        assert_int_equal(record_write_check(&conditions_record, &bad[i], ~0U, &diag), -1);
         good = worse[i];
-        assert_int_equal(field_check(&conditions_record, &conditions, &diag), -1);
+        assert_int_equal(record_write_check(&conditions_record, &conditions, ~0U, &diag), -1);
     }
 }
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "look_scene.h"
-#include "text/record_text.h"
+#include "text/record_write.h"
 
 /* The one loss of a frame with no echo. */
 static const struct lost_group *only_loss(const struct scene *scene)
@@ -335,8 +335,8 @@ static void assert_same_echoes(const struct echo *one, const struct echo *other,
     const struct record *record = field_find(&frame_record, "echoes", strlen("echoes"))->record;
     struct text texts[2] = {0};
     for (size_t i = 0; i < count; i++) {
-        record_text_write(record, &one[i], NULL, &texts[0]);
-        record_text_write(record, &other[i], NULL, &texts[1]);
+        record_write(record, &one[i], NULL, &texts[0]);
+        record_write(record, &other[i], NULL, &texts[1]);
     }
     assert_int_equal(texts[0].length, texts[1].length);
     if (count > 0)

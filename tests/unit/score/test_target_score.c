@@ -6,7 +6,7 @@
 #include "sample.h"
 #include "score/gospa.h"
 #include "score/target_score.h"
-#include "text/record_text.h"
+#include "text/record_write.h"
 
 enum { MOST = 8 };
 
@@ -55,8 +55,8 @@ static struct score score_scan(const struct score_scene *truth, const struct sco
 static void assert_same_text(const struct score *one, const struct score *other)
 {
     struct text text = {0}, other_text = {0};
-    record_text_write(&score_record, one, NULL, &text);
-    record_text_write(&score_record, other, NULL, &other_text);
+    record_write(&score_record, one, NULL, &text);
+    record_write(&score_record, other, NULL, &other_text);
     assert_int_equal(text.length, other_text.length);
     assert_memory_equal(text.bytes, other_text.bytes, text.length);
     text_free(&text);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "text/field.h"
-#include "text/record_text.h"
+#include "text/record_read.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -386,16 +386,14 @@ static void a_table_may_have_more_than_64_members(void **state)
     struct arena arena = {0};
     struct wide wide = {0};
     struct diag diag = {0};
-    assert_int_equal(record_text_read(good, strlen(good), &wide_record, &wide, &arena, NULL, &diag),
-                     0);
+    assert_int_equal(record_read(good, strlen(good), &wide_record, &wide, &arena, NULL, &diag), 0);
     assert_true(wide.m68 == 1 && wide.m69 == 2 && wide.m02 == 4);
     assert_true(wide.m00 == 3 && wide.m63 == 3 && wide.m64 == 3 && wide.m67 == 3);
-    assert_int_equal(record_text_read(last, strlen(last), &wide_record, &wide, &arena, NULL, &diag),
-                     -1);
+    assert_int_equal(record_read(last, strlen(last), &wide_record, &wide, &arena, NULL, &diag), -1);
     assert_string_equal(diag.text, "m69: missing; expected a number in [0, 9]");
     diag = (struct diag){0};
-    assert_int_equal(
-        record_text_read(twice, strlen(twice), &wide_record, &wide, &arena, NULL, &diag), -1);
+    assert_int_equal(record_read(twice, strlen(twice), &wide_record, &wide, &arena, NULL, &diag),
+                     -1);
     assert_string_equal(diag.text, "m68: the key stands twice");
     arena_free(&arena);
 }

@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "frame/frame.h"
 #include "geometry/motion.h"
-#include "text/record_text.h"
+#include "text/record_read.h"
 #include "traffic/road_traffic.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -46,8 +46,8 @@ static int begin(struct bench *bench, const char *text, double warmup_s, const c
     arena_clear(&bench->arena);
     bench->diag = (struct diag){0};
     memset(&bench->road, 0, sizeof bench->road);
-    if (record_text_read(text, strlen(text), &roadway_record, &bench->road, &bench->arena, NULL,
-                         &bench->diag) != 0)
+    if (record_read(text, strlen(text), &roadway_record, &bench->road, &bench->arena, NULL,
+                    &bench->diag) != 0)
         fail_msg("%s", bench->diag.text);
     return road_traffic_begin(&bench->traffic, &bench->road, 1, warmup_s, ego, address,
                               &bench->arena, &bench->diag);
@@ -396,8 +396,8 @@ static void a_mirrored_road_has_mirrored_traffic(void **state)
     memcpy(kept, frame->objects.items, count * sizeof *kept);
     arena_clear(&bench->arena);
     memset(&bench->road, 0, sizeof bench->road);
-    assert_int_equal(record_text_read(CROWDED, strlen(CROWDED), &roadway_record, &bench->road,
-                                      &bench->arena, NULL, &bench->diag),
+    assert_int_equal(record_read(CROWDED, strlen(CROWDED), &roadway_record, &bench->road,
+                                 &bench->arena, NULL, &bench->diag),
                      0);
     for (size_t i = 0; i < bench->road.points.count; i++)
         bench->road.points.items[i].y_m *= -1;

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "text/field_check.h"
+#include "text/record_write.h"
 #include "traffic/scenario.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -462,7 +462,7 @@ static void contradictory_scenarios_are_refused(void **state)
         struct actor actors[] = {cases[i].actors[0], cases[i].actors[1]};
         struct scenario scenario = scenario_of(actors, 2);
         struct diag diag = {0};
-        assert_int_equal(field_check(&scenario_record, &scenario, &diag), 0);
+        assert_int_equal(record_write_check(&scenario_record, &scenario, ~0U, &diag), 0);
         assert_int_equal(scenario_check(&scenario, &diag), cases[i].message == NULL ? 0 : -1);
         assert_string_equal(diag.text, cases[i].message == NULL ? "" : cases[i].message);
         assert_int_equal(diag.code, cases[i].message == NULL ? DIAG_OK : DIAG_CONFIG);
@@ -492,13 +492,13 @@ static void values_outside_their_bounds_are_refused(void **state)
     struct actor actors[] = {driver(NULL, 0), follower(waypoints, 2)};
     struct scenario scenario = scenario_of(actors, 2);
     struct diag diag = {0};
-    assert_int_equal(field_check(&scenario_record, &scenario, &diag), -1);
+    assert_int_equal(record_write_check(&scenario_record, &scenario, ~0U, &diag), -1);
     assert_string_equal(diag.text, "objects[1].waypoints[1].y_m: 1.5e+09 is outside [-1e9, 1e9] m");
     waypoints[1].y_m = 0;
     diag = (struct diag){0};
-    assert_int_equal(field_check(&scenario_record, &scenario, &diag), 0);
+    assert_int_equal(record_write_check(&scenario_record, &scenario, ~0U, &diag), 0);
     scenario.rate_hz = 0.05;
-    assert_int_equal(field_check(&scenario_record, &scenario, &diag), -1);
+    assert_int_equal(record_write_check(&scenario_record, &scenario, ~0U, &diag), -1);
     assert_string_equal(diag.text, "rate_hz: 0.05 is outside [0.1, 10000] Hz");
 }
 

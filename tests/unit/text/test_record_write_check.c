@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "text/field_check.h"
+#include "text/record_write.h"
 
 enum { IN_LATER = 1 << 0, IN_PARTS = 1 << 1 };
 
@@ -66,7 +66,7 @@ static const char *fault(const struct thing *thing)
 {
     static struct diag diag;
     diag = (struct diag){0};
-    int result = field_check(&record, thing, &diag);
+    int result = record_write_check(&record, thing, ~0U, &diag);
     assert_int_equal(result, diag.text[0] == '\0' ? 0 : -1);
     return diag.text;
 }
@@ -129,9 +129,9 @@ static void a_section_is_checked_only_if_it_is_present_and_wanted(void **state)
     assert_string_equal(fault(&thing), "");
     thing.present = IN_PARTS;
     assert_string_equal(fault(&thing), "parts[0].width_m: -1 is outside [1, 10] m");
-    assert_int_equal(field_check_sections(&record, &thing, IN_LATER, &diag), 0);
+    assert_int_equal(record_write_check(&record, &thing, IN_LATER, &diag), 0);
     thing.present |= IN_LATER;
-    assert_int_equal(field_check_sections(&record, &thing, IN_LATER, &diag), -1);
+    assert_int_equal(record_write_check(&record, &thing, IN_LATER, &diag), -1);
     assert_string_equal(diag.text, "later_s: 2 is outside [0, 1] s");
     arena_free(&arena);
 }

@@ -1,4 +1,4 @@
-#include "text/record_text.h"
+#include "text/record_read.h"
 
 #include <stdio.h>
 
@@ -359,7 +359,8 @@ static int read_record(struct reader *reader, const struct record *record, void 
         return -1;
     for (size_t word = 0; word < FIELD_SEEN_WORDS; word++)
         for (uint64_t unseen = ~seen[word]; unseen != 0; unseen &= unseen - 1) {
-            const struct field *field = &record->fields[64 * word + (size_t)__builtin_ctzll(unseen)];
+            const struct field *field =
+                &record->fields[64 * word + (size_t)__builtin_ctzll(unseen)];
             if (field->name == NULL)
                 return 0;
             if (field->optional)
@@ -379,8 +380,8 @@ static int no_record(struct json_scan *scan, const struct record *record)
                : json_scan_unexpected(scan, expected);
 }
 
-int record_text_read(const char *line, size_t length, const struct record *record, void *base,
-                     struct arena *arena, struct list_cache *cache, struct diag *diag)
+int record_read(const char *line, size_t length, const struct record *record, void *base,
+                struct arena *arena, struct list_cache *cache, struct diag *diag)
 {
     struct reader reader = {
         {line, line + length, arena, diag}, intern_begin(length / BYTES_PER_NAME, arena), cache};
@@ -394,183 +395,4 @@ int record_text_read(const char *line, size_t length, const struct record *recor
     }
     json_scan_peek(scan);
     return scan->at == scan->end ? 0 : json_scan_unexpected(scan, "the end of the line");
-}
-
-/* The writer's place in a text; the text's length is set at the end. */
-struct writer {
-    struct text *text;
-    char *at, *end;
-    struct list_cache *cache; /* or NULL */
-};
-
-/* Room for a key, a number and the brackets around them. */
-enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8 };
-
-static void make_room(struct writer *writer, size_t size)
-{
-    if ((size_t)(writer->end - writer->at) >= size)
-        return;
-    struct text *text = writer->text;
-    text->length = (size_t)(writer->at - text->bytes);
-    writer->at = text_room(text, size);
-    writer->end = text->bytes + text->room;
-}
-
-static void write_record(const struct record *record, const void *base, struct writer *writer);
-
-static void write_word(const char *word, struct writer *writer)
-{
-    size_t length = strlen(word);
-    make_room(writer, length + MEMBER_ROOM);
-    memcpy(writer->at, word, length);
-    writer->at += length;
-}
-
-static void write_name(const char *name, struct writer *writer)
-{
-    size_t length = strlen(name);
-    make_room(writer, text_json_size(length) + MEMBER_ROOM);
-    writer->at = text_put_json(writer->at, name, length);
-}
-
-static void write_choice(const char *choice, struct writer *writer)
-{
-    *writer->at++ = '"';
-    write_word(choice, writer);
-    *writer->at++ = '"';
-}
-
-static void write_list(const struct field *field, const void *base, struct writer *writer)
-{
-    struct field_list list = field_list(field, base);
-    *writer->at++ = '[';
-    for (size_t i = 0; i < list.count; i++) {
-        if (i > 0)
-            *writer->at++ = ',';
-        if (field->kind == FIELD_LIST)
-            write_record(field->record, (const char *)list.items + i * field->record->size, writer);
-        else
-            write_name(((const char *const *)list.items)[i], writer);
-    }
-    *writer->at++ = ']';
-}
-
-/* Writes a list that an earlier line may have had: then its text is in the cache. */
-static void write_steady(const struct record *record, const struct field *field, const void *base,
-                         struct writer *writer)
-{
-    struct list_cache_entry *list = list_cache_of(writer->cache, record, field, base);
-    if (list == NULL) {
-        write_list(field, base, writer);
-    } else if (list->written.bytes == NULL) {
-        size_t begin = (size_t)(writer->at - writer->text->bytes);
-        write_list(field, base, writer);
-        const char *text = writer->text->bytes + begin;
-        list_cache_keep_written(writer->cache, list, text, (size_t)(writer->at - text));
-    } else {
-        make_room(writer, list->written.length + MEMBER_ROOM);
-        memcpy(writer->at, list->written.bytes, list->written.length);
-        writer->at += list->written.length;
-    }
-}
-
-static void write_set(const struct field *field, uint64_t set, struct writer *writer)
-{
-    *writer->at++ = '[';
-    for (int i = 0; set >> i != 0; i++) {
-        if ((set >> i & 1) == 0)
-            continue;
-        write_choice(field->choices[i], writer);
-        *writer->at++ = ',';
-    }
-    writer->at -= set != 0; /* the last comma */
-    *writer->at++ = ']';
-}
-
-static void write_whole(int64_t value, struct writer *writer)
-{
-    *writer->at = '-';
-    writer->at += value < 0;
-    writer->at += number_write_whole(value < 0 ? 0 - (uint64_t)value : (uint64_t)value, writer->at);
-}
-
-static void write_seed(uint64_t seed, struct writer *writer)
-{
-    *writer->at++ = '"';
-    writer->at += number_write_whole(seed, writer->at);
-    *writer->at++ = '"';
-}
-
-static void write_member(const struct record *record, const struct field *field, const void *base,
-                         struct writer *writer)
-{
-    if (field->kind == FIELD_REAL) { /* as most are */
-        writer->at += number_write(FIELD_LOAD(double, field, base), writer->at);
-        return;
-    }
-    switch (field->kind) {
-    case FIELD_INTEGER:
-        write_whole(FIELD_LOAD(int64_t, field, base), writer);
-        break;
-    case FIELD_SEED:
-        write_seed(FIELD_LOAD(uint64_t, field, base), writer);
-        break;
-    case FIELD_SET:
-        write_set(field, FIELD_LOAD(uint64_t, field, base), writer);
-        break;
-    case FIELD_FLAG:
-        write_word(FIELD_LOAD(bool, field, base) ? "true" : "false", writer);
-        break;
-    case FIELD_NAME:
-        write_name(FIELD_LOAD(const char *, field, base), writer);
-        break;
-    case FIELD_RAW:
-        write_word(FIELD_LOAD(const char *, field, base), writer);
-        break;
-    case FIELD_CHOICE:
-        write_choice(field->choices[FIELD_LOAD(int, field, base)], writer);
-        break;
-    case FIELD_RECORD:
-        write_record(field->record, (const char *)base + field->offset, writer);
-        break;
-    case FIELD_LIST:
-    case FIELD_NAMES:
-        if (field->steady && writer->cache != NULL)
-            write_steady(record, field, base, writer);
-        else
-            write_list(field, base, writer);
-        break;
-    case FIELD_REAL:
-    case FIELD_NOTES:
-        break;
-    }
-}
-
-static void write_record(const struct record *record, const void *base, struct writer *writer)
-{
-    char separator = '{';
-    for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (field->optional && !field_present(record, field, base))
-            continue;
-        make_room(writer, MEMBER_ROOM);
-        memcpy(writer->at, field->key, FIELD_KEY_SIZE);
-        *writer->at = separator;
-        writer->at += field->key_length;
-        write_member(record, field, base, writer);
-        separator = ',';
-    }
-    make_room(writer, MEMBER_ROOM);
-    if (separator == '{')
-        *writer->at++ = '{';
-    *writer->at++ = '}';
-}
-
-void record_text_write(const struct record *record, const void *base, struct list_cache *cache,
-                       struct text *text)
-{
-    char *at = text_room(text, MEMBER_ROOM);
-    struct writer writer = {text, at, text->bytes + text->room, cache};
-    write_record(record, base, &writer);
-    *writer.at++ = '\n';
-    text->length = (size_t)(writer.at - text->bytes);
 }
