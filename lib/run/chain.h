@@ -17,6 +17,9 @@ struct chain_times {
     int64_t *step_ns; /* one for each runner */
 };
 
+/* CPU time of this thread, in nanoseconds. */
+int64_t chain_cpu_ns(void);
+
 /* Runs prepared runners from the first frame to the last and prints the messages of those that
  * fail to stderr. Returns the exit code. Clocks are read only if times is not NULL. */
 int chain_run(struct runner *runners, size_t count, struct chain_times *times);

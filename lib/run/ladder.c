@@ -1,11 +1,11 @@
 #include "run/ladder.h"
 
 #include <inttypes.h>
-#include <time.h>
 
 #include "base/random.h"
 #include "base/sort.h"
 #include "frame/frame_text.h"
+#include "run/chain.h"
 #include "run/frame_stream.h"
 #include "run/fused.h"
 #include "run/suite_choice.h"
@@ -120,20 +120,13 @@ struct pass {
     struct arena *kept; /* of the lists */
 };
 
-static int64_t cpu_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
 /* One frame as `glint` runs it, from its line to a line. */
 static int run_frame(struct pass *pass, const struct ladder_frame *sampled)
 {
     struct runner *runner = pass->ladder->runner;
     struct frame *frame = &pass->frame;
     struct diag *diag = runner_diag(runner);
-    int64_t begin_ns = cpu_ns();
+    int64_t begin_ns = chain_cpu_ns();
     if (ladder_sample_read(sampled, frame, diag) != 0)
         return -1;
     frame->seed = sampled->seed + (pass->seed << 32);
@@ -144,7 +137,7 @@ static int run_frame(struct pass *pass, const struct ladder_frame *sampled)
     pass->written.length = 0;
     if (frame_text_write(frame, &pass->written, diag) != 0)
         return -1;
-    pass->spent_ns += cpu_ns() - begin_ns;
+    pass->spent_ns += chain_cpu_ns() - begin_ns;
     return 0;
 }
 
