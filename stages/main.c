@@ -23,11 +23,9 @@ int main(int count, char **words)
     if (name == NULL)
         return fused_main(count, words);
     const struct stage *stage = fused_stage(name);
-    if (stage != NULL)
-        return chain_main(stage, count, words);
     const struct tool *tool = fused_tool(name);
-    if (tool != NULL)
-        return chain_main_tool(tool, count, words);
+    if (stage != NULL || tool != NULL)
+        return chain_main(stage, tool, count, words);
     fprintf(stderr, "glint-%s: this file's name is that of no stage or tool in it\n", name);
     return DIAG_USAGE;
 }

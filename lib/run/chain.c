@@ -325,42 +325,23 @@ static int print_about(struct runner *runner)
     return (int)runner->diag.code;
 }
 
-/* Runs a prepared runner by itself, or says why its command line was refused. */
-static int run_alone(struct runner *runner)
+int chain_main(const struct stage *stage, const struct tool *tool, int count, char **words)
 {
-    int code;
-    if (!failed(runner) && (runner->common.help || runner->common.version)) {
-        code = print_about(runner);
-    } else if (!failed(runner)) {
-        code = chain_run(runner, 1, NULL);
-    } else {
-        complain(runner);
-        code = (int)runner->diag.code;
-    }
-    runner_free(runner);
-    return code;
-}
-
-static void guard_process(void)
-{
+    struct runner runner;
+    size_t given = count > 0 ? (size_t)count - 1 : 0;
+    const char *const *options = (const char *const *)words + 1;
     document_guard_memory();
     input_guard_descriptors();
-}
-
-int chain_main(const struct stage *stage, int count, char **words)
-{
-    struct runner runner;
-    guard_process();
-    runner_prepare(&runner, stage, count > 0 ? (size_t)count - 1 : 0,
-                   (const char *const *)words + 1);
-    return run_alone(&runner);
-}
-
-int chain_main_tool(const struct tool *tool, int count, char **words)
-{
-    struct runner runner;
-    guard_process();
-    runner_prepare_tool(&runner, tool, count > 0 ? (size_t)count - 1 : 0,
-                        (const char *const *)words + 1);
-    return run_alone(&runner);
+    if (stage != NULL)
+        runner_prepare(&runner, stage, given, options);
+    else
+        runner_prepare_tool(&runner, tool, given, options);
+    int code = (int)runner.diag.code;
+    if (failed(&runner))
+        complain(&runner);
+    else
+        code = runner.common.help || runner.common.version ? print_about(&runner)
+                                                           : chain_run(&runner, 1, NULL);
+    runner_free(&runner);
+    return code;
 }
