@@ -1,6 +1,7 @@
 #include "effects/effect.h"
 
 #include "base/elementary.h"
+#include "propagation/attenuation.h"
 #include "radar/scan_timing.h"
 
 #define EFFECT(id, name) extern const struct effect effect_##name;
@@ -105,11 +106,19 @@ bool effect_scale(struct effect_reception *reception, double factor)
     return factor != 1;
 }
 
+bool effect_attenuate(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    (void)scan;
+    double factor = attenuation_amplitude_factor(*reception->constants, reception->echo->range_m);
+    return effect_scale(reception, factor);
+}
+
 uint64_t effect_receive(const struct effect_scan *scan, struct effect_reception *reception)
 {
     uint64_t effects = 0;
     for (uint64_t set = scan->receiving; set != 0;) {
         enum effect_id id = take_first(&set);
+        reception->constants = scan->constants != NULL ? scan->constants[id] : NULL;
         if (effect_table[id]->receive(scan, reception))
             effects |= EFFECT_BIT(id);
     }

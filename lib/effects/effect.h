@@ -43,7 +43,7 @@ struct effect_scan {
         address;      /* the scan's; frame_draw_address_in adds an echo or a cell's leader */
     uint64_t effects; /* the set of effects that are simulated */
     uint64_t receiving, measuring[EFFECT_STEPS]; /* those of them that have the hook */
-    double (*constants)[EFFECT_CONSTANTS];       /* by effect_id, as the hooks begin set them */
+    double (*constants)[EFFECT_CONSTANTS];       /* by effect_id; NULL: no effect has any */
     double interference; /* power of other radars over that of the sensor's own noise */
 };
 
@@ -53,7 +53,8 @@ struct effect_reception {
     double strength, amplitude;     /* linear, before and after the antenna */
     double range_m, range_rate_mps; /* as the radar reads them */
     double phase_rad;
-    double widening; /* the response is 1 + widening times as wide as at rest */
+    double widening;         /* the response is 1 + widening times as wide as at rest */
+    const double *constants; /* of the effect whose hook is called, as its hook begin set them */
 };
 
 /* Echoes that effects add to those of ideal. */
@@ -86,7 +87,7 @@ struct effect {
 
     /* Is its cause described for this scan? */
     bool (*described)(const struct effect_scan *scan);
-    /* Sets constants, which become scan->constants[effect_id]. */
+    /* Sets constants, which the hook receive finds in reception->constants. */
     void (*begin)(const struct effect_scan *scan, double *constants);
 
     /* In the sensor. Adds echoes by effect_add. */
@@ -124,6 +125,9 @@ void effect_add(const struct effect_scan *scan, struct effect_echoes *echoes,
 
 /* Multiplies an echo's strength and amplitude, for the hook receive. False if the factor is 1. */
 bool effect_scale(struct effect_reception *reception, double factor);
+
+/* The hook receive of an effect whose only constant is the attenuation of the air, in dB/km. */
+bool effect_attenuate(const struct effect_scan *scan, struct effect_reception *reception);
 
 /* Calls the hooks receive on one echo. Returns the set of effects that changed it. */
 uint64_t effect_receive(const struct effect_scan *scan, struct effect_reception *reception);

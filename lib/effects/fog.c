@@ -15,12 +15,6 @@ static void begin(const struct effect_scan *scan, double *dbpkm)
                                    scan->frame->conditions.fog_gpm3);
 }
 
-static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
-{
-    double dbpkm = scan->constants[EFFECT_FOG][0];
-    return effect_scale(reception, attenuation_amplitude_factor(dbpkm, reception->echo->range_m));
-}
-
 const struct effect effect_fog = {
     .summary = "fog attenuates echoes",
     .cause = "fog_gpm3 of the conditions",
@@ -29,5 +23,5 @@ const struct effect effect_fog = {
     .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,
-    .receive = receive,
+    .receive = effect_attenuate,
 };

@@ -15,12 +15,6 @@ static void begin(const struct effect_scan *scan, double *dbpkm)
     *dbpkm = attenuation_rain_dbpkm(law, scan->frame->conditions.rain_mmph);
 }
 
-static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
-{
-    double dbpkm = scan->constants[EFFECT_RAIN][0];
-    return effect_scale(reception, attenuation_amplitude_factor(dbpkm, reception->echo->range_m));
-}
-
 const struct effect effect_rain = {
     .summary = "rain attenuates echoes",
     .cause = "rain_mmph of the conditions",
@@ -29,5 +23,5 @@ const struct effect effect_rain = {
     .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,
-    .receive = receive,
+    .receive = effect_attenuate,
 };

@@ -32,7 +32,7 @@ static void begin(const struct effect_scan *scan, double *cells_per_mps)
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
 {
     bool hann = scan->sensor->range_migration == MIGRATION_HANN;
-    double cells = scan->constants[EFFECT_RANGE_MIGRATION][0] * reception->echo->range_rate_mps;
+    double cells = reception->constants[0] * reception->echo->range_rate_mps;
     struct point_response_walk walk =
         point_response_of_walk(hann ? POINT_RESPONSE_HANN : POINT_RESPONSE_RECTANGULAR, cells);
     reception->widening = walk.widening;

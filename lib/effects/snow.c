@@ -2,7 +2,6 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "propagation/attenuation.h"
 
 static bool described(const struct effect_scan *scan)
 {
@@ -20,12 +19,6 @@ static void begin(const struct effect_scan *scan, double *dbpkm)
              0.00224 * rate_mmph / wave_cm;
 }
 
-static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
-{
-    double dbpkm = scan->constants[EFFECT_SNOW][0];
-    return effect_scale(reception, attenuation_amplitude_factor(dbpkm, reception->echo->range_m));
-}
-
 const struct effect effect_snow = {
     .summary = "snow attenuates echoes",
     .cause = "snow_mmph of the conditions",
@@ -34,5 +27,5 @@ const struct effect effect_snow = {
     .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,
-    .receive = receive,
+    .receive = effect_attenuate,
 };

@@ -42,7 +42,7 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
     const struct echo *echo = reception->echo;
     if (!(echo->height_m > 0))
         return false;
-    const double *constants = scan->constants[EFFECT_TWO_RAY];
+    const double *constants = reception->constants;
     const struct two_ray_road road = {{constants[0], constants[1]}, constants[2]};
     const struct two_ray_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
                                       road_distance_m(sensor, echo)};
