@@ -1,7 +1,6 @@
 #include "frame/frame.h"
 
 #include <complex.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/elementary.h"
@@ -21,35 +20,14 @@ const char *const frame_paths[] = {
 };
 
 const char *const frame_losses[] = {
-    [LOSS_FACING_AWAY] = "facing_away",
-    [LOSS_NO_SPECULAR] = "no_specular_point",
-    [LOSS_OUT_OF_RANGE] = "out_of_range",
-    [LOSS_OUT_OF_VIEW] = "out_of_view",
-    [LOSS_BLOCKED] = "blocked",
-    [LOSS_NO_AMPLITUDE] = "no_amplitude",
-    [LOSS_BELOW_THRESHOLD] = "below_threshold",
-    [LOSS_BELOW_FINAL] = "below_final_threshold",
-    [LOSS_NO_ANGLE] = "no_angle",
-    [LOSS_LIST_LIMIT] = "list_limit",
-    [LOSS_SWITCHED_OFF] = "switched_off",
-    [LOSS_MASKED] = "masked",
-    [LOSS_OWN] = NULL,
+#define LOSS(id, name, effect) name,
+#include "frame/losses.def"
+    NULL,
 };
 
-/* The effect to which each reason belongs. */
 static const enum effect_id losing_effects[] = {
-    [LOSS_FACING_AWAY] = EFFECT_VISIBILITY,
-    [LOSS_NO_SPECULAR] = EFFECT_PLANE_REFLECTION,
-    [LOSS_OUT_OF_RANGE] = EFFECT_NONE,
-    [LOSS_OUT_OF_VIEW] = EFFECT_NONE,
-    [LOSS_BLOCKED] = EFFECT_OCCLUSION,
-    [LOSS_NO_AMPLITUDE] = EFFECT_NONE,
-    [LOSS_BELOW_THRESHOLD] = EFFECT_THRESHOLD,
-    [LOSS_BELOW_FINAL] = EFFECT_FINAL_THRESHOLD,
-    [LOSS_NO_ANGLE] = EFFECT_SUPERPOSITION,
-    [LOSS_LIST_LIMIT] = EFFECT_LIST_LIMIT,
-    [LOSS_SWITCHED_OFF] = EFFECT_PLANE_REFLECTION,
-    [LOSS_MASKED] = EFFECT_MERGING,
+#define LOSS(id, name, effect) EFFECT_##effect,
+#include "frame/losses.def"
 };
 
 void frame_clear(struct frame *frame)
@@ -81,10 +59,7 @@ const char *frame_loss_words(const struct lost_group *group, struct arena *arena
 {
     if (frame_loss_of(group->reason) != LOSS_OWN)
         return group->reason;
-    size_t size = strlen(group->stage) + strlen(": ") + strlen(group->reason) + 1;
-    char *words = arena_get(arena, size);
-    snprintf(words, size, "%s: %s", group->stage, group->reason);
-    return words;
+    return arena_format(arena, "%s: %s", group->stage, group->reason);
 }
 
 bool frame_shows_object(enum path path)
@@ -229,8 +204,8 @@ struct contributor frame_contributor(const struct echo *echo)
     };
 }
 
-/* The group of a sensor, stage and reason: one of those in order, or else of the last ones, as the
- * frame_losses of a sensor follow each other. NULL if there is none. */
+/* The group of a sensor, stage and reason, or NULL: one of the new groups of that sensor, which are
+ * the last ones, or one of the groups in canonical order. */
 static struct lost_group *find_group(const struct frame *frame, const struct lost_group *wanted)
 {
     struct lost_group *groups = frame->lost.items;
@@ -243,14 +218,14 @@ static struct lost_group *find_group(const struct frame *frame, const struct los
                         : bsearch(wanted, groups, ordered, sizeof *groups, frame_order_lost_groups);
 }
 
-static void lose(struct frame *frame, const struct lost_group *kind, const struct lost_echo *echo)
+static void lose(struct frame *frame, struct lost_group kind, const struct lost_echo *echo)
 {
     if (!frame_carries(frame, CARRY_ACCOUNT))
         return;
-    struct lost_group *group = find_group(frame, kind);
+    struct lost_group *group = find_group(frame, &kind);
     if (group == NULL) {
         group = list_add(&frame->lost, frame->arena);
-        *group = *kind;
+        *group = kind;
         frame->present |= SECTION_LOST;
     }
     struct lost_echo *added = list_add(&group->echoes, frame->arena);
@@ -262,21 +237,14 @@ static void lose(struct frame *frame, const struct lost_group *kind, const struc
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo)
 {
-    lose(frame,
-         &(struct lost_group){.sensor = sensor,
-                              .stage = stage,
-                              .reason = frame_losses[reason],
-                              .effect = losing_effects[reason]},
-         echo);
+    struct lost_group kind = {sensor, stage, frame_losses[reason], losing_effects[reason], {0}};
+    lose(frame, kind, echo);
 }
 
 void frame_lose_own(struct frame *frame, const char *stage, const char *sensor, const char *reason,
                     const struct lost_echo *echo)
 {
-    lose(frame,
-         &(struct lost_group){
-             .sensor = sensor, .stage = stage, .reason = reason, .effect = EFFECT_NONE},
-         echo);
+    lose(frame, (struct lost_group){sensor, stage, reason, EFFECT_NONE, {0}}, echo);
 }
 
 struct lost_echo frame_lost_echo(const struct contributor *echo, const struct margins *margins)

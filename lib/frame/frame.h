@@ -196,21 +196,11 @@ struct target {
     const char *extra;
 };
 
-/* Why an echo is part of no target. */
+/* Why an echo is part of no target: the reasons of losses.def. */
 enum loss {
-    LOSS_FACING_AWAY,     /* the sensor is outside the point's visibility range */
-    LOSS_NO_SPECULAR,     /* the flat side mirrors past the sensor */
-    LOSS_OUT_OF_RANGE,    /* the reflector is nearer or farther than the sensor measures */
-    LOSS_OUT_OF_VIEW,     /* the reflector is outside the field of view */
-    LOSS_BLOCKED,         /* another object stands in the way */
-    LOSS_NO_AMPLITUDE,    /* the amplitude is 0, as the antenna has a null there */
-    LOSS_BELOW_THRESHOLD, /* the summed amplitude of the cell is below the threshold */
-    LOSS_BELOW_FINAL,     /* the amplitude after superposition and noise is below the threshold */
-    LOSS_NO_ANGLE,        /* both channels are exactly zero */
-    LOSS_LIST_LIMIT,      /* the list is full of targets that come first */
-    LOSS_SWITCHED_OFF,    /* the effect that would have made the echo is not selected */
-    LOSS_MASKED,          /* the echo is no peak of the spectrum beside stronger ones */
-    LOSS_OWN,             /* a reason that only its stage knows */
+#define LOSS(id, name, effect) LOSS_##id,
+#include "frame/losses.def"
+    LOSS_OWN, /* a reason that only its stage knows */
 };
 
 /* The range is to 1 mm and the azimuth to 1e-5 rad. Both are the echo's; of a reflector that sent
