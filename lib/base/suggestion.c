@@ -62,6 +62,20 @@ void suggestion_offer(struct suggestion *suggestion, const char *known)
     memcpy(suggestion->nearest, known, length + 1);
 }
 
+int suggestion_find(const char *const *known, const char *word, size_t length,
+                    struct suggestion *meant)
+{
+    for (int i = 0; known[i] != NULL; i++)
+        if (length > 0 && known[i][0] == word[0] && strncmp(known[i], word, length) == 0 &&
+            known[i][length] == '\0')
+            return i;
+    if (meant != NULL)
+        *meant = suggestion_begin(word, length);
+    for (int i = 0; meant != NULL && known[i] != NULL; i++)
+        suggestion_offer(meant, known[i]);
+    return -1;
+}
+
 const char *suggestion_question(struct suggestion *suggestion, const char *before)
 {
     if (suggestion->nearest[0] == '\0')

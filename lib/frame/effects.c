@@ -10,48 +10,36 @@ const char *const effects_names[] = {
 
 #define EVERY_EFFECT (EFFECT_BIT(EFFECT_COUNT) - 1)
 
-/* Do the length bytes at text spell the word? */
-static bool is_word(const char *text, size_t length, const char *word)
-{
-    return strlen(word) == length && memcmp(text, word, length) == 0;
-}
-
 static int add_effect(const char *text, size_t length, struct selection *selection,
                       struct diag *diag)
 {
-    bool remove = length > 0 && text[0] == '-';
-    const char *name = text + remove;
-    for (int i = 0; i < EFFECT_COUNT; i++)
-        if (is_word(name, length - remove, effects_names[i])) {
-            if (remove)
-                selection->allowed &= ~EFFECT_BIT(i);
-            else
-                selection->allowed |= EFFECT_BIT(i);
-            return 0;
-        }
-    struct suggestion meant = suggestion_begin(name, length - remove);
-    for (int i = 0; i < EFFECT_COUNT; i++)
-        suggestion_offer(&meant, effects_names[i]);
-    return diag_fail(diag, DIAG_CONFIG,
-                     "\"%.*s\" is no effect%s; expected auto, all, none or names from "
-                     "glint --list effects",
-                     (int)(length < 80 ? length : 80), text,
-                     suggestion_question(&meant, remove ? "-" : ""));
+    struct suggestion meant;
+    bool remove = text[0] == '-';
+    int effect = suggestion_find(effects_names, text + remove, length - remove, &meant);
+    if (effect < 0)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "effects: \"%.*s\" is no effect%s; expected auto, all, none or names from "
+                         "glint --list effects",
+                         (int)(length < 80 ? length : 80), text,
+                         suggestion_question(&meant, remove ? "-" : ""));
+    if (remove)
+        selection->allowed &= ~EFFECT_BIT(effect);
+    else
+        selection->allowed |= EFFECT_BIT(effect);
+    return 0;
 }
 
 int effects_read(const char *text, struct selection *selection, struct diag *diag)
 {
-    *selection = (struct selection){0};
-    for (bool first = true;; first = false) {
+    static const char *const first_words[] = {"auto", "all", "none", NULL};
+    int word = suggestion_find(first_words, text, strcspn(text, ","), NULL);
+    bool every = word == 0 || word == 1 || text[0] == '-';
+    *selection =
+        (struct selection){.allowed = every ? EVERY_EFFECT : 0, .automatic = every && word != 1};
+    for (;; word = -1) {
         size_t length = strcspn(text, ",");
-        bool automatic = is_word(text, length, "auto"), all = is_word(text, length, "all");
-        if (first && (automatic || all || text[0] == '-')) {
-            selection->allowed = EVERY_EFFECT;
-            selection->automatic = !all;
-        }
-        bool word = first && (automatic || all || is_word(text, length, "none"));
-        if (!word && add_effect(text, length, selection, diag) != 0)
-            return diag_prefix(diag, "effects: ");
+        if (word < 0 && add_effect(text, length, selection, diag) != 0)
+            return -1;
         if (text[length] == '\0')
             return 0;
         text += length + 1;

@@ -28,24 +28,6 @@ _Static_assert(CARRY_ALL + 1 == 1 << sizeof places / sizeof *places &&
                    sizeof sections_names == (1 + sizeof places / sizeof *places) * sizeof(char *),
                "each bit of enum carried has its word and its place");
 
-/* Do the length bytes at text spell the word? */
-static bool is_word(const char *text, size_t length, const char *word)
-{
-    return strlen(word) == length && memcmp(text, word, length) == 0;
-}
-
-static int refuse_word(const char *text, size_t length, struct diag *diag)
-{
-    bool remove = length > 0 && text[0] == '-';
-    struct suggestion meant = suggestion_begin(text + remove, length - remove);
-    for (int i = 0; sections_names[i] != NULL; i++)
-        suggestion_offer(&meant, sections_names[i]);
-    return diag_fail(
-        diag, DIAG_USAGE,
-        "\"%.*s\" is no section%s; glint-ideal --help names those that --sections takes",
-        (int)(length < 80 ? length : 80), text, suggestion_question(&meant, remove ? "-" : ""));
-}
-
 /* Reads the N of account:every=N. */
 static int read_every(const char *text, size_t length, struct sections_change *change,
                       struct diag *diag)
@@ -60,6 +42,7 @@ static int read_every(const char *text, size_t length, struct sections_change *c
     return 0;
 }
 
+/* Adds a section to the change, or removes it; it stands in the other set no longer. */
 static int read_word(const char *text, size_t length, struct sections_change *change,
                      struct diag *diag)
 {
@@ -70,27 +53,29 @@ static int read_word(const char *text, size_t length, struct sections_change *ch
             return -1;
         length = strlen("account");
     }
-    bool remove = length > 0 && text[0] == '-';
-    for (int i = 0; sections_names[i] != NULL; i++)
-        if (is_word(text + remove, length - remove, sections_names[i])) {
-            uint64_t bit = UINT64_C(1) << i;
-            change->added = remove ? change->added & ~bit : change->added | bit;
-            change->removed = remove ? change->removed | bit : change->removed & ~bit;
-            return 0;
-        }
-    return refuse_word(text, length, diag);
+    struct suggestion meant;
+    bool remove = text[0] == '-';
+    int section = suggestion_find(sections_names, text + remove, length - remove, &meant);
+    if (section < 0)
+        return diag_fail(
+            diag, DIAG_USAGE, "\"%.*s\" is no section%s; glint-ideal --help lists the sections",
+            (int)(length < 80 ? length : 80), text, suggestion_question(&meant, remove ? "-" : ""));
+    uint64_t bit = UINT64_C(1) << section;
+    *(remove ? &change->added : &change->removed) &= ~bit;
+    *(remove ? &change->removed : &change->added) |= bit;
+    return 0;
 }
 
 int sections_read(const char *text, struct sections_change *change, struct diag *diag)
 {
-    *change = (struct sections_change){.account_every = 1};
-    for (bool first = true;; first = false) {
+    static const char *const first_words[] = {"all", "none", NULL};
+    int word = suggestion_find(first_words, text, strcspn(text, ","), NULL);
+    *change = (struct sections_change){.added = word == 0 ? CARRY_ALL : 0,
+                                       .removed = word == 1 ? CARRY_ALL : 0,
+                                       .account_every = 1};
+    for (;; word = -1) {
         size_t length = strcspn(text, ",");
-        if (first && is_word(text, length, "all"))
-            change->added = CARRY_ALL;
-        else if (first && is_word(text, length, "none"))
-            change->removed = CARRY_ALL;
-        else if (read_word(text, length, change, diag) != 0)
+        if (word < 0 && read_word(text, length, change, diag) != 0)
             return -1;
         if (text[length] == '\0')
             return 0;

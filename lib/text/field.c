@@ -115,12 +115,10 @@ int field_set_number(const struct field *field, void *base, double value, struct
 /* The index of the choice of that name, or -1 after a message. */
 static int choice_of(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
-    for (int i = 0; field->choices[i] != NULL; i++)
-        if (is_word(field->choices[i], text, length))
-            return i;
-    struct suggestion meant = suggestion_begin(text, length);
-    for (int i = 0; field->choices[i] != NULL; i++)
-        suggestion_offer(&meant, field->choices[i]);
+    struct suggestion meant;
+    int choice = suggestion_find(field->choices, text, length, &meant);
+    if (choice >= 0)
+        return choice;
     char expected[1024];
     field_expectation(field, expected, sizeof expected);
     return diag_fail(diag, DIAG_DATA, "%s: \"%.*s\" is unknown%s; expected %s", field->name,
