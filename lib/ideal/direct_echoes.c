@@ -7,22 +7,14 @@
 /* The stage that losses name. */
 static const char stage_name[] = "ideal";
 
-static struct margins margins_of(const struct look *look, double margin_m)
-{
-    struct margins margins = {0};
-    if (frame_carries(look->frame, CARRY_MARGINS))
-        margins_note(&margins, MARGIN_SIGHT, margin_m);
-    return margins;
-}
-
-/* Is it told what became of every reflector? If not, those that plainly send no echo may be passed
- * over. */
-static bool tells_all(const struct look *look)
+/* True if the frame reports the fate of every reflector. If not, reflectors that surely send no
+ * echo may be skipped. */
+static bool reports_all(const struct look *look)
 {
     return frame_carries(look->frame, CARRY_ACCOUNT) || look->sightings != NULL;
 }
 
-/* Counts a reflector in the sighting of its body by what became of it, LOSS_OWN for an echo. */
+/* Counts a reflector in the sighting of its body: by its loss, or as an echo (LOSS_OWN). */
 static void count_fate(struct look *look, const struct look_body *body, enum loss reason)
 {
     if (look->sightings == NULL)
@@ -49,13 +41,13 @@ static void lose(struct look *look, const struct look_body *body, const char *re
                                    .azimuth_rad = elementary_atan2(vec2_cross(boresight, sight),
                                                                    vec2_dot(boresight, sight)),
                                    .by = by != NULL ? by->object->id : NULL,
-                                   .margins = margins_of(look, margin_m)});
+                                   .margins = look_sight_margins(look, margin_m)});
 }
 
 /* A reflector that may become an echo. */
 struct candidate {
     const char *reflector;
-    const struct side *side; /* the flat side that it is; NULL for a point */
+    const struct side *side; /* NULL for a point */
     struct vec2 place;
     double height_m;  /* over the road */
     double z, extent; /* fractions of the object's height, as described */
@@ -64,9 +56,9 @@ struct candidate {
     double under_vehicles;
     double margin_m;  /* the least sight margin so far */
     uint64_t effects; /* the effects that changed a value so far */
-    bool line_known;  /* are line_of_sight and under known? */
+    bool line_known;  /* line_of_sight and under are set */
     struct line_of_sight line_of_sight;
-    bool under; /* does the line lead under raised vehicles? */
+    bool under; /* the line leads under raised vehicles */
 };
 
 static struct obstruction_line line_from_sensor(const struct look *look,
@@ -76,18 +68,19 @@ static struct obstruction_line line_from_sensor(const struct look *look,
                                      candidate->height_m};
 }
 
-/* How near the line of an echo came to being blocked. One that leads under raised vehicles also has
- * the depth in them: out of it, the echo would change too. */
+/* Distance of an echo's line from being blocked. For a line under raised vehicles the depth in them
+ * counts too, as the echo would change if the line passed beside them. */
 static double blocking_margin_m(const struct look *look, const struct look_body *body,
                                 const struct obstruction_line *line, bool under)
 {
+    double margin_m = line_of_sight_margin_m(look, &body, 1, line, under, false);
     if (!under)
-        return line_of_sight_clearance_m(look, line, &body, 1);
-    return elementary_min(line_of_sight_margin_m(look, &body, 1, line, true, false),
-                          line_of_sight_margin_m(look, &body, 1, line, false, true));
+        return margin_m;
+    return elementary_min(margin_m, line_of_sight_margin_m(look, &body, 1, line, false, true));
 }
 
-/* The line of sight past the blockers, or under those that are raised if more passes there. */
+/* The line of sight past the blockers, or under the raised ones if more of the echo passes there.
+ */
 static void find_line_of_sight(const struct look *look, struct candidate *candidate)
 {
     if (candidate->line_known)
@@ -107,14 +100,13 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
     effects_count_time(look->selection, EFFECT_OCCLUSION, start_ns);
 }
 
-/* Is the candidate out of reach or blocked? A few products tell, and spare the arctangents of the
- * candidate's azimuth. An account and sightings forbid the short cut, as they tell the first reason
- * in the order of MODEL 2.5, and a log the one by reach, as it counts the effects that the full
- * test tries. */
-static bool is_plainly_lost(const struct look *look, const struct look_body *body,
-                            struct candidate *candidate)
+/* True if the candidate is out of reach or blocked, by a few products instead of the arctangent of
+ * its azimuth. Not for accounts and sightings, which need the first reason in the order of MODEL
+ * 2.5; and not by reach for a log, which counts the effects that the full test tries. */
+static bool is_surely_lost(const struct look *look, const struct look_body *body,
+                           struct candidate *candidate)
 {
-    if (tells_all(look))
+    if (reports_all(look))
         return false;
     struct silhouette place =
         silhouette_of_place(vec2_sub(candidate->place, look->pose.position_m));
@@ -124,30 +116,25 @@ static bool is_plainly_lost(const struct look *look, const struct look_body *bod
     return candidate->line_of_sight.by != NULL;
 }
 
-/* Is the candidate in range and in view? If not, adds its loss. */
+/* True if the candidate is in range and in view; else adds its loss. */
 static bool in_reach(struct look *look, const struct look_body *body, struct candidate *candidate,
                      const struct kinematics *read)
 {
-    const struct sensor *sensor = look->sensor;
-    double azimuth = fabs(read->azimuth_rad);
-    double reach_m = fabs(
-        elementary_min(read->range_m - sensor->range_min_m, sensor->range_max_m - read->range_m));
-    double view_m = read->range_m * fabs(antenna_border_rad(sensor->field_of_view_rad) - azimuth);
-    if (!(read->range_m > 0 && read->range_m >= sensor->range_min_m &&
-          read->range_m <= sensor->range_max_m)) {
-        lose(look, body, candidate->reflector, candidate->place, LOSS_OUT_OF_RANGE, NULL, reach_m);
-        return false;
+    double within_m = look_within_range_m(look, read->range_m);
+    double inside_rad = look_within_view_rad(look, read->azimuth_rad);
+    double view_m = read->range_m * fabs(inside_rad);
+    bool in_range = read->range_m > 0 && within_m >= 0;
+    if (in_range && inside_rad > 0) {
+        candidate->margin_m = elementary_min(candidate->margin_m, elementary_min(within_m, view_m));
+        return true;
     }
-    if (!(azimuth < antenna_border_rad(sensor->field_of_view_rad))) {
-        lose(look, body, candidate->reflector, candidate->place, LOSS_OUT_OF_VIEW, NULL, view_m);
-        return false;
-    }
-    candidate->margin_m = elementary_min(candidate->margin_m, elementary_min(reach_m, view_m));
-    return true;
+    lose(look, body, candidate->reflector, candidate->place,
+         in_range ? LOSS_OUT_OF_VIEW : LOSS_OUT_OF_RANGE, NULL, in_range ? view_m : fabs(within_m));
+    return false;
 }
 
-/* Gives the echo its height over the road and its extent, where the road mirrors and both the
- * sensor and the reflector have a height. */
+/* Sets the echo's height over the road and its extent, if the road mirrors and both the sensor and
+ * the reflector have a height. */
 static void describe_height(const struct look *look, const struct look_body *body,
                             const struct candidate *candidate, struct echo *echo)
 {
@@ -158,9 +145,8 @@ static void describe_height(const struct look *look, const struct look_body *bod
     echo->extent_m = candidate->extent * body->object->height_m;
 }
 
-/* Gives the echo of a wheel or limb what micro-Doppler is made of: kind, heading and rate over
- * ground. Of the echo's range rate, the motion over ground makes the same share along the slant as
- * in the plane. */
+/* Sets what micro-Doppler of a wheel or limb needs: the kind of part, its heading, and its range
+ * rate over ground, which is scaled from the plane to the slant as the echo's range rate is. */
 static void describe_motion(const struct look *look, const struct look_body *body,
                             const struct candidate *candidate, struct vec2 velocity,
                             struct echo *echo)
@@ -194,7 +180,7 @@ static void add_echo(struct look *look, const struct look_body *body,
         .ercs = candidate->line_of_sight.factor * candidate->ercs,
         .time_s = look->time_s,
         .effects = candidate->effects | candidate->line_of_sight.effects,
-        .margins = margins_of(look, candidate->margin_m),
+        .margins = look_sight_margins(look, candidate->margin_m),
     };
     describe_height(look, body, candidate, echo);
     describe_motion(look, body, candidate, velocity, echo);
@@ -206,8 +192,7 @@ static void add_candidate(struct look *look, const struct look_body *body,
 {
     bool margins = frame_carries(look->frame, CARRY_MARGINS);
     struct vec2 velocity = motion_velocity_at(&body->box.motion, candidate->place);
-    struct kinematics plane = kinematics_of(look->pose.position_m, look->pose.velocity_mps,
-                                            look->pose.boresight, candidate->place, velocity);
+    struct kinematics plane = look_kinematics(look, candidate->place, velocity);
     double gain;
     struct kinematics read =
         look_slant(look, candidate->height_m, plane, &gain, &candidate->effects);
@@ -244,7 +229,7 @@ static void add_point(struct look *look, const struct look_body *body,
         .margin_m = (double)INFINITY,
         .effects = look_latency_effect(look, body),
     };
-    if (is_plainly_lost(look, body, &candidate))
+    if (is_surely_lost(look, body, &candidate))
         return;
     double visible = look_visibility(look, body, point, facing, place, look->pose.position_m);
     if (frame_carries(look->frame, CARRY_MARGINS) &&
@@ -265,7 +250,8 @@ static void add_plane(struct look *look, const struct look_body *body,
                       const struct plane_reflector *plane)
 {
     look->pairs++;
-    struct side side = line_of_sight_side(body, plane);
+    struct side side =
+        line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
     struct vec2 middle = vec2_scale(0.5, vec2_add(side.from, side.to));
     if (!effects_enabled(look->selection, EFFECT_PLANE_REFLECTION)) {
         lose(look, body, plane->name, middle, LOSS_SWITCHED_OFF, NULL, (double)INFINITY);
@@ -289,7 +275,7 @@ static void add_plane(struct look *look, const struct look_body *body,
             .margin_m = margin_m,
             .effects = look_latency_effect(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
-        if (is_plainly_lost(look, body, &candidate))
+        if (is_surely_lost(look, body, &candidate))
             return;
         double range_m = vec2_length(vec2_sub(foot, look->pose.position_m));
         candidate.ercs = look_plane_ercs(look, plane, range_m, &candidate.effects);
@@ -310,19 +296,14 @@ static void add_row(struct look *look, const struct look_body *body, const struc
     }
 }
 
-/* May a body's reflectors be skipped all at once? Whoever tells all needs the reason of each, a log
- * the effects that were tried, and the count of pairs how many posts of a row are in range. */
-static bool may_skip(const struct look *look, const struct look_set *set)
-{
-    return !tells_all(look) && look->selection->log == NULL && set->reflectors->rows.count == 0;
-}
-
-/* Are all reflectors of a body skipped, because it is plainly out of reach or hidden? If not, finds
- * the body's blockers. */
+/* True if all reflectors of a body are skipped, because it is surely out of reach or hidden; else
+ * finds the body's blockers. None is skipped where the reason of each is reported, where a log
+ * counts the effects that were tried, and where the posts of a row in range are counted. */
 static bool is_skipped(struct look *look, const struct look_body *body, const struct look_set *set)
 {
     struct look_extent extent = look_reflectors_extent(look, body, set);
-    bool skippable = may_skip(look, set);
+    bool skippable =
+        !reports_all(look) && look->selection->log == NULL && set->reflectors->rows.count == 0;
     if (skippable && look_out_of_reach(look, body, &extent.silhouette))
         return true;
     line_of_sight_find_blockers(look, body, &extent);
@@ -330,7 +311,7 @@ static bool is_skipped(struct look *look, const struct look_body *body, const st
            line_of_sight_all_hidden(look, set, &extent);
 }
 
-/* Adds the points of a set. Those that plainly face away are only counted, unless all is true. */
+/* Adds the points of a set. Points that surely face away are only counted, unless all is true. */
 static void add_points(struct look *look, const struct look_body *body, const struct look_set *set,
                        bool all)
 {
@@ -344,7 +325,7 @@ static void add_points(struct look *look, const struct look_body *body, const st
     }
 }
 
-/* Adds the planes of a set. Those that plainly have no foot are only counted, unless all is true.
+/* Adds the planes of a set. Planes that surely have no foot are only counted, unless all is true.
  */
 static void add_planes(struct look *look, const struct look_body *body,
                        const struct reflector_set *set, bool all)
@@ -369,8 +350,9 @@ static void add_body(struct look *look, const struct look_body *body, const stru
     effects_note(selection, EFFECT_VISIBILITY, all->points.count + all->rows.count > 0);
     effects_note(selection, EFFECT_PLANE_REFLECTION, all->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, all->rows.count > 0);
-    add_points(look, body, set, tells_all(look) || !effects_enabled(selection, EFFECT_VISIBILITY));
-    add_planes(look, body, all, tells_all(look));
+    bool each = reports_all(look);
+    add_points(look, body, set, each || !effects_enabled(selection, EFFECT_VISIBILITY));
+    add_planes(look, body, all, each);
     for (size_t i = 0; i < all->rows.count && effects_enabled(selection, EFFECT_ROWS); i++)
         add_row(look, body, &all->rows.items[i]);
 }

@@ -7,17 +7,17 @@
 #include "ideal/line_of_sight.h"
 #include "propagation/reflection.h"
 
-/* A path has so many bounces if it takes the mirror one way, or both ways. */
+/* Bounces of a path that takes the mirror one way, or both ways. */
 enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
 
-/* So many posts of a row are tested against a mirror at once. */
-enum { POSTS_AT_ONCE = 8 };
+enum { POSTS_AT_ONCE = 8 }; /* posts of a row that are tested against a mirror at once */
 
-/* Bodies with a mirror in line that ends where a mirror begins, or begins where it ends. */
+/* Bodies with a mirror in line that ends where this mirror begins (before), or begins where it ends
+ * (after). */
 struct mirror_joints {
     bool known;
     const struct look_body *before, *after;
-    bool shares_end; /* does one begin there bit by bit? */
+    bool shares_end; /* a mirror begins exactly there, bit by bit */
 };
 
 /* A mirror in the world whose outer face is turned to the sensor. */
@@ -29,7 +29,7 @@ struct mirror_face {
     const struct mirror_plane *plane;
     struct material_permittivity permittivity; /* of its material at the sensor's carrier */
     bool in_view;                              /* false: surely out of the field of view */
-    struct mirror_joints *joints;              /* looked for where the first wave bounces */
+    struct mirror_joints *joints;              /* found at the first bounce */
 };
 
 struct mirror_faces {
@@ -41,17 +41,16 @@ static void add_face(const struct look *look, const struct look_body *body, size
                      bool in_view, struct mirror_faces *faces)
 {
     const struct mirror_plane *plane = &body->set->reflectors->mirrors.items[index];
-    struct mirror mirror = mirror_of(motion_box_place(&body->box, plane->from_x, plane->from_y),
-                                     motion_box_place(&body->box, plane->to_x, plane->to_y),
-                                     body->box.motion, look->pose.position_m);
+    struct side side =
+        line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
+    struct mirror mirror = mirror_of(side.from, side.to, body->box.motion, look->pose.position_m);
     if (mirror.sensor_height_m == 0)
         return;
     *list_add(&faces->list, look->frame->arena) = (struct mirror_face){
         .body = body,
         .number = (int64_t)index + 1,
         .mirror = mirror,
-        .along =
-            motion_box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y),
+        .along = side.along,
         .plane = plane,
         .permittivity = reflection_permittivity(plane->material, look->sensor->carrier_hz),
         .in_view = in_view,
@@ -59,7 +58,7 @@ static void add_face(const struct look *look, const struct look_body *body, size
     };
 }
 
-/* Every path touches its mirror within the sensor's range. */
+/* The mirrors that may have a path: every path touches its mirror within the sensor's range. */
 static struct mirror_faces mirror_faces_of(const struct look *look)
 {
     bool all = effects_forced(look->selection, EFFECT_GHOSTS);
@@ -78,41 +77,37 @@ static struct mirror_faces mirror_faces_of(const struct look *look)
     return faces;
 }
 
-/* May a mirror of the body begin or end within reach_m of a place? */
-static bool may_meet(const struct look_body *body, struct vec2 place, double reach_m)
-{
-    struct vec2 way = vec2_sub(place, body->box.motion.position_m);
-    reach_m += body->set->shape->share * body->radius_m;
-    return fabs(way.x) <= reach_m && fabs(way.y) <= reach_m;
-}
-
-/* Takes down what a mirror of the body has to do with the ends of a face. */
+/* Notes the body if its mirror is in line with the face and meets an end of it. */
 static void join(const struct mirror_face *face, const struct look_body *body,
                  const struct mirror_plane *plane)
 {
-    struct vec2 a = motion_box_place(&body->box, plane->from_x, plane->from_y);
-    struct vec2 b = motion_box_place(&body->box, plane->to_x, plane->to_y);
-    if (!vec2_same(face->along, motion_box_along(&body->box, plane->from_x, plane->from_y,
-                                                 plane->to_x, plane->to_y)))
+    struct side side =
+        line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
+    if (!vec2_same(face->along, side.along))
         return;
-    if (vec2_length(vec2_sub(a, face->mirror.b)) <= LINE_OF_SIGHT_JOINT_M) {
+    if (vec2_length(vec2_sub(side.from, face->mirror.b)) <= LINE_OF_SIGHT_JOINT_M) {
         face->joints->after = body;
-        face->joints->shares_end |= vec2_same(a, face->mirror.b);
+        face->joints->shares_end |= vec2_same(side.from, face->mirror.b);
     }
-    if (vec2_length(vec2_sub(face->mirror.a, b)) <= LINE_OF_SIGHT_JOINT_M)
+    if (vec2_length(vec2_sub(face->mirror.a, side.to)) <= LINE_OF_SIGHT_JOINT_M)
         face->joints->before = body;
 }
 
 static const struct mirror_joints *joints_of(const struct look *look,
                                              const struct mirror_face *face)
 {
-    struct vec2 a = face->mirror.a, b = face->mirror.b, middle = face->mirror.middle;
-    double reach_m = 0.5 * vec2_length(vec2_sub(b, a)) + 10 * LINE_OF_SIGHT_JOINT_M;
+    double half_m = 0.5 * vec2_length(vec2_sub(face->mirror.b, face->mirror.a));
     for (size_t i = 0; i < look->body_count && !face->joints->known; i++) {
         const struct look_body *body = &look->bodies[i];
-        if (body->set != NULL && may_meet(body, middle, reach_m))
-            for (size_t j = 0; j < body->set->reflectors->mirrors.count; j++)
-                join(face, body, &body->set->reflectors->mirrors.items[j]);
+        struct vec2 way = vec2_sub(face->mirror.middle, body->box.motion.position_m);
+        if (body->set == NULL)
+            continue;
+        double reach_m =
+            half_m + 10 * LINE_OF_SIGHT_JOINT_M + body->set->shape->share * body->radius_m;
+        if (fabs(way.x) > reach_m || fabs(way.y) > reach_m)
+            continue;
+        for (size_t j = 0; j < body->set->reflectors->mirrors.count; j++)
+            join(face, body, &body->set->reflectors->mirrors.items[j]);
     }
     face->joints->known = true;
     return face->joints;
@@ -141,15 +136,14 @@ static struct route route_to(const struct look *look, struct vec2 place, struct 
                              double height_m)
 {
     struct route route = {.margin_m = (double)INFINITY};
-    struct kinematics plane = kinematics_of(look->pose.position_m, look->pose.velocity_mps,
-                                            look->pose.boresight, place, velocity);
+    struct kinematics plane = look_kinematics(look, place, velocity);
     route.read = look_slant(look, height_m, plane, &route.factor, &route.effects);
     return route;
 }
 
 static struct ghost_candidate candidate_of(const struct look *look, const struct mirror_face *face,
-                                           const struct look_body *body, struct vec2 place,
-                                           double z, struct vec2 bounce)
+                                           const struct look_body *body, const char *reflector,
+                                           struct vec2 place, double z, struct vec2 bounce)
 {
     struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
     struct mirror_image image = mirror_image(&face->mirror, place, velocity);
@@ -157,6 +151,7 @@ static struct ghost_candidate candidate_of(const struct look *look, const struct
     return (struct ghost_candidate){
         .face = face,
         .body = body,
+        .reflector = reflector,
         .place = place,
         .bounce = bounce,
         .height_m = height_m,
@@ -165,9 +160,8 @@ static struct ghost_candidate candidate_of(const struct look *look, const struct
     };
 }
 
-/* Has the mirror a bounce for the place? One exactly on the end that it shares is the next
- * mirror's.
- */
+/* True if the mirror has a bounce for the place. A bounce exactly on an end that two mirrors share
+ * belongs to the next one. */
 static bool has_bounce(const struct look *look, const struct mirror_face *face, struct vec2 place,
                        struct vec2 *bounce)
 {
@@ -178,21 +172,21 @@ static bool has_bounce(const struct look *look, const struct mirror_face *face, 
            !joints_of(look, face)->shares_end;
 }
 
-/* How near the bounce was to vanishing: its distance from the mirror's ends, and the distances of
- * sensor and reflector from the mirror's line. */
+/* Distance of the bounce from vanishing: the least of its distances from the mirror's ends, and of
+ * those of sensor and reflector from the mirror's line. */
 static double bounce_margin_m(const struct look *look, const struct ghost_candidate *candidate)
 {
     const struct mirror_face *face = candidate->face;
-    struct vec2 a = face->mirror.a, b = face->mirror.b, along = face->along;
-    double ends_m = elementary_min(fabs(vec2_dot(vec2_sub(candidate->bounce, a), along)),
-                                   fabs(vec2_dot(vec2_sub(b, candidate->bounce), along)));
+    struct vec2 a = face->mirror.a, along = face->along;
+    double from_a_m = vec2_dot(vec2_sub(candidate->bounce, a), along);
+    double to_b_m = vec2_dot(vec2_sub(face->mirror.b, candidate->bounce), along);
     double line_m = elementary_min(fabs(vec2_cross(along, vec2_sub(look->pose.position_m, a))),
                                    fabs(vec2_cross(along, vec2_sub(candidate->place, a))));
-    return elementary_min(ends_m, line_m);
+    return elementary_min(elementary_min(fabs(from_a_m), fabs(to_b_m)), line_m);
 }
 
-/* Takes a route along one of its legs, which the bodies of except do not block. False if nothing
- * passes. */
+/* Multiplies a route by the wave that passes one of its legs, which the bodies of except do not
+ * block. False if nothing passes. */
 static bool pass_leg(const struct look *look, struct route *route, struct obstruction_line line,
                      const struct look_body *const *except, size_t count)
 {
@@ -200,25 +194,17 @@ static bool pass_leg(const struct look *look, struct route *route, struct obstru
     route->factor *= passed.factor;
     route->effects |= passed.effects;
     if (frame_carries(look->frame, CARRY_MARGINS) && passed.factor > 0)
-        route->margin_m =
-            elementary_min(route->margin_m, line_of_sight_clearance_m(look, &line, except, count));
+        route->margin_m = elementary_min(
+            route->margin_m, line_of_sight_margin_m(look, except, count, &line, false, false));
     return route->factor > 0;
 }
 
-static bool pass_directly(const struct look *look, struct ghost_candidate *candidate)
-{
-    struct obstruction_line line = {look->pose.position_m, candidate->place, look->height_m,
-                                    candidate->height_m};
-    return pass_leg(look, &candidate->direct, line, &candidate->body, 1);
-}
-
-/* How far the bounce is from the mirror's top and its lower edge; negative if it is beyond one. */
+/* Distance of the bounce from the mirror's top and its lower edge; negative beyond one. */
 static double upright_margin_m(const struct look *look, const struct mirror_face *face,
                                double height_m)
 {
-    double top_m = look_top_m(look, face->body);
+    double top_m = look_top_m(look, face->body), below_m = top_m - height_m;
     double bottom_m = isinf(top_m) ? 0 : face->plane->bottom * top_m;
-    double below_m = top_m - height_m;
     return bottom_m > 0 ? elementary_min(below_m, height_m - bottom_m) : below_m;
 }
 
@@ -248,34 +234,22 @@ static bool pass_by_mirror(const struct look *look, struct ghost_candidate *cand
     return true;
 }
 
-static bool is_within_limits(const struct sensor *sensor, const struct kinematics *read,
+static bool is_within_limits(const struct look *look, const struct kinematics *read,
                              double departure_rad)
 {
-    return read->range_m >= sensor->range_min_m && read->range_m <= sensor->range_max_m &&
-           fabs(read->azimuth_rad) < antenna_border_rad(sensor->field_of_view_rad) &&
-           fabs(departure_rad) <= PI / 2;
-}
-
-static double limits_margin_m(const struct sensor *sensor, const struct kinematics *read,
-                              double departure_rad)
-{
-    double view_rad =
-        elementary_min(antenna_border_rad(sensor->field_of_view_rad) - fabs(read->azimuth_rad),
-                       PI / 2 - fabs(departure_rad));
-    return elementary_min(
-        elementary_min(read->range_m - sensor->range_min_m, sensor->range_max_m - read->range_m),
-        read->range_m * view_rad);
+    return look_within_range_m(look, read->range_m) >= 0 &&
+           look_within_view_rad(look, read->azimuth_rad) > 0 && fabs(departure_rad) <= PI / 2;
 }
 
 static struct margins margins_of(const struct look *look, const struct kinematics *read,
                                  const struct route *out, const struct route *back)
 {
-    struct margins margins = {0};
-    double limits_m = limits_margin_m(look->sensor, read, out->read.azimuth_rad);
-    if (frame_carries(look->frame, CARRY_MARGINS))
-        margins_note(&margins, MARGIN_SIGHT,
-                     elementary_min(limits_m, elementary_min(out->margin_m, back->margin_m)));
-    return margins;
+    double view_rad = elementary_min(look_within_view_rad(look, read->azimuth_rad),
+                                     PI / 2 - fabs(out->read.azimuth_rad));
+    double limits_m =
+        elementary_min(look_within_range_m(look, read->range_m), read->range_m * view_rad);
+    double legs_m = elementary_min(out->margin_m, back->margin_m);
+    return look_sight_margins(look, elementary_min(limits_m, legs_m));
 }
 
 static void add_ghost(struct look *look, const struct ghost_candidate *candidate, enum path path,
@@ -303,17 +277,8 @@ static void add_ghost(struct look *look, const struct ghost_candidate *candidate
     };
 }
 
-/* The material's part of an amplitude at an angle of incidence. An upright field is parallel to an
- * upright mirror. */
-static double material_part(const struct look *look, const struct mirror_face *face, double cosine)
-{
-    bool upright = look->sensor->polarization == POLARIZATION_VERTICAL;
-    double _Complex reflected =
-        reflection_fresnel(&face->permittivity, upright ? MATERIAL_TE : MATERIAL_TM, cosine);
-    return elementary_hypot(creal(reflected), cimag(reflected));
-}
-
-/* The part of an amplitude that is left after the bounce, against a perfect flat mirror. */
+/* Part of the amplitude that is left after the bounce, relative to a perfect flat mirror. A
+ * vertical field is parallel to the mirror, which is upright. */
 static double bounce_factor(const struct look *look, const struct ghost_candidate *candidate)
 {
     const struct mirror_face *face = candidate->face;
@@ -324,17 +289,20 @@ static double bounce_factor(const struct look *look, const struct ghost_candidat
     double share = sensor_m / (sensor_m + place_m), cosine = (sensor_m + place_m) / way_m;
     double radius_m = plane->radius_m > 0 ? plane->radius_m : (double)INFINITY;
     double profile_m = plane->profile_radius_m > 0 ? plane->profile_radius_m : (double)INFINITY;
-    double part =
-        plane->material == MATERIAL_NONE ? plane->reflection : material_part(look, face, cosine);
+    bool upright = look->sensor->polarization == POLARIZATION_VERTICAL;
+    double part = plane->reflection;
+    if (plane->material != MATERIAL_NONE) {
+        double _Complex reflected =
+            reflection_fresnel(&face->permittivity, upright ? MATERIAL_TE : MATERIAL_TM, cosine);
+        part = elementary_hypot(creal(reflected), cimag(reflected));
+    }
     return part * reflection_divergence(radius_m, profile_m, cosine, share * (1 - share) * way_m);
 }
 
-/* Adds the ghosts of a candidate, on all three paths or, unless one_way is true, on
- * wall_object_wall alone. Bodies in the way are looked for only if a path is within the sensor's
- * limits. */
+/* Adds the ghosts of a candidate: on all three paths, or on wall_object_wall alone if one_way is
+ * false. Blocking bodies are searched only if a path is within the sensor's limits. */
 static void add_paths(struct look *look, struct ghost_candidate *candidate, bool one_way)
 {
-    const struct sensor *sensor = look->sensor;
     const struct route *direct = &candidate->direct, *mirrored = &candidate->mirrored;
     const struct kinematics *object = &direct->read, *image = &mirrored->read;
     double reflection = bounce_factor(look, candidate);
@@ -344,15 +312,17 @@ static void add_paths(struct look *look, struct ghost_candidate *candidate, bool
         out = mirror_ghost_out(reflection, object, image);
         back = mirror_ghost_back(reflection, object, image);
     }
-    bool has_both = sensor->bounces >= BOUNCES_BOTH_WAYS &&
-                    is_within_limits(sensor, &both.kinematics, image->azimuth_rad);
-    bool has_out = one_way && is_within_limits(sensor, &out.kinematics, image->azimuth_rad);
-    bool has_back = one_way && is_within_limits(sensor, &back.kinematics, object->azimuth_rad);
+    bool has_both = look->sensor->bounces >= BOUNCES_BOTH_WAYS &&
+                    is_within_limits(look, &both.kinematics, image->azimuth_rad);
+    bool has_out = one_way && is_within_limits(look, &out.kinematics, image->azimuth_rad);
+    bool has_back = one_way && is_within_limits(look, &back.kinematics, object->azimuth_rad);
     if (!(has_both || has_out || has_back) || !pass_by_mirror(look, candidate))
         return;
     if (has_both)
         add_ghost(look, candidate, PATH_WALL_OBJECT_WALL, both, mirrored, mirrored);
-    if (!(has_out || has_back) || !pass_directly(look, candidate))
+    const struct obstruction_line line = {look->pose.position_m, candidate->place, look->height_m,
+                                          candidate->height_m};
+    if (!(has_out || has_back) || !pass_leg(look, &candidate->direct, line, &candidate->body, 1))
         return;
     if (has_out)
         add_ghost(look, candidate, PATH_WALL_OBJECT, out, mirrored, direct);
@@ -360,12 +330,11 @@ static void add_paths(struct look *look, struct ghost_candidate *candidate, bool
         add_ghost(look, candidate, PATH_OBJECT_WALL, back, direct, mirrored);
 }
 
-/* Multiplies a route by what its viewer, the sensor or the bounce, sees of the point. */
+/* Multiplies a route by the point's visibility for its viewer: the sensor or the bounce. */
 static void apply_visibility(const struct look *look, const struct ghost_candidate *candidate,
                              const struct point_reflector *point, struct vec2 facing,
                              struct vec2 viewer, struct route *route)
 {
-    const struct box *box = &candidate->body->box;
     if (!effects_enabled(look->selection, EFFECT_VISIBILITY))
         return;
     double visible =
@@ -374,13 +343,14 @@ static void apply_visibility(const struct look *look, const struct ghost_candida
     if (visible < 1)
         route->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
     if (frame_carries(look->frame, CARRY_MARGINS))
-        route->margin_m = line_of_sight_facing_margin_m(box, point->shape, point->facing_rad,
-                                                        point->zero_rad, candidate->place, viewer);
+        route->margin_m =
+            line_of_sight_facing_margin_m(&candidate->body->box, point->shape, point->facing_rad,
+                                          point->zero_rad, candidate->place, viewer);
 }
 
-/* A cheap test before all others: false if every path of the point is out of range or, under auto,
- * out of view, or the point faces away from the bounce. The shortest path goes there by the mirror
- * and straight back. */
+/* A cheap test before all others. False if every path of the point is out of range or, under auto,
+ * out of view, or if the point faces away from the bounce. The shortest path goes by the mirror one
+ * way and straight the other. */
 static bool may_have_path(const struct look *look, const struct look_body *body,
                           const struct point_reflector *point, struct vec2 facing,
                           struct vec2 place, struct vec2 bounce)
@@ -391,8 +361,8 @@ static bool may_have_path(const struct look *look, const struct look_body *body,
         look_out_of_reach(look, body, &straight))
         return false;
     double onward_m = vec2_length(vec2_sub(place, bounce));
-    return mirrored.nearest_m + onward_m + straight.nearest_m <=
-               2 * look->sensor->range_max_m + 1e-6 &&
+    double way_m = mirrored.nearest_m + onward_m + straight.nearest_m;
+    return way_m <= 2 * look->sensor->range_max_m + 1e-6 &&
            (!effects_enabled(look->selection, EFFECT_VISIBILITY) ||
             reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
 }
@@ -403,8 +373,8 @@ static void add_point(struct look *look, const struct mirror_face *face,
 {
     if (!may_have_path(look, body, point, facing, place, bounce))
         return;
-    struct ghost_candidate candidate = candidate_of(look, face, body, place, point->z, bounce);
-    candidate.reflector = point->name;
+    struct ghost_candidate candidate =
+        candidate_of(look, face, body, point->name, place, point->z, bounce);
     candidate.ercs = point->ercs;
     apply_visibility(look, &candidate, point, facing, look->pose.position_m, &candidate.direct);
     apply_visibility(look, &candidate, point, facing, bounce, &candidate.mirrored);
@@ -423,57 +393,53 @@ static void add_points(struct look *look, const struct mirror_face *face,
     }
 }
 
-/* May the mirror have a bounce for any of the posts from first to last? */
+/* True if the mirror may have a bounce for one of the posts from first to last. */
 static bool may_mirror_posts(const struct mirror_face *face, const struct look_body *body,
                              const struct post_row *row, int64_t first, int64_t last)
 {
     struct vec2 from = reflectors_post_place(&body->box, row, first);
     struct vec2 to = reflectors_post_place(&body->box, row, last);
-    struct vec2 centre = vec2_scale(0.5, vec2_add(from, to));
-    return mirror_may_bounce(&face->mirror, centre, 0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
+    return mirror_may_bounce(&face->mirror, vec2_scale(0.5, vec2_add(from, to)),
+                             0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
 }
 
-static void add_post(struct look *look, const struct mirror_face *face,
-                     const struct look_body *body, const struct post_row *row, struct vec2 facing,
-                     int64_t number)
-{
-    struct vec2 place = reflectors_post_place(&body->box, row, number), bounce;
-    if (!has_bounce(look, face, place, &bounce))
-        return;
-    struct point_reflector post = look_post(look, row, number);
-    add_point(look, face, body, &post, facing, place, bounce);
-}
-
-/* No path is shorter than the direct one, so posts out of range have no ghost in range. Rows are
- * longer than most mirrors, which have no bounce for most of a row's posts. */
+/* Adds ghosts of the posts in range: no path is shorter than the direct one. Rows are longer than
+ * most mirrors, which have no bounce for most of a row's posts. */
 static void add_row(struct look *look, const struct mirror_face *face, const struct look_body *body,
                     const struct post_row *row)
 {
-    bool all = effects_forced(look->selection, EFFECT_GHOSTS);
-    struct vec2 facing = vec2_heading(row->facing_rad);
+    struct vec2 facing = vec2_heading(row->facing_rad), bounce;
     int64_t first, end;
     reflectors_posts_within(&body->box, row, look->pose.position_m, look->sensor->range_max_m,
                             &first, &end);
     for (int64_t next; first < end; first = next) {
         next = first + POSTS_AT_ONCE < end ? first + POSTS_AT_ONCE : end;
-        if (all || may_mirror_posts(face, body, row, first, next - 1))
-            for (int64_t number = first; number < next; number++)
-                add_post(look, face, body, row, facing, number);
+        if (!effects_forced(look->selection, EFFECT_GHOSTS) &&
+            !may_mirror_posts(face, body, row, first, next - 1))
+            continue;
+        for (int64_t number = first; number < next; number++) {
+            struct vec2 place = reflectors_post_place(&body->box, row, number);
+            if (!has_bounce(look, face, place, &bounce))
+                continue;
+            struct point_reflector post = look_post(look, row, number);
+            add_point(look, face, body, &post, facing, place, bounce);
+        }
     }
 }
 
 static void add_plane(struct look *look, const struct mirror_face *face,
                       const struct look_body *body, const struct plane_reflector *plane)
 {
-    const struct side side = line_of_sight_side(body, plane);
+    const struct side side =
+        line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
     struct vec2 eye = face->mirror.eye_m, foot, bounce;
     if (!mirror_specular_point(side.from, side.to, side.along, plane->margin_m, eye, &foot) ||
         !has_bounce(look, face, foot, &bounce))
         return;
-    struct ghost_candidate candidate = candidate_of(look, face, body, foot, plane->z, bounce);
+    struct ghost_candidate candidate =
+        candidate_of(look, face, body, plane->name, foot, plane->z, bounce);
     struct route *route = &candidate.mirrored;
     double range_m = vec2_length(vec2_sub(foot, eye));
-    candidate.reflector = plane->name;
     candidate.ercs = look_plane_ercs(look, plane, range_m, &route->effects);
     route->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     if (frame_carries(look->frame, CARRY_MARGINS))
@@ -496,14 +462,15 @@ static void add_body(struct look *look, const struct mirror_face *face,
         add_row(look, face, body, &set->rows.items[i]);
 }
 
-/* A path is no shorter than twice the way to the body. It arrives by way of the mirror, or leaves
- * so and arrives straight from the body: one of the two is in view. */
+/* Adds the ghosts of a body. A path is no shorter than twice the distance of the body, and arrives
+ * from the mirror or from the body; one of the two is in view. */
 static void add_ghosts_of(struct look *look, const struct mirror_faces *faces,
                           const struct look_body *body)
 {
     const struct selection *selection = look->selection;
     bool all = effects_forced(selection, EFFECT_GHOSTS);
-    double radius_m = look_reflectors_radius_m(body, body->set);
+    const struct reflectors_shape *shape = body->set->shape;
+    double radius_m = shape->share * body->radius_m + shape->inset_m;
     struct look_extent extent = look_reflectors_extent(look, body, body->set);
     bool in_view = all || !look_out_of_reach(look, body, &extent.silhouette);
     if (!in_view && look_out_of_range(look, &extent.silhouette))

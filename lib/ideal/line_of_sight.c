@@ -2,7 +2,6 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "geometry/obstruction.h"
 #include "geometry/predicates.h"
 
 double line_of_sight_facing_margin_m(const struct box *box, enum visibility_shape shape,
@@ -74,20 +73,19 @@ double line_of_sight_depth_margin_m(const struct vec2 *corners, size_t count, st
     return deepest_m;
 }
 
-/* Do both ends of a line lie beyond the same side of a body? The ends and the reach of the body are
- * measured along one of its axes. */
+/* True if both ends of a line lie beyond the same side of a body. The ends and the reach of the
+ * body are measured along one of its axes. */
 static bool ends_beside(double from_m, double to_m, double reach_m)
 {
     return (from_m > reach_m && to_m > reach_m) || (from_m < -reach_m && to_m < -reach_m);
 }
 
-/* Does a line touch a body's outline? Cheap tests are sure of most answers. */
+/* Whether a line touches a body's outline, by cheap tests that settle most cases. */
 enum crossing { CROSSING_UNSURE, CROSSING_NONE, CROSSING_SURE };
 
-/* A line cannot touch the outline of a body if it stays clear of the circle around the body and its
- * rim, or if both its ends lie beyond the same side. It surely crosses the outline if it runs
- * through the circle inside the body's sides from end to end of the circle around it. The slack
- * covers the rounding of these tests, so that they answer only what the exact test would. */
+/* None: the line stays clear of the circle around the body and its rim, or both its ends lie beyond
+ * the same side. Sure: the line runs through the circle inside the body's sides, from end to end of
+ * the circle around it. The slack covers the rounding of these tests. */
 static enum crossing crossing_by_circles(const struct look_body *body, struct vec2 from,
                                          struct vec2 to, double rim_m)
 {
@@ -119,22 +117,23 @@ static enum crossing crossing_by_silhouette(const struct look_body *body,
     return silhouette_covers(&body->shadow.silhouette, place) ? CROSSING_SURE : CROSSING_UNSURE;
 }
 
-struct side line_of_sight_side(const struct look_body *body, const struct plane_reflector *plane)
+struct side line_of_sight_side(const struct look_body *body, double from_x, double from_y,
+                               double to_x, double to_y)
 {
-    return (struct side){.from = motion_box_place(&body->box, plane->from_x, plane->from_y),
-                         .to = motion_box_place(&body->box, plane->to_x, plane->to_y),
-                         .along = motion_box_along(&body->box, plane->from_x, plane->from_y,
-                                                   plane->to_x, plane->to_y)};
+    return (struct side){.from = motion_box_place(&body->box, from_x, from_y),
+                         .to = motion_box_place(&body->box, to_x, to_y),
+                         .along = motion_box_along(&body->box, from_x, from_y, to_x, to_y)};
 }
 
-/* Has the body a side in line with this one that begins at its end, or else ends at its beginning,
- * within within_m? */
+/* True if the body has a side in line with this one that, within within_m, begins at its end
+ * (begins) or ends at its beginning. */
 static bool joins(const struct look_body *body, const struct side *side, bool begins,
                   double within_m)
 {
     for (size_t i = 0; body->set != NULL && i < body->set->reflectors->planes.count; i++) {
         const struct plane_reflector *plane = &body->set->reflectors->planes.items[i];
-        struct side other = line_of_sight_side(body, plane);
+        struct side other =
+            line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
         if (plane->margin_m != 0 || !vec2_same(other.along, side->along))
             continue;
         struct vec2 gap = begins ? vec2_sub(other.from, side->to) : vec2_sub(other.to, side->from);
@@ -180,7 +179,7 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
     effects_count_time(selection, EFFECT_OCCLUSION, start_ns);
 }
 
-/* Does a body hide all that a line through its outline leads to? */
+/* True if a body hides everything behind its outline. */
 static bool blocks_sharply(const struct look *look)
 {
     return look->wavelength_m == 0 && !look->sees_over;
@@ -189,8 +188,8 @@ static bool blocks_sharply(const struct look *look)
 bool line_of_sight_all_hidden(const struct look *look, const struct look_set *set,
                               const struct look_extent *wanted)
 {
-    /* A blocker whose reflectors lie within its box, and which ends before the set begins, has no
-     * side that joins one of the set's. */
+    /* A blocker with all its reflectors in its box that ends before the set begins has no side in
+     * line with a side of the set. */
     for (size_t i = 0; i < look->blocker_count && blocks_sharply(look); i++) {
         const struct look_body *body = look->blockers[i];
         if (silhouette_covers(&body->shadow.silhouette, &wanted->silhouette) &&
@@ -200,7 +199,7 @@ bool line_of_sight_all_hidden(const struct look *look, const struct look_set *se
     return false;
 }
 
-/* What passes one body on a line; crossing says whether the line touches the body's outline. */
+/* The wave that passes one body on a line. */
 static struct line_of_sight past_body(const struct look *look, const struct look_body *body,
                                       const struct obstruction_line *line, enum crossing crossing)
 {
@@ -287,7 +286,8 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
     double nearest_m = (double)INFINITY, deepest_m = 0;
     double length_m = vec2_length(vec2_sub(line->to, line->from));
     double soft_m = 2 * obstruction_edge_reach_m(length_m, look->wavelength_m);
-    for (size_t i = 0; i < look->indexed_count; i++) {
+    bool occlusion = effects_enabled(look->selection, EFFECT_OCCLUSION);
+    for (size_t i = 0; i < look->indexed_count && occlusion; i++) {
         const struct look_body *body = look->indexed[i];
         const struct vec2 *corner = body->corner, from = line->from, to = line->to;
         if (body->spare || (under && body->raised) || is_among(body, except, count))
@@ -305,12 +305,4 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
         deepest_m = elementary_max(deepest_m, depth_m - soft_m);
     }
     return blocked ? deepest_m : nearest_m;
-}
-
-double line_of_sight_clearance_m(const struct look *look, const struct obstruction_line *line,
-                                 const struct look_body *const *except, size_t count)
-{
-    return effects_enabled(look->selection, EFFECT_OCCLUSION)
-               ? line_of_sight_margin_m(look, except, count, line, false, false)
-               : (double)INFINITY;
 }

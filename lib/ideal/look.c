@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/hash.h"
+#include "base/number.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
 #include "geometry/kinematics.h"
@@ -11,20 +12,20 @@
 #include "propagation/reflection.h"
 #include "radar/radar_equation.h"
 
-/* No leg of an echo is longer than this times the sensor's range: a ghost in range that returns
- * straight is at most twice that far away by the mirror. */
+/* The longest leg of an echo, in units of the sensor's range: a ghost may come straight back from a
+ * reflector that is twice that far away by way of the mirror. */
 #define LONGEST_LEG 2
 
-/* A reflector at least LEVEL times as far away as it is high above or below the sensor is read at
- * an azimuth whose sine is at least 1 / LIFTED of that in the plane (kinematics.h). */
+/* If a reflector is at least LEVEL times as far away as it is above or below the sensor, the sine
+ * of the measured azimuth is at least 1 / LIFTED of the sine in the plane (kinematics.h). */
 #define LEVEL 5
 #define LIFTED 1.02
 
-/* Bodies that block alike stand for all others that do so, too: one more than a line may except, so
- * that one is left. */
+/* So many of the bodies that block alike stand for all of them: one more than the bodies that a
+ * line may ignore, so that one is left. */
 #define ENOUGH_TWINS 5
 
-/* Slack of bounds in metres and on sines, far more than their rounding. */
+/* Slack of bounds, in metres and on sines; far more than their rounding. */
 #define SLACK 1e-6
 
 static struct box box_at(const struct object *object, double age_s)
@@ -73,22 +74,17 @@ static void place_bodies(struct look *look, double age_s)
             look->bodies[look->body_count++] = body_at(look, objects[i], age_s);
 }
 
-static struct look_set set_of(const struct reflector_set *set, struct arena *arena)
-{
-    return (struct look_set){
-        .reflectors = set,
-        .shape = reflectors_shape(set, arena),
-        .bodies = arena_get(arena, set->objects.count * sizeof(struct look_body *)),
-    };
-}
-
 static int attach_reflectors(struct look *look, struct diag *diag)
 {
     const struct frame *frame = look->frame;
     look->sets = arena_get(frame->arena, frame->reflectors.count * sizeof *look->sets);
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
-        look->sets[i] = set_of(set, frame->arena);
+        look->sets[i] = (struct look_set){
+            .reflectors = set,
+            .shape = reflectors_shape(set, frame->arena),
+            .bodies = arena_get(frame->arena, set->objects.count * sizeof(struct look_body *)),
+        };
         for (size_t j = 0; j < set->objects.count; j++) {
             struct look_body *body = body_of_id(look, set->objects.items[j]);
             if (body == NULL)
@@ -106,7 +102,7 @@ static int attach_reflectors(struct look *look, struct diag *diag)
     return 0;
 }
 
-/* Extent of the body's box, scaled by share and motion wider by beyond_m to every side. */
+/* Extent of the body's box, scaled by share and then enlarged by beyond_m to every side. */
 static struct look_extent extent_around(const struct look_body *body, double share, double beyond_m)
 {
     struct vec2 half_m = {0.5 * share * body->box.length_m + beyond_m,
@@ -115,7 +111,7 @@ static struct look_extent extent_around(const struct look_body *body, double sha
     return (struct look_extent){silhouette, silhouette_span_of(&silhouette)};
 }
 
-/* Do two bodies block alike? Their boxes, heights and sets are the same. */
+/* Two bodies block alike if their boxes, heights and sets are the same. */
 static bool is_twin(const void *bodies, uint32_t number, const void *wanted)
 {
     const struct look_body *a = (const struct look_body *)bodies + number, *b = wanted;
@@ -125,8 +121,8 @@ static bool is_twin(const void *bodies, uint32_t number, const void *wanted)
            a->set == b->set;
 }
 
-/* Finds the bodies that others stand for, so that many at one place cost no more than many apart.
- */
+/* Finds the bodies that other bodies stand for, so that many bodies at one place cost no more than
+ * many apart. */
 static void find_spare_bodies(struct look *look)
 {
     struct hash_table places = hash_table_begin(look->body_count, look->frame->arena);
@@ -143,7 +139,7 @@ static void find_spare_bodies(struct look *look)
     }
 }
 
-/* Waves that bend around several edges in turn lose at each, so that every body counts. */
+/* With diffraction a wave loses power at each edge, so no body stands for another. */
 static bool is_indexed(const struct look *look, const struct look_body *body)
 {
     return body->blocks && (!body->spare || look->wavelength_m > 0);
@@ -201,17 +197,36 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     return 0;
 }
 
-double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set)
-{
-    return set->shape->share * body->radius_m + set->shape->inset_m;
-}
-
 struct look_extent look_reflectors_extent(const struct look *look, const struct look_body *body,
                                           const struct look_set *set)
 {
-    bool within_shadow = set->shape->share == 1 && set->shape->inset_m <= look->rim_m;
-    return within_shadow ? body->shadow
-                         : extent_around(body, set->shape->share, set->shape->inset_m);
+    const struct reflectors_shape *shape = set->shape;
+    bool within_shadow = shape->share == 1 && shape->inset_m <= look->rim_m;
+    return within_shadow ? body->shadow : extent_around(body, shape->share, shape->inset_m);
+}
+
+struct kinematics look_kinematics(const struct look *look, struct vec2 place, struct vec2 velocity)
+{
+    return kinematics_of(look->pose.position_m, look->pose.velocity_mps, look->pose.boresight,
+                         place, velocity);
+}
+
+double look_within_range_m(const struct look *look, double range_m)
+{
+    return elementary_min(range_m - look->sensor->range_min_m, look->sensor->range_max_m - range_m);
+}
+
+double look_within_view_rad(const struct look *look, double azimuth_rad)
+{
+    return antenna_border_rad(look->sensor->field_of_view_rad) - fabs(azimuth_rad);
+}
+
+struct margins look_sight_margins(const struct look *look, double margin_m)
+{
+    struct margins margins = {0};
+    if (frame_carries(look->frame, CARRY_MARGINS))
+        margins_note(&margins, MARGIN_SIGHT, margin_m);
+    return margins;
 }
 
 bool look_out_of_range(const struct look *look, const struct silhouette *silhouette)
@@ -312,15 +327,11 @@ double look_visibility(const struct look *look, const struct look_body *body,
 
 static const char *post_name(struct arena *arena, const struct post_row *row, int64_t post)
 {
-    char digits[20];
-    size_t length = strlen(row->name), count = 0;
-    for (; post > 0 || count == 0; post /= 10)
-        digits[count++] = (char)('0' + post % 10);
-    char *name = arena_get(arena, length + count + 2);
+    size_t length = strlen(row->name);
+    char *name = arena_get(arena, length + 1 + NUMBER_SIZE);
     memcpy(name, row->name, length);
     name[length] = '_';
-    for (size_t i = 1; i <= count; i++)
-        name[length + i] = digits[count - i];
+    number_write_whole((uint64_t)post, name + length + 1);
     return name;
 }
 

@@ -1,13 +1,12 @@
 /* The surroundings of one sensor at the instant of measurement.
  *
- * The ego and all objects are moved to that instant in closed form; the sensor's place and velocity
- * follow from its mount on the moving, turning ego (MODEL 2.4). line_of_sight.h answers what lies
- * between two places of a look, direct_echoes.h and ghost_echoes.h make the echoes.
+ * The ego and all objects are moved to that instant in closed form. The place and velocity of the
+ * sensor follow from its mount on the moving, turning ego (MODEL 2.4).
  *
- * A sensor with mount_z_m sees a reflector that has a height from its own height (MODEL 14.2): the
- * slant range, the range rate along the slant and the azimuth that a linear array reads are
- * compared with the sensor's limits and reported. Objects then hide only what is not seen over them
- * (MODEL 14.3); an object without a height hides all behind it. */
+ * If both the sensor (mount_z_m) and a reflector have a height, the sensor measures the slant
+ * range, the range rate along the slant, and the azimuth that a linear array measures; its limits
+ * apply to these (MODEL 14.2). It then sees over objects that have a height; an object without a
+ * height hides everything behind it (MODEL 14.3). */
 #pragma once
 
 #include "documents/suite.h"
@@ -15,32 +14,32 @@
 #include "geometry/kinematics.h"
 #include "geometry/silhouette.h"
 
-/* A reflector set of the frame, and the bodies that have its reflectors. */
+/* A reflector set of the frame, and the bodies that carry its reflectors. */
 struct look_set {
     const struct reflector_set *reflectors;
     const struct reflectors_shape *shape;
-    struct look_body **bodies; /* those of reflectors->objects, in that order */
+    struct look_body **bodies; /* in the order of reflectors->objects */
 };
 
-/* The directions from the sensor that a body, its shadow or its reflectors cover. */
+/* The azimuths that a body, its shadow or its reflectors cover for the sensor. */
 struct look_extent {
     struct silhouette silhouette;
-    struct silhouette_span span; /* the silhouette's sectors */
+    struct silhouette_span span; /* sectors of the silhouette */
 };
 
 /* An object at the instant of measurement. */
 struct look_body {
     const struct object *object;
-    const struct look_set *set; /* NULL: no reflectors are described for it */
+    const struct look_set *set; /* NULL: it has no reflectors */
     struct box box;
     struct vec2 corner[4];
     double radius_m;           /* of the circle around the box */
     struct vec2 sensor_m;      /* the sensor's place in the body's frame */
-    struct look_extent shadow; /* where the box and its rim may change what passes */
-    bool blocks;               /* does its outline stop sight lines? */
-    bool spare;                /* do enough other bodies block just as it does? */
-    size_t twins;              /* bodies after it, by id, that block just as it does */
-    bool raised;               /* can a radar look under it? */
+    struct look_extent shadow; /* of the box and its rim */
+    bool blocks;               /* sight lines through its outline */
+    bool spare;                /* enough bodies before it block alike; it need not be tested */
+    size_t twins;              /* number of bodies after it, by id, that block alike */
+    bool raised;               /* a radar can look under it */
     bool moved;                /* between the measurement and the frame's time */
 };
 
@@ -50,23 +49,23 @@ struct look {
     const struct selection *selection;
     double time_s; /* of the measurement */
     struct sensor_pose pose;
-    double height_m;          /* the sensor's over the road; 0: in a flat world */
-    bool sees_over;           /* may the sensor see over tops? */
-    double wavelength_m;      /* of waves that bend around edges; 0: there is no diffraction */
-    double rim_m;             /* so far beside a body, diffraction may change what passes */
+    double height_m;          /* of the sensor over the road; 0: the scene is flat */
+    bool sees_over;           /* the sensor may see over objects */
+    double wavelength_m;      /* for diffraction; 0: none is simulated */
+    double rim_m;             /* width of the zone beside a body where diffraction is felt */
     bool ego_moved;           /* between the measurement and the frame's time */
-    struct vec2 view_right;   /* directions between these two may be in view, at low elevations; */
-    struct vec2 view_left;    /* both zero: all directions */
+    struct vec2 view_right;   /* right border of the field of view at low elevations, and */
+    struct vec2 view_left;    /* the left one; both zero: all directions may be in view */
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
-    struct look_set *sets;                 /* of the frame, in its order */
-    struct silhouette_index blocker_index; /* of the bodies that block, numbered as in indexed */
-    const struct look_body **indexed;      /* by id */
+    struct look_set *sets;                 /* in the frame's order */
+    struct silhouette_index blocker_index; /* finds places in indexed */
+    const struct look_body **indexed;      /* the bodies that block, by id */
     size_t indexed_count;
-    const struct look_body **blockers; /* those that may hide the body at hand, by id */
+    const struct look_body **blockers; /* the bodies that may hide the present one, by id */
     size_t blocker_count;
-    int64_t pairs, echoes;      /* reflectors tried and direct echoes made so far */
-    struct sighting *sightings; /* of the bodies, in their order; NULL: none are asked for */
+    int64_t pairs, echoes;      /* reflectors tried, and direct echoes made, so far */
+    struct sighting *sightings; /* one for each body, in their order; NULL: not asked for */
 };
 
 /* Sets up a look for a measurement at time_s. The frame must have reflectors, and objects with the
@@ -75,31 +74,37 @@ struct look {
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
                const struct selection *selection, double time_s, struct diag *diag);
 
-/* The height over the road of a reflector at the fraction z of the body's height; the sensor's
- * height for z = 0. */
+/* Height over the road of a reflector at the fraction z of the body's height; z = 0 means unknown
+ * and gives the sensor's height. */
 double look_reflector_height_m(const struct look *look, const struct look_body *body, double z);
 
-/* The height up to which a body hides what is behind it; INFINITY if nothing is seen over it. */
+/* Height up to which a body hides what is behind it; INFINITY if nothing is seen over it. */
 double look_top_m(const struct look *look, const struct look_body *body);
 
-/* What the sensor reads of a reflector at reflector_m over the road, whose kinematics in the plane
- * are given (MODEL 14.2). Sets gain to the beam's factor on amplitude at that elevation, and adds
- * elevation to effects if it changes anything. */
+/* Range, azimuth and range rate of a point in the plane. */
+struct kinematics look_kinematics(const struct look *look, struct vec2 place, struct vec2 velocity);
+
+/* Range, azimuth and range rate that the sensor measures of a reflector at reflector_m over the
+ * road, from its kinematics in the plane (MODEL 14.2). Sets gain to the beam's factor on amplitude
+ * at that elevation, and adds elevation to effects if it changes a value. */
 struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics plane,
                              double *gain, uint64_t *effects);
 
-/* The ERCS of a flat side at its specular point, range_m away in the plane (MODEL 14.5). Adds
- * curvature to effects if it changes the value. */
+/* ERCS of a flat side at its specular point, range_m away in the plane (MODEL 14.5). Adds curvature
+ * to effects if it changes the value. */
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects);
-
-/* Radius of a circle around the body's centre that holds all its reflectors and mirrors of the set.
- */
-double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set);
 
 /* Extent of all reflectors and mirrors of the set on a body. */
 struct look_extent look_reflectors_extent(const struct look *look, const struct look_body *body,
                                           const struct look_set *set);
+
+/* Distances from the nearer end of the sensor's ranges and of its field of view; < 0 outside. */
+double look_within_range_m(const struct look *look, double range_m);
+double look_within_view_rad(const struct look *look, double azimuth_rad);
+
+/* Margins with this sight margin; none in a frame that carries no margins. */
+struct margins look_sight_margins(const struct look *look, double margin_m);
 
 /* True only if nothing within the silhouette can be in range, or in view at low elevations. */
 bool look_out_of_range(const struct look *look, const struct silhouette *silhouette);
@@ -109,14 +114,14 @@ bool look_out_of_view(const struct look *look, const struct silhouette *silhouet
 bool look_out_of_reach(const struct look *look, const struct look_body *body,
                        const struct silhouette *silhouette);
 
-/* The factor on a point's ERCS for a viewer, the sensor itself or a bounce on the way to it: its
- * visibility (MODEL 2.2), times its lobe (MODEL 2.8) at the sensor's elevation. facing is the
- * heading of the point's facing_rad in the body's frame. 1 if visibility is not selected. */
+/* Factor on a point's ERCS towards a viewer, which is the sensor or a bounce on the way to it: the
+ * point's visibility (MODEL 2.2) times its lobe (MODEL 2.8) at the sensor's elevation. facing is
+ * the unit vector at facing_rad in the body's frame. 1 if visibility is not selected. */
 double look_visibility(const struct look *look, const struct look_body *body,
                        const struct point_reflector *point, struct vec2 facing, struct vec2 place,
                        struct vec2 viewer);
 
-/* Post number `post` of a row, as a point with its own name. */
+/* Post number `post` >= 0 of a row, as a point; its name is that of the row, "_" and the number. */
 struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
 
 /* EFFECT_BIT of latency if the ego or the body moved between the measurement and the frame's time,

@@ -113,7 +113,8 @@ static void a_side_has_the_place_and_direction_of_its_plane(void **state)
     struct look look = look_at(scene, 10);
     static const struct plane_reflector across = {
         .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = 0.5};
-    struct side side = line_of_sight_side(&look.bodies[0], &across);
+    struct side side =
+        line_of_sight_side(&look.bodies[0], across.from_x, across.from_y, across.to_x, across.to_y);
     assert_close(side.from.x, 9.6, 1e-14);
     assert_close(side.from.y, 17.8, 1e-14);
     assert_close(side.to.x, 10.4, 1e-14);
@@ -182,18 +183,18 @@ static void the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body(voi
 {
     struct scene *scene = *state;
     struct look look = look_at(scene, 10);
-    assert_true(line_of_sight_clearance_m(&look, &ahead, NULL, 0) == (double)INFINITY);
+    assert_true(line_of_sight_margin_m(&look, NULL, 0, &ahead, false, false) == (double)INFINITY);
     add_body(scene, "a", 20, 3);
     add_body(scene, "b", 30, -4.5);
     add_set(scene, "c")->blocks = false;
     add_object(scene, "c", 40, 0);
     look = look_at(scene, 10);
     const struct look_body *b = &look.bodies[1];
-    assert_close(line_of_sight_clearance_m(&look, &ahead, NULL, 0), 2.5, 1e-14);
-    assert_close(line_of_sight_clearance_m(&look, &ahead, &b, 1), 3, 1e-14);
+    assert_close(line_of_sight_margin_m(&look, NULL, 0, &ahead, false, false), 2.5, 1e-14);
+    assert_close(line_of_sight_margin_m(&look, &b, 1, &ahead, false, false), 3, 1e-14);
     static const struct selection without = {.allowed = EFFECT_BIT(EFFECT_SUPERPOSITION)};
     look.selection = &without;
-    assert_true(line_of_sight_clearance_m(&look, &ahead, NULL, 0) == (double)INFINITY);
+    assert_true(line_of_sight_margin_m(&look, NULL, 0, &ahead, false, false) == (double)INFINITY);
 }
 
 /* The line crosses two bodies, 0.75 m and 0.25 m inside their nearest sides. */
@@ -221,7 +222,7 @@ static void the_margin_of_a_line_over_a_body_is_its_height_above_the_top(void **
     struct line_of_sight seen = line_of_sight_along(&look, &rising, NULL, 0);
     assert_close(seen.factor, 1, 0);
     assert_true(seen.effects == EFFECT_BIT(EFFECT_HEIGHT));
-    assert_close(line_of_sight_clearance_m(&look, &rising, NULL, 0), 1.6 - 1.25, 1e-14);
+    assert_close(line_of_sight_margin_m(&look, NULL, 0, &rising, false, false), 1.6 - 1.25, 1e-14);
     scene->frame.objects.items[1].height_m = 1.7;
     look = look_at(scene, 10);
     assert_ptr_equal(line_of_sight_along(&look, &rising, NULL, 0).by, &look.bodies[0]);
