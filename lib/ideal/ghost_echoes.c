@@ -12,8 +12,7 @@ enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
 
 enum { POSTS_AT_ONCE = 8 }; /* posts of a row that are tested against a mirror at once */
 
-/* Bodies with a mirror in line that ends where this mirror begins (before), or begins where it ends
- * (after). */
+/* Bodies with a mirror in line that ends where a mirror begins, or begins where it ends. */
 struct mirror_joints {
     bool known;
     const struct look_body *before, *after;
@@ -136,8 +135,8 @@ static struct route route_to(const struct look *look, struct vec2 place, struct 
                              double height_m)
 {
     struct route route = {.margin_m = (double)INFINITY};
-    struct kinematics plane = look_kinematics(look, place, velocity);
-    route.read = look_slant(look, height_m, plane, &route.factor, &route.effects);
+    route.read = look_slant(look, height_m, look_kinematics(look, place, velocity), &route.factor,
+                            &route.effects);
     return route;
 }
 
