@@ -54,9 +54,6 @@ generator = $(if $(findstring protobuf,$(call needs,$(1))),&& command -v protoc-
 all_names := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages/*.c))))
 names := $(foreach n,$(all_names),$(if $(call have,stages/$(n).c),$(n)))
 $(foreach n,$(filter-out $(names),$(all_names)),$(info glint-$(subst _,-,$(n)) is left out: it needs $(call needs,stages/$(n).c)$(if $(call generator,stages/$(n).c), and protoc-c)))
-# A file defines either a struct stage or a struct tool.
-tools := $(filter $(names),$(patsubst stages/%.c,%,$(shell grep -l '^const struct tool tool_' stages/*.c)))
-stages := $(filter-out $(tools),$(names))
 # What it needs beyond the four packages is linked into it, and into glint.
 flags_of = $(if $(call needs,$(1)),$(shell pkg-config --cflags $(call needs,$(1))))
 libs_of = $(if $(call needs,$(1)),$(shell pkg-config --libs $(call needs,$(1))))
@@ -127,12 +124,11 @@ $(interfaces:%=%.o): %.pb-c.o: %.pb-c.c
 $(interfaces:%.pb-c=%.c.o): %.c.o: %.pb-c.c
 
 # The folder is the registry; the file is rewritten only when the list has changed.
-registry = for n in $(2); do echo "extern const struct $(1) $(1)_$$n;"; done; \
-    echo "const struct $(1) *const $(1)s[] = {"; \
-    for n in $(2); do echo "    &$(1)_$$n,"; done; echo "    NULL,"; echo "};"
+registry = for n in $(1); do echo "extern const struct stage stage_$$n;"; done; \
+    echo "const struct stage *const stages[] = {"; \
+    for n in $(1); do echo "    &stage_$$n,"; done; echo "    NULL,"; echo "};"
 # Several make may run at a time.
-write_registry = mkdir -p $(@D); { echo '\#include "run/fused.h"'; \
-    $(call registry,stage,$(filter-out $(tools),$(1))); $(call registry,tool,$(filter $(tools),$(1))); } >$@.$$$$; \
+write_registry = mkdir -p $(@D); { echo '\#include "run/fused.h"'; $(call registry,$(1)); } >$@.$$$$; \
     cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@
 $(BUILD)/registry.c: FORCE
 	@$(call write_registry,$(names))

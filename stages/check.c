@@ -116,7 +116,7 @@ static const struct field check_options[] = {
     {0},
 };
 
-const struct tool tool_check = {
+const struct stage stage_check = {
     .name = "check",
     .summary = "Check that a stream is whole and its labels agree with its truth.",
     .details =

@@ -147,7 +147,7 @@ static const struct field cost_options[] = {
     {0},
 };
 
-const struct tool tool_cost = {
+const struct stage stage_cost = {
     .name = "cost",
     .summary = "Print what accuracy costs on these scenes: chains by time and error.",
     .details =

@@ -23,9 +23,8 @@ int main(int count, char **words)
     if (name == NULL)
         return fused_main(count, words);
     const struct stage *stage = fused_stage(name);
-    const struct tool *tool = fused_tool(name);
-    if (stage != NULL || tool != NULL)
-        return chain_main(stage, tool, count, words);
+    if (stage != NULL)
+        return chain_main(stage, count, words);
     fprintf(stderr, "glint-%s: this file's name is that of no stage or tool in it\n", name);
     return DIAG_USAGE;
 }

@@ -35,7 +35,7 @@ static const struct field plan_options[] = {
     {0},
 };
 
-const struct tool tool_plan = {
+const struct stage stage_plan = {
     .name = "plan",
     .summary = "Print the pipeline that the scenes need.",
     .details =

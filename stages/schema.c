@@ -186,7 +186,7 @@ static const struct field schema_options[] = {
     {0},
 };
 
-const struct tool tool_schema = {
+const struct stage stage_schema = {
     .name = "schema",
     .summary = "Write the JSON Schemas of the frame and of every document.",
     .details = "They are printed from the tables that the readers use (JSON Schema 2020-12).\n"

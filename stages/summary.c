@@ -250,7 +250,7 @@ static const struct field summary_options[] = {
     {0},
 };
 
-const struct tool tool_summary = {
+const struct stage stage_summary = {
     .name = "summary",
     .summary = "Count targets by sensor and class, or the objects of traffic.",
     .details =

@@ -76,7 +76,7 @@ static const struct field tables_options[] = {
     {0},
 };
 
-const struct tool tool_tables = {
+const struct stage stage_tables = {
     .name = "tables",
     .summary = "Write tables of targets, labels, objects, scans, sightings, losses and frames.",
     .details =

@@ -28,7 +28,7 @@ struct chain {
 static void complain(const struct runner *runner)
 {
     char program[128];
-    snprintf(program, sizeof program, "glint-%s", runner->program.name);
+    snprintf(program, sizeof program, "glint-%s", runner->stage->name);
     diag_print(program, &runner->diag);
 }
 
@@ -86,7 +86,7 @@ static void name_place(const struct chain *chain, struct runner *runner)
 static int write_frame(struct chain *chain)
 {
     struct runner *runner = last(chain);
-    if (runner->program.kind == PROGRAM_SINK || runner->program.kind == PROGRAM_TOOL)
+    if (runner->stage->sink || runner->stage->run != NULL)
         return 0;
     struct output *output = runner->outputs.items[0];
     struct text *text = output_text(output);
@@ -101,7 +101,7 @@ static int write_frame(struct chain *chain)
 static int first_frame(struct chain *chain)
 {
     struct runner *first = &chain->runners[0];
-    bool source = first->program.kind == PROGRAM_SOURCE;
+    bool source = first->stage->next != NULL;
     int64_t begin = clock_ns(chain);
     int more = source ? runner_next(first, &chain->frame)
                       : frame_stream_next(&chain->input, &chain->frame, &first->diag);
@@ -130,7 +130,7 @@ static int run_frame(struct chain *chain)
     int more = first_frame(chain);
     if (more <= 0)
         return more;
-    size_t index = chain->runners[0].program.kind == PROGRAM_SOURCE ? 1 : 0;
+    size_t index = chain->runners[0].stage->next != NULL ? 1 : 0;
     for (; index < chain->stages; index++) {
         struct runner *runner = &chain->runners[index];
         int64_t begin = clock_ns(chain);
@@ -219,9 +219,9 @@ static bool is_input(const char *path, const struct runner *runner, bool first)
         if (path_same_file(path, strcmp(file, "-") == 0 ? "/dev/stdin" : file))
             return true;
     }
-    bool standard = first && common->files.count == 0 && runner->program.takes_files;
+    bool standard = first && common->files.count == 0 && stage_takes_files(runner->stage);
     return (standard && path_same_file(path, "/dev/stdin")) ||
-           is_option(path, runner->program.options->fields, runner->state);
+           is_option(path, runner->stage->options->fields, runner->state);
 }
 
 /* Refuses a file of --explain that one of the runners reads or that the last one writes. */
@@ -247,7 +247,7 @@ static void start(struct chain *chain)
         if (!failed(&chain->runners[i]))
             runner_start(&chain->runners[i]);
     struct runner *end = last(chain);
-    if (end->tool == NULL && !failed(end))
+    if (end->stage->run == NULL && !failed(end))
         runner_output(end);
 }
 
@@ -277,7 +277,7 @@ static void finish(struct chain *chain)
 int chain_run(struct runner *runners, size_t count, struct chain_times *times)
 {
     struct chain chain = {.runners = runners, .count = count, .times = times};
-    chain.stages = runners[count - 1].tool != NULL ? count - 1 : count;
+    chain.stages = runners[count - 1].stage->run != NULL ? count - 1 : count;
     chain.input.paths = runners[0].common.files.items;
     chain.input.count = runners[0].common.files.count;
     chain.frame.arena = &chain.arena;
@@ -286,7 +286,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     for (size_t i = 0; i < count; i++) {
         runners[i].pause = chain.input.pause;
         runners[i].before = i > 0 ? &runners[i - 1] : NULL;
-        runners[i].input = runners[0].program.kind == PROGRAM_SOURCE ? NULL : &chain.input;
+        runners[i].input = runners[0].stage->next != NULL ? NULL : &chain.input;
     }
     if (times != NULL)
         time_clock(&chain);
@@ -315,9 +315,9 @@ static int print_about(struct runner *runner)
 {
     struct text text = {0};
     if (runner->common.help)
-        options_help(&runner->program, &text);
+        options_help(runner->stage, &text);
     else
-        text_format(&text, "glint-%s (glint) %s\n", runner->program.name, GLINT_VERSION);
+        text_format(&text, "glint-%s (glint) %s\n", runner->stage->name, GLINT_VERSION);
     output_print(text.bytes, text.length, &runner->diag);
     text_free(&text);
     if (failed(runner))
@@ -325,17 +325,14 @@ static int print_about(struct runner *runner)
     return (int)runner->diag.code;
 }
 
-int chain_main(const struct stage *stage, const struct tool *tool, int count, char **words)
+int chain_main(const struct stage *stage, int count, char **words)
 {
     struct runner runner;
     size_t given = count > 0 ? (size_t)count - 1 : 0;
     const char *const *options = (const char *const *)words + 1;
     document_guard_memory();
     input_guard_descriptors();
-    if (stage != NULL)
-        runner_prepare(&runner, stage, given, options);
-    else
-        runner_prepare_tool(&runner, tool, given, options);
+    runner_prepare(&runner, stage, given, options);
     int code = (int)runner.diag.code;
     if (failed(&runner))
         complain(&runner);

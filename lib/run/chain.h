@@ -24,5 +24,5 @@ int64_t chain_cpu_ns(void);
  * fail to stderr. Returns the exit code. Clocks are read only if times is not NULL. */
 int chain_run(struct runner *runners, size_t count, struct chain_times *times);
 
-/* The main of a program: of a stage or, where that is NULL, of a tool. */
-int chain_main(const struct stage *stage, const struct tool *tool, int count, char **words);
+/* The main of glint-NAME. */
+int chain_main(const struct stage *stage, int count, char **words);

@@ -85,14 +85,6 @@ const struct stage *fused_stage(const char *name)
     return NULL;
 }
 
-const struct tool *fused_tool(const char *name)
-{
-    for (size_t i = 0; tools[i] != NULL; i++)
-        if (strcmp(tools[i]->name, name) == 0)
-            return tools[i];
-    return NULL;
-}
-
 /* A program that is named by a path may be another one of the same name. */
 static bool is_own(const char *program, struct arena *arena)
 {
@@ -111,29 +103,24 @@ static bool prepare(struct runner *runner, const struct command *command, struct
     if (name == NULL || !is_own(program, arena))
         return false;
     const struct stage *stage = fused_stage(name);
-    const struct tool *tool = fused_tool(name);
-    size_t count = command->words.count - 1;
-    const char *const *words = command->words.items + 1;
     if (stage != NULL)
-        runner_prepare(runner, stage, count, words);
-    else if (tool != NULL)
-        runner_prepare_tool(runner, tool, count, words);
-    return stage != NULL || tool != NULL;
+        runner_prepare(runner, stage, command->words.count - 1, command->words.items + 1);
+    return stage != NULL;
 }
 
 /* Refuses what a pipe of processes would do in another way than one process. */
 static int check_place(const struct runner *runner, const struct command *command, size_t index,
                        size_t count, struct diag *diag)
 {
-    const struct program *program = &runner->program;
+    const struct stage *stage = runner->stage;
     const char *fault = NULL;
-    if (index > 0 && program->kind == PROGRAM_SOURCE)
+    if (index > 0 && stage->next != NULL)
         fault = "is a source and can only stand first";
-    else if (index > 0 && !program->takes_files)
+    else if (index > 0 && !stage_takes_files(stage))
         fault = "reads no frames, so it can only stand first";
     else if (index > 0 && runner->common.files.count > 0)
         fault = "reads files, so it can only stand first";
-    else if (index + 1 < count && (program->kind == PROGRAM_SINK || program->kind == PROGRAM_TOOL))
+    else if (index + 1 < count && (stage->sink || stage->run != NULL))
         fault = "writes no frames, so it can only stand last";
     else if (index + 1 < count && runner->common.output != NULL)
         fault = "writes to a file, so it can only stand last";
@@ -142,7 +129,7 @@ static int check_place(const struct runner *runner, const struct command *comman
     if (fault == NULL)
         return 0;
     return diag_fail(diag, DIAG_USAGE, "%zu: glint-%s %s; run it with bash", command->line,
-                     program->name, fault);
+                     stage->name, fault);
 }
 
 static int unknown_program(const struct command *command, struct diag *diag)
@@ -152,8 +139,6 @@ static int unknown_program(const struct command *command, struct diag *diag)
         suggestion_begin(name != NULL ? name : program, strlen(name != NULL ? name : program));
     for (size_t i = 0; stages[i] != NULL; i++)
         suggestion_offer(&meant, stages[i]->name);
-    for (size_t i = 0; tools[i] != NULL; i++)
-        suggestion_offer(&meant, tools[i]->name);
     return diag_fail(diag, DIAG_USAGE,
                      "%zu: %s is no stage or tool of this build%s; run it with bash", command->line,
                      program, suggestion_question(&meant, "glint-"));
@@ -184,7 +169,7 @@ static void print_times(const struct chain_times *times, const struct runner *ru
     if (times->bytes_read > 0)
         print_time("read", times->read_ns, times->frames);
     for (size_t i = 0; i < count; i++)
-        print_time(runners[i].program.name, times->step_ns[i], times->frames);
+        print_time(runners[i].stage->name, times->step_ns[i], times->frames);
     if (times->bytes_written > 0)
         print_time("write", times->write_ns, times->frames);
     fprintf(stderr, "{\"part\":\"bytes\",\"read\":%" PRId64 ",\"written\":%" PRId64 "}\n",
@@ -238,10 +223,11 @@ static int run_file(const char *name, bool timed, struct arena *arena)
 /* A stage stands at a place of the chain, a tool at its end or alone. */
 static void add_programs(struct text *text)
 {
-    for (size_t i = 0; stages[i] != NULL; i++)
-        text_format(text, "glint-%-18s stage  %s\n", stages[i]->name, stages[i]->summary);
-    for (size_t i = 0; tools[i] != NULL; i++)
-        text_format(text, "glint-%-18s tool   %s\n", tools[i]->name, tools[i]->summary);
+    for (int tool = 0; tool < 2; tool++)
+        for (size_t i = 0; stages[i] != NULL; i++)
+            if ((stages[i]->run != NULL) == tool)
+                text_format(text, "glint-%-18s %s  %s\n", stages[i]->name, tool ? "tool " : "stage",
+                            stages[i]->summary);
 }
 
 static void add_effects(struct text *text)

@@ -4,42 +4,8 @@
 
 #include "base/suggestion.h"
 #include "run/stage.h"
-#include "run/tool.h"
 
 const struct record no_options_record = {.name = "stage", .fields = field_none};
-
-struct program options_program_of_stage(const struct stage *stage)
-{
-    bool source = stage->next != NULL;
-    return (struct program){
-        .kind = source        ? PROGRAM_SOURCE
-                : stage->sink ? PROGRAM_SINK
-                              : PROGRAM_FILTER,
-        .name = stage->name,
-        .summary = stage->summary,
-        .details = stage->details,
-        .options = stage->options,
-        .operand = stage->operand,
-        .reads = stage->reads,
-        .writes = stage->writes,
-        .takes_files = !source,
-    };
-}
-
-struct program options_program_of_tool(const struct tool *tool)
-{
-    return (struct program){
-        .kind = PROGRAM_TOOL,
-        .name = tool->name,
-        .summary = tool->summary,
-        .details = tool->details,
-        .options = tool->options,
-        .operand = tool->operand,
-        .reads = tool->reads,
-        .takes_files = tool->reads != 0,
-        .into_folder = tool->into_folder,
-    };
-}
 
 static const struct field common_fields[] = {
     {OPTIONAL_NAME(
@@ -84,7 +50,7 @@ static const struct record common_record = {
 
 /* A command line that is being read. */
 struct command_line {
-    const struct program *program;
+    const struct stage *stage;
     void *state;
     struct common_options *common;
     uint64_t seen, common_seen; /* bit i: fields[i] of the table was given */
@@ -108,32 +74,32 @@ static void spell(const char *name, char *text, size_t size)
 }
 
 /* Does the program understand this one of the options that all share? */
-static bool applies(const struct program *program, const struct field *field)
+static bool applies(const struct stage *stage, const struct field *field)
 {
-    bool stage = program->kind != PROGRAM_TOOL;
-    bool simulates = program->kind != PROGRAM_SINK && stage &&
-                     ((program->reads | program->writes) & SECTION_SENSORS) != 0;
+    enum stage_kind kind = stage_kind(stage);
+    bool writes_frames = kind == STAGE_SOURCE || kind == STAGE_FILTER;
+    bool simulates = writes_frames && ((stage->reads | stage->writes) & SECTION_SENSORS) != 0;
     switch (field->offset) {
     case offsetof(struct common_options, output):
-        return !program->into_folder;
+        return !stage->into_folder;
     case offsetof(struct common_options, sections):
-        return program->kind == PROGRAM_SOURCE || program->kind == PROGRAM_FILTER;
+        return writes_frames;
     case offsetof(struct common_options, seed):
-        return stage || program->takes_files;
+        return kind != STAGE_TOOL || stage_takes_files(stage);
     case offsetof(struct common_options, explain):
     case offsetof(struct common_options, text):
         return simulates;
     case offsetof(struct common_options, complete):
-        return program->takes_files;
+        return stage_takes_files(stage);
     default:
         return true;
     }
 }
 
 /* The fields that are options: all but the operand, which is the first. */
-static const struct field *named_options(const struct program *program)
+static const struct field *named_options(const struct stage *stage)
 {
-    return program->options->fields + (program->operand != NULL ? 1 : 0);
+    return stage->options->fields + (stage->operand != NULL ? 1 : 0);
 }
 
 /* An option that was found: a member of the table's struct, or of a record that is a member of it.
@@ -188,31 +154,31 @@ static int set_option(const struct field *field, void *base, const char *value, 
 static const struct field *take_option(struct command_line *line, const char *name, size_t length,
                                        void **base)
 {
-    const struct program *program = line->program;
-    struct option own = find_option(named_options(program), name, length);
+    const struct stage *stage = line->stage;
+    struct option own = find_option(named_options(stage), name, length);
     if (own.field != NULL) {
-        size_t operands = program->operand != NULL ? 1 : 0;
+        size_t operands = stage->operand != NULL ? 1 : 0;
         line->seen |= UINT64_C(1) << (own.index + operands);
         *base = (char *)line->state + own.offset;
         return own.field;
     }
     struct option shared = find_option(common_fields, name, length);
-    if (shared.field == NULL || !applies(program, shared.field))
+    if (shared.field == NULL || !applies(stage, shared.field))
         return NULL;
     line->common_seen |= UINT64_C(1) << shared.index;
     *base = (char *)line->common + shared.offset;
     return shared.field;
 }
 
-static void offer_options(const struct field *fields, const struct program *program,
+static void offer_options(const struct field *fields, const struct stage *stage,
                           struct suggestion *meant)
 {
     for (const struct field *field = fields; field->name != NULL; field++) {
         char spelling[80];
         spell(field->name, spelling, sizeof spelling);
         if (field->kind == FIELD_RECORD)
-            offer_options(field->record->fields, program, meant);
-        else if (field->kind != FIELD_LIST && (fields != common_fields || applies(program, field)))
+            offer_options(field->record->fields, stage, meant);
+        else if (field->kind != FIELD_LIST && (fields != common_fields || applies(stage, field)))
             suggestion_offer(meant, spelling);
     }
 }
@@ -221,8 +187,8 @@ static int unknown_option(const struct command_line *line, const char *word)
 {
     const char *name = word + strspn(word, "-");
     struct suggestion meant = suggestion_begin(name, strcspn(name, "="));
-    offer_options(named_options(line->program), line->program, &meant);
-    offer_options(common_fields, line->program, &meant);
+    offer_options(named_options(line->stage), line->stage, &meant);
+    offer_options(common_fields, line->stage, &meant);
     return diag_fail(line->diag, DIAG_USAGE, "unknown option %s%s; see --help", word,
                      suggestion_question(&meant, "--"));
 }
@@ -266,13 +232,13 @@ static int read_option(struct command_line *line, size_t count, const char *cons
 /* A word that is no option: the operand, or a file of frames. */
 static int read_argument(struct command_line *line, const char *word)
 {
-    const struct program *program = line->program;
-    if (program->operand != NULL && (line->seen & 1) == 0) {
+    const struct stage *stage = line->stage;
+    if (stage->operand != NULL && (line->seen & 1) == 0) {
         line->seen |= 1;
-        return field_set_text(program->options->fields, line->state, word, strlen(word),
-                              line->arena, line->diag);
+        return field_set_text(stage->options->fields, line->state, word, strlen(word), line->arena,
+                              line->diag);
     }
-    if (!program->takes_files)
+    if (!stage_takes_files(stage))
         return diag_fail(line->diag, DIAG_USAGE, "one argument too many: %s", word);
     *list_add(&line->common->files, line->arena) = arena_text(line->arena, word, strlen(word));
     return 0;
@@ -280,26 +246,26 @@ static int read_argument(struct command_line *line, const char *word)
 
 static int check_required(const struct command_line *line)
 {
-    const struct program *program = line->program;
-    for (size_t i = 0; program->options->fields[i].name != NULL; i++) {
-        const struct field *field = &program->options->fields[i];
+    const struct stage *stage = line->stage;
+    for (size_t i = 0; stage->options->fields[i].name != NULL; i++) {
+        const struct field *field = &stage->options->fields[i];
         if (field->optional || (line->seen >> i & 1) != 0)
             continue;
         char spelling[80];
         spell(field->name, spelling, sizeof spelling);
-        bool operand = program->operand != NULL && i == 0;
+        bool operand = stage->operand != NULL && i == 0;
         return diag_fail(line->diag, DIAG_USAGE, "missing %s%s: %s; see --help",
-                         operand ? "" : "--", operand ? program->operand : spelling, field->help);
+                         operand ? "" : "--", operand ? stage->operand : spelling, field->help);
     }
     return 0;
 }
 
-int options_read(const struct program *program, size_t count, const char *const *words, void *state,
+int options_read(const struct stage *stage, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag)
 {
     struct command_line line = {
-        .program = program, .state = state, .common = common, .arena = arena, .diag = diag};
-    field_clear(program->options, state);
+        .stage = stage, .state = state, .common = common, .arena = arena, .diag = diag};
+    field_clear(stage->options, state);
     field_clear(&common_record, common);
     bool only_arguments = false;
     int result = 0;
@@ -422,50 +388,50 @@ static void help_sections(const char *words, unsigned sections, struct text *tex
     text_free(&sentence);
 }
 
-static void help_usage(const struct program *program, struct text *text)
+static void help_usage(const struct stage *stage, struct text *text)
 {
-    const char *operand = program->operand;
-    text_format(text, "Usage: glint-%s [OPTION]...%s%s%s\n", program->name,
+    const char *operand = stage->operand;
+    text_format(text, "Usage: glint-%s [OPTION]...%s%s%s\n", stage->name,
                 operand != NULL ? " " : "", operand != NULL ? operand : "",
-                program->takes_files ? " [FILE]..." : "");
-    add_sentence(program->summary, text);
-    if (program->operand != NULL) {
+                stage_takes_files(stage) ? " [FILE]..." : "");
+    add_sentence(stage->summary, text);
+    if (stage->operand != NULL) {
         char words[512];
-        snprintf(words, sizeof words, "%s: %s.", operand, program->options->fields->help);
+        snprintf(words, sizeof words, "%s: %s.", operand, stage->options->fields->help);
         text_add_word(text, "\n");
         add_sentence(words, text);
     }
-    if (program->details != NULL) {
+    if (stage->details != NULL) {
         text_add_word(text, "\n");
-        add_paragraphs(program->details, text);
+        add_paragraphs(stage->details, text);
     }
 }
 
 /* How frames come and go. */
-static void help_frames(const struct program *program, struct text *text)
+static void help_frames(const struct stage *stage, struct text *text)
 {
-    if (program->reads != 0 || program->writes != 0)
+    if (stage->reads != 0 || stage->writes != 0)
         text_add_word(text, "\n");
-    if (program->reads != 0)
+    if (stage->reads != 0)
         help_sections("Frames come as JSON lines from the files or standard input; reads",
-                      program->reads, text);
-    if (program->writes != 0)
-        help_sections("Frames go as JSON lines to standard output; writes", program->writes, text);
-    if (program->kind == PROGRAM_FILTER)
+                      stage->reads, text);
+    if (stage->writes != 0)
+        help_sections("Frames go as JSON lines to standard output; writes", stage->writes, text);
+    if (stage_kind(stage) == STAGE_FILTER)
         add_sentence("Each goes out before the program waits for the next.", text);
-    if (program->takes_files && program->writes == 0)
+    if (stage_takes_files(stage) && stage->writes == 0)
         add_sentence("Writes no frames: in a pipeline it stands last.", text);
 }
 
-void options_help(const struct program *program, struct text *text)
+void options_help(const struct stage *stage, struct text *text)
 {
-    help_usage(program, text);
-    help_frames(program, text);
+    help_usage(stage, text);
+    help_frames(stage, text);
     text_add_word(text, "\nOptions:\n");
-    for (const struct field *field = named_options(program); field->name != NULL; field++)
+    for (const struct field *field = named_options(stage); field->name != NULL; field++)
         help_option(field, text);
     for (const struct field *field = common_fields; field->name != NULL; field++)
-        if (applies(program, field))
+        if (applies(stage, field))
             help_option(field, text);
     text_add_word(text, "\nEnvironment:\n");
     add_entry("GLINT_DATA", "folder of your own documents, before the shipped ones", text);

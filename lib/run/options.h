@@ -10,30 +10,7 @@
 
 #define GLINT_VERSION "0.1.0"
 
-struct record;
 struct stage;
-struct tool;
-
-enum program_kind {
-    PROGRAM_SOURCE, /* a stage that makes frames */
-    PROGRAM_FILTER, /* a stage that changes frames */
-    PROGRAM_SINK,   /* a stage that writes no frames */
-    PROGRAM_TOOL,
-};
-
-/* A stage or tool as its command line shows it. */
-struct program {
-    enum program_kind kind;
-    const char *name, *summary, *details; /* the executable is glint-NAME; details may be NULL */
-    const struct record *options;
-    const char *operand;    /* NULL: none */
-    unsigned reads, writes; /* enum section */
-    bool takes_files;       /* of frames, instead of standard input */
-    bool into_folder;       /* writes files into the folder that the operand names */
-};
-
-struct program options_program_of_stage(const struct stage *stage);
-struct program options_program_of_tool(const struct tool *tool);
 
 /* The options that programs share; each understands those that mean something for it. */
 struct common_options {
@@ -52,8 +29,8 @@ struct common_options {
  * --radius-m 50, --radius-m=50, -o FILE, -h; -- ends the options; a flag takes no value; the last
  * of two counts. Refuses unknown options, missing values and values out of bounds with DIAG_USAGE.
  * Required options may be missing beside --help and --version. */
-int options_read(const struct program *program, size_t count, const char *const *words, void *state,
+int options_read(const struct stage *stage, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag);
 
 /* The text of --help, in the form from which help2man makes a manual page. */
-void options_help(const struct program *program, struct text *text);
+void options_help(const struct stage *stage, struct text *text);

@@ -119,11 +119,13 @@ static int64_t clock_ns(void)
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
-static int prepare(struct runner *runner, size_t count, const char *const *words)
+int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
+                   const char *const *words)
 {
-    runner->state = arena_get(&runner->arena, runner->program.options->size);
-    int result = options_read(&runner->program, count, words, runner->state, &runner->common,
-                              &runner->arena, &runner->diag);
+    *runner = (struct runner){.stage = stage};
+    runner->state = arena_get(&runner->arena, stage->options->size);
+    int result = options_read(stage, count, words, runner->state, &runner->common, &runner->arena,
+                              &runner->diag);
     if (runner->common.explain != NULL) {
         runner->log = arena_get(&runner->arena, sizeof *runner->log);
         runner->log->clock_ns = clock_ns;
@@ -132,20 +134,6 @@ static int prepare(struct runner *runner, size_t count, const char *const *words
         sections_read(runner->common.sections, &runner->sections, &runner->diag) != 0)
         return diag_prefix(&runner->diag, "--sections: ");
     return result;
-}
-
-int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
-                   const char *const *words)
-{
-    *runner = (struct runner){.program = options_program_of_stage(stage), .stage = stage};
-    return prepare(runner, count, words);
-}
-
-int runner_prepare_tool(struct runner *runner, const struct tool *tool, size_t count,
-                        const char *const *words)
-{
-    *runner = (struct runner){.program = options_program_of_tool(tool), .tool = tool};
-    return prepare(runner, count, words);
 }
 
 void runner_free(struct runner *runner)
@@ -171,7 +159,7 @@ static const char *writer_of(unsigned section)
 
 static int check_sections(struct runner *runner, const struct frame *frame)
 {
-    unsigned missing = runner->program.reads & ~frame->present;
+    unsigned missing = runner->stage->reads & ~frame->present;
     if ((missing & SECTION_OBJECTS) != 0 && !frame_carries(frame, CARRY_OBJECTS))
         return diag_fail(&runner->diag, DIAG_DATA,
                          "objects: missing; --sections left them out of the stream");
@@ -180,7 +168,7 @@ static int check_sections(struct runner *runner, const struct frame *frame)
                          "%s: missing; expected glint-%s, or a stage in its place, before this one",
                          frame_section_name(missing & -missing), writer_of(missing & -missing));
     unsigned added = SECTION_LOST | SECTION_COUNTS | SECTION_VEHICLES | SECTION_VISIBILITY;
-    unsigned doubled = runner->program.writes & ~runner->program.reads & frame->present & ~added;
+    unsigned doubled = runner->stage->writes & ~runner->stage->reads & frame->present & ~added;
     if (doubled != 0)
         return diag_fail(&runner->diag, DIAG_DATA, "%s: already there; this stage would write it",
                          frame_section_name(doubled & -doubled));
@@ -273,7 +261,7 @@ int runner_next(struct runner *runner, struct frame *frame)
  * no stage follows that would find out, it is told here. */
 static int check_account(const struct runner *runner, const struct frame *frame, struct diag *diag)
 {
-    bool ends = runner->program.kind == PROGRAM_SINK || runner->program.kind == PROGRAM_TOOL;
+    bool ends = runner->stage->sink || runner->stage->run != NULL;
     bool whole = (frame->present & (SECTION_TARGETS | SECTION_CELLS | SECTION_ECHOES)) != 0;
     if (!ends || !whole || !frame_carries(frame, CARRY_ACCOUNT) || runner->before != NULL ||
         runner->input == NULL)
@@ -324,8 +312,7 @@ struct runner *runner_trial(struct runner *runner, const struct stage *stage,
 {
     struct runner *trial = arena_get(&runner->arena, sizeof *trial);
     *list_add(&runner->tried, &runner->arena) = trial;
-    *trial = (struct runner){
-        .program = options_program_of_stage(stage), .stage = stage, .log = log, .before = runner};
+    *trial = (struct runner){.stage = stage, .log = log, .before = runner};
     trial->state = arena_get(&trial->arena, stage->options->size);
     field_clear(stage->options, trial->state);
     if (choice != NULL)
@@ -413,7 +400,7 @@ int runner_finish(struct runner *runner)
 
 int runner_run_tool(struct runner *runner)
 {
-    return ensure_message(runner, runner->tool->run(runner->state, runner));
+    return ensure_message(runner, runner->stage->run(runner->state, runner));
 }
 
 static struct output *add_output(struct runner *runner, const char *path)
@@ -466,7 +453,7 @@ static bool refuse_explained(struct runner *runner, const char *path)
         if (from->common.explain != NULL && path_same_file(path, from->common.explain))
             diag_fail(&runner->diag, DIAG_USAGE,
                       "%s: --explain of glint-%s is the same file; expected another one", path,
-                      from->program.name);
+                      from->stage->name);
     while ((from = from->before) != NULL);
     return runner->diag.code != DIAG_OK;
 }

@@ -18,9 +18,7 @@ struct frame_source {
 };
 
 struct runner {
-    struct program program;
-    const struct stage *stage; /* NULL for a tool */
-    const struct tool *tool;   /* NULL for a stage */
+    const struct stage *stage;
     void *state;
     struct common_options common;
     struct sections_change sections; /* of common.sections */
@@ -46,8 +44,6 @@ struct runner {
  * with a frame and 0 at the end. */
 int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
                    const char *const *words);
-int runner_prepare_tool(struct runner *runner, const struct tool *tool, size_t count,
-                        const char *const *words);
 int runner_start(struct runner *runner);
 int runner_next(struct runner *runner, struct frame *frame);
 int runner_step(struct runner *runner, struct frame *frame);

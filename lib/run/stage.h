@@ -5,8 +5,8 @@
  * A stage is one model of one step of this chain. It is data: one const struct stage in one file of
  * stages/, and the folder is the registry. The executable glint-NAME and the fused program glint
  * run the same struct. Sources make frames (next), filters change them in place (step), sinks write
- * something else (step and stop). A program that needs more than one frame at a time and one output
- * is a tool (tool.h).
+ * something else (step and stop). A tool (run) is a program for which one frame at a time and one
+ * output are not enough (tool.h).
  *
  * The runner owns the state and the frame; a stage keeps no pointer into a frame, prints nothing
  * and frees nothing it did not make. Formulas live in lib/ as pure functions; stages loop, pick
@@ -33,13 +33,15 @@ struct stage {
     const char *details; /* more paragraphs for --help, or NULL */
     /* The state, of which members are the stage's options: --radius-m sets radius_m. */
     const struct record *options;
-    /* A source's argument, as --help calls it; it sets the first option. NULL for all others. */
+    /* The first argument, as --help calls it; it sets the first option. NULL: there is none. */
     const char *operand;
     bool sink;
+    bool into_folder; /* a tool's outputs are files in the folder that the operand names */
     /* Sets of enum section. A frame must have the sections that the stage reads. It must not yet
      * have those that the stage writes, except lost, counts and vehicles, which it adds to, and
      * sections that it reads as well, which it changes in place. The runner orders and checks only
-     * the sections in writes after a step, so a stage must change no other (test_runner). */
+     * the sections in writes after a step, so a stage must change no other (test_runner). A tool
+     * with an empty set reads no frames. */
     unsigned reads, writes;
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
@@ -52,11 +54,28 @@ struct stage {
      * what the stage read, or 0 if that is not to blame. NULL: it never is. */
     int (*locate_fault)(void *state, const struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
+    int (*run)(void *state, struct runner *runner);  /* the whole work of a tool */
     /* Frees what a library made for the state, after a failure too; NULL: nothing. */
     void (*release)(void *state);
 };
 
-/* The options of a stage or tool: the members of its state that this table of fields lists. */
+enum stage_kind { STAGE_SOURCE, STAGE_FILTER, STAGE_SINK, STAGE_TOOL };
+
+static inline enum stage_kind stage_kind(const struct stage *stage)
+{
+    return stage->run != NULL    ? STAGE_TOOL
+           : stage->next != NULL ? STAGE_SOURCE
+           : stage->sink         ? STAGE_SINK
+                                 : STAGE_FILTER;
+}
+
+/* True if the stage takes files of frames, or else standard input. */
+static inline bool stage_takes_files(const struct stage *stage)
+{
+    return stage->next == NULL && (stage->run == NULL || stage->reads != 0);
+}
+
+/* The options of a stage: the members of its state that this table of fields lists. */
 #define STAGE_OPTIONS(state, table)                                                                \
     (&(const struct record){.name = "options", .size = sizeof(state), .fields = (table)})
 

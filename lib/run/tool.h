@@ -1,12 +1,8 @@
 /* What a tool is, and what it may ask for.
  *
- * A tool is a program for which one frame at a time and one output are not enough. A stage takes
- * its frames one by one and writes one stream. A tool has one function, run, which does the whole
- * work: it takes frames when it wants them or none at all, tries stages, opens other files, and
- * writes as many outputs as it likes. Like a stage it is data: one const struct tool in one file of
- * stages/, and the folder is the registry. The executable is glint-NAME, and `glint` runs a tool
- * that reads frames at the end of a pipeline. Options, --help, messages and exit codes are made as
- * for stages (options.h).
+ * A tool is a stage with one function, run, which does the whole work: it takes frames when it
+ * wants them or none at all, tries stages, opens other files, and writes several outputs. `glint`
+ * runs a tool that reads frames at the end of a pipeline.
  *
  * The runner owns the outputs. None of them takes its name before all of them are whole and on the
  * disk; after a failure, or if the program is killed, the files that had these names before are
@@ -20,22 +16,6 @@
 
 struct output;
 struct suite_choice;
-
-struct tool {
-    const char *name;    /* "plan": the executable is glint-plan */
-    const char *summary; /* one sentence */
-    const char *details; /* more paragraphs for --help, or NULL */
-    /* The state, of which members are the tool's options: --radius-m sets radius_m. */
-    const struct record *options;
-    /* The first argument, as --help calls it; it sets the first option. NULL: there is none. */
-    const char *operand;
-    /* True: the outputs are files in the folder that the operand names. False: there is one output,
-     * which --output names. */
-    bool into_folder;
-    /* Set of enum section that every frame of its stream must have. 0: the tool reads no frames. */
-    unsigned reads;
-    int (*run)(void *state, struct runner *runner);
-};
 
 /* Returns 1 with the next frame of the stream, 0 at its end, -1 after a message. The frame lasts
  * until the next call, and the tool may change it. A tool reads to the end, as whoever writes the

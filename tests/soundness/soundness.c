@@ -92,11 +92,17 @@ static const struct field soundness_options[] = {
 static const struct record soundness_record = {
     .name = "soundness", .size = sizeof(struct soundness), .fields = soundness_options};
 
-static const struct program soundness = {
-    .kind = PROGRAM_SOURCE,
+static int no_frames(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)state, (void)frame, (void)runner;
+    return 0;
+}
+
+static const struct stage soundness = {
     .name = "soundness",
     .summary = "Compare what planners leave out with what simulating every effect says.",
     .options = &soundness_record,
+    .next = no_frames,
 };
 
 static int64_t no_clock_ns(void)
@@ -397,7 +403,7 @@ int main(int count, char **words)
 {
     static struct bench bench;
     struct soundness wanted;
-    struct runner own = {.program = soundness};
+    struct runner own = {.stage = &soundness};
     bench.wanted = &wanted;
     int result = options_read(&soundness, (size_t)count - 1, (const char *const *)words + 1,
                               &wanted, &own.common, &own.arena, &own.diag);

@@ -166,7 +166,7 @@ static void frames_and_bytes_are_counted_with_the_times(void **state)
 /* Runs the program of the stage with one word. */
 static int run_main(const void *with)
 {
-    return chain_main(&turner, NULL, 2, (char *[]){(char[]){"glint-turner"}, strdup(with), NULL});
+    return chain_main(&turner, 2, (char *[]){(char[]){"glint-turner"}, strdup(with), NULL});
 }
 
 static void a_program_of_one_stage_prints_what_it_is_or_refuses(void **state)

@@ -16,7 +16,7 @@ static void begin(struct bench *bench, const char *suite, enum cost_reference re
     *bench = (struct bench){.cost = {.suite = suite, .reference = reference, .whole = "auto"}};
     bench->cost.runner = &bench->runner;
     assert_int_equal(
-        runner_prepare_tool(&bench->runner, fused_tool("plan"), 2, WORDS("--sensors", suite)), 0);
+        runner_prepare(&bench->runner, fused_stage("plan"), 2, WORDS("--sensors", suite)), 0);
 }
 
 static void end(struct bench *bench)

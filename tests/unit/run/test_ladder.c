@@ -18,7 +18,7 @@ static void begin(struct bench *bench, const char *suite)
 {
     *bench = (struct bench){0};
     assert_int_equal(
-        runner_prepare_tool(&bench->runner, fused_tool("plan"), 2, WORDS("--sensors", suite)), 0);
+        runner_prepare(&bench->runner, fused_stage("plan"), 2, WORDS("--sensors", suite)), 0);
     bench->sample = sample_of_traffic("12", &bench->arena);
     bench->ladder = (struct ladder){
         .runner = &bench->runner, .sample = &bench->sample, .sensors = suite, .expected = 2};

@@ -54,24 +54,24 @@ static int no_work(void *state, struct runner *runner)
 }
 
 /* A tool that reads frames and writes to --output, and one that writes files into a folder. */
-static const struct tool reader = {.name = "reader",
-                                   .summary = "Read.",
-                                   .options = &choices,
-                                   .reads = SECTION_TARGETS,
-                                   .run = no_work};
-static const struct tool tables = {.name = "tables",
-                                   .summary = "Tabulate.",
+static const struct stage reader = {.name = "reader",
+                                    .summary = "Read.",
+                                    .options = &choices,
+                                    .reads = SECTION_TARGETS,
+                                    .run = no_work};
+static const struct stage tables = {.name = "tables",
+                                    .summary = "Tabulate.",
+                                    .options = &choices,
+                                    .operand = "DIR",
+                                    .into_folder = true,
+                                    .reads = SECTION_TARGETS,
+                                    .run = no_work};
+static const struct stage maker = {.name = "maker",
+                                   .summary = "Write.",
                                    .options = &choices,
                                    .operand = "DIR",
                                    .into_folder = true,
-                                   .reads = SECTION_TARGETS,
                                    .run = no_work};
-static const struct tool maker = {.name = "maker",
-                                  .summary = "Write.",
-                                  .options = &choices,
-                                  .operand = "DIR",
-                                  .into_folder = true,
-                                  .run = no_work};
 
 struct result {
     struct choice choice;
@@ -81,7 +81,7 @@ struct result {
 };
 
 /* The words are parted by single blanks. */
-static int read_words(struct program program, const char *line, struct result *result)
+static int read_line(const struct stage *stage, const char *line, struct result *result)
 {
     const char *words[32];
     size_t count = 0;
@@ -92,13 +92,8 @@ static int read_words(struct program program, const char *line, struct result *r
         words[count++] = arena_text(&result->arena, at, length);
         at += length;
     }
-    return options_read(&program, count, words, &result->choice, &result->common, &result->arena,
+    return options_read(stage, count, words, &result->choice, &result->common, &result->arena,
                         &result->diag);
-}
-
-static int read_line(const struct stage *stage, const char *line, struct result *result)
-{
-    return read_words(options_program_of_stage(stage), line, result);
 }
 
 static void options_come_in_any_order_and_both_spellings(void **state)
@@ -217,15 +212,13 @@ static void a_tools_operand_comes_before_the_files_that_it_reads(void **state)
 {
     (void)state;
     struct result result;
-    assert_int_equal(
-        read_words(options_program_of_tool(&tables), "folder --seed 3 a --complete b", &result), 0);
+    assert_int_equal(read_line(&tables, "folder --seed 3 a --complete b", &result), 0);
     assert_string_equal(result.choice.where, "folder");
     assert_int_equal(result.common.files.count, 2);
     assert_string_equal(result.common.files.items[0], "a");
     assert_true(result.common.complete && result.common.seed == 3);
     arena_free(&result.arena);
-    assert_int_equal(read_words(options_program_of_tool(&reader), "--where x a -o out", &result),
-                     0);
+    assert_int_equal(read_line(&reader, "--where x a -o out", &result), 0);
     assert_int_equal(result.common.files.count, 1);
     assert_string_equal(result.common.output, "out");
     arena_free(&result.arena);
@@ -235,7 +228,7 @@ static void a_tool_refuses_options_that_would_do_nothing(void **state)
 {
     (void)state;
     static const struct {
-        const struct tool *tool;
+        const struct stage *tool;
         const char *line, *message;
     } cases[] = {{&maker, "", "missing DIR: the place; see --help"},
                  {&maker, "a b", "one argument too many: b"},
@@ -248,18 +241,17 @@ static void a_tool_refuses_options_that_would_do_nothing(void **state)
                  {&reader, "--where x --sections all", "unknown option --sections; see --help"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct result result;
-        assert_int_equal(read_words(options_program_of_tool(cases[i].tool), cases[i].line, &result),
-                         -1);
+        assert_int_equal(read_line(cases[i].tool, cases[i].line, &result), -1);
         assert_string_equal(result.diag.text, cases[i].message);
         assert_int_equal(result.diag.code, DIAG_USAGE);
         arena_free(&result.arena);
     }
 }
 
-static void assert_helps(struct program program, const char *const *parts, size_t count)
+static void assert_helps(const struct stage *stage, const char *const *parts, size_t count)
 {
     struct text text = {0};
-    options_help(&program, &text);
+    options_help(stage, &text);
     text_add(&text, "", 1);
     for (size_t i = 0; i < count; i++)
         if (strstr(text.bytes, parts[i]) == NULL)
@@ -292,13 +284,12 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
         "Usage: glint-tables [OPTION]... DIR [FILE]...\nTabulate.\n", "\nDIR: the place.\n",
         "reads targets.\n"};
     static const char *const of_maker[] = {"Usage: glint-maker [OPTION]... DIR\nWrite.\n"};
-    assert_helps(options_program_of_stage(&filter), of_filter, COUNT(of_filter));
-    assert_helps(options_program_of_stage(&source), of_source, COUNT(of_source));
-    assert_helps(options_program_of_tool(&tables), of_tables, COUNT(of_tables));
-    assert_helps(options_program_of_tool(&maker), of_maker, COUNT(of_maker));
+    assert_helps(&filter, of_filter, COUNT(of_filter));
+    assert_helps(&source, of_source, COUNT(of_source));
+    assert_helps(&tables, of_tables, COUNT(of_tables));
+    assert_helps(&maker, of_maker, COUNT(of_maker));
     struct text text = {0};
-    struct program program = options_program_of_stage(&source);
-    options_help(&program, &text);
+    options_help(&source, &text);
     text_add(&text, "", 1);
     assert_null(strstr(text.bytes, "--complete"));
     assert_null(strstr(text.bytes, "--where"));
@@ -318,61 +309,26 @@ static void a_stage_is_a_source_a_filter_or_a_sink(void **state)
     (void)state;
     static const struct {
         struct stage stage;
-        enum program_kind kind;
+        enum stage_kind kind;
         bool takes_files;
     } cases[] = {
-        {{.name = "source", .next = next, .writes = 1}, PROGRAM_SOURCE, false},
-        {{.name = "filter", .step = next, .reads = 2, .writes = 4}, PROGRAM_FILTER, true},
-        {{.name = "sink", .step = next, .reads = 2, .sink = true}, PROGRAM_SINK, true},
+        {{.name = "source", .next = next, .writes = 1}, STAGE_SOURCE, false},
+        {{.name = "filter", .step = next, .reads = 2, .writes = 4}, STAGE_FILTER, true},
+        {{.name = "sink", .step = next, .reads = 2, .sink = true}, STAGE_SINK, true},
     };
     for (size_t i = 0; i < 3; i++) {
-        struct program program = options_program_of_stage(&cases[i].stage);
-        assert_int_equal(program.kind, cases[i].kind);
-        assert_int_equal(program.takes_files, cases[i].takes_files);
-        assert_int_equal(program.reads, cases[i].stage.reads);
-        assert_int_equal(program.writes, cases[i].stage.writes);
-        assert_false(program.into_folder);
-        assert_ptr_equal(program.name, cases[i].stage.name);
+        assert_int_equal(stage_kind(&cases[i].stage), cases[i].kind);
+        assert_int_equal(stage_takes_files(&cases[i].stage), cases[i].takes_files);
     }
-}
-
-static void texts_options_and_operand_are_those_of_the_stage_and_the_tool(void **state)
-{
-    (void)state;
-    static const struct stage stage = {.name = "a",
-                                       .summary = "b",
-                                       .details = "c",
-                                       .options = &no_options_record,
-                                       .operand = "FILE"};
-    static const struct tool tool = {.name = "d",
-                                     .summary = "e",
-                                     .details = "f",
-                                     .options = &no_options_record,
-                                     .operand = "DIR"};
-    struct program one = options_program_of_stage(&stage), other = options_program_of_tool(&tool);
-    assert_string_equal(one.summary, "b");
-    assert_string_equal(one.details, "c");
-    assert_string_equal(one.operand, "FILE");
-    assert_ptr_equal(one.options, &no_options_record);
-    assert_string_equal(other.name, "d");
-    assert_string_equal(other.summary, "e");
-    assert_string_equal(other.details, "f");
-    assert_string_equal(other.operand, "DIR");
-    assert_ptr_equal(other.options, &no_options_record);
 }
 
 static void a_tool_takes_files_of_frames_only_if_it_reads_any(void **state)
 {
     (void)state;
-    for (unsigned reads = 0; reads < 2; reads++)
-        for (int into_folder = 0; into_folder < 2; into_folder++) {
-            struct program program = options_program_of_tool(
-                &(struct tool){.reads = reads, .into_folder = into_folder != 0});
-            assert_int_equal(program.kind, PROGRAM_TOOL);
-            assert_int_equal(program.takes_files, reads != 0);
-            assert_int_equal(program.reads, reads);
-            assert_int_equal(program.into_folder, into_folder);
-        }
+    assert_int_equal(stage_kind(&reader), STAGE_TOOL);
+    assert_int_equal(stage_kind(&maker), STAGE_TOOL);
+    assert_true(stage_takes_files(&reader));
+    assert_false(stage_takes_files(&maker));
 }
 
 int main(void)
@@ -387,7 +343,6 @@ int main(void)
         cmocka_unit_test(a_tool_refuses_options_that_would_do_nothing),
         cmocka_unit_test(help_names_every_option_with_unit_bounds_and_choices),
         cmocka_unit_test(a_stage_is_a_source_a_filter_or_a_sink),
-        cmocka_unit_test(texts_options_and_operand_are_those_of_the_stage_and_the_tool),
         cmocka_unit_test(a_tool_takes_files_of_frames_only_if_it_reads_any),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,7 +74,7 @@ static bool keeps_to_its_part(struct runner *runner, struct frame *frame)
 
 static bool is_filter(const struct stage *stage)
 {
-    return stage->next == NULL && !stage->sink;
+    return stage_kind(stage) == STAGE_FILTER;
 }
 
 /* The signal is simulated only for sensors that have a waveform. */

@@ -179,7 +179,7 @@ static int write_schemas(void **state)
     make_scratch(state);
     const struct scratch *scratch = *state;
     char *words[] = {(char[]){"glint-schema"}, (char *)scratch->directory, NULL};
-    return chain_main(NULL, fused_tool("schema"), 2, words);
+    return chain_main(fused_stage("schema"), 2, words);
 }
 
 static int remove_schemas(void **state)

@@ -53,19 +53,19 @@ static int count_frames(void *state, struct runner *runner)
     return more == 0 ? output_write(output, &count, 1, runner_diag(runner)) : -1;
 }
 
-static const struct tool writer = {.name = "writer",
-                                   .summary = "Write two files.",
-                                   .options = &work_record,
-                                   .operand = "DIR",
-                                   .into_folder = true,
-                                   .run = write_both};
-static const struct tool counter = {.name = "counter",
-                                    .summary = "Count frames of seed 7.",
+static const struct stage writer = {.name = "writer",
+                                    .summary = "Write two files.",
                                     .options = &work_record,
                                     .operand = "DIR",
                                     .into_folder = true,
-                                    .reads = SECTION_OBJECTS,
-                                    .run = count_frames};
+                                    .run = write_both};
+static const struct stage counter = {.name = "counter",
+                                     .summary = "Count frames of seed 7.",
+                                     .options = &work_record,
+                                     .operand = "DIR",
+                                     .into_folder = true,
+                                     .reads = SECTION_OBJECTS,
+                                     .run = count_frames};
 
 #define HEAD(number, seed)                                                                         \
     "{\"version\":0,\"scene\":\"a\",\"frame\":" number ",\"time_s\":" number                       \
@@ -120,14 +120,14 @@ static int remove_scratch(void **state)
 
 /* The exit code of the tool; its words are the folder's name and those given, NULL after the last.
  */
-static int run(const struct tool *tool, const struct scratch *scratch, const char *const *more)
+static int run(const struct stage *tool, const struct scratch *scratch, const char *const *more)
 {
     const char *words[8] = {scratch->folder};
     size_t count = 1;
     for (; more[count - 1] != NULL; count++)
         words[count] = more[count - 1];
     struct runner runner;
-    assert_int_equal(runner_prepare_tool(&runner, tool, count, words), 0);
+    assert_int_equal(runner_prepare(&runner, tool, count, words), 0);
     int code = chain_run(&runner, 1, NULL);
     runner_free(&runner);
     return code;
