@@ -95,7 +95,7 @@ def spent_more(rows, row):
     return row["us"] - base["us"] if row["group"] == "added" else base["us"] - row["us"]
 
 
-NOISE_US = 2  # differences of times below it are not told from none
+NOISE_US = 2  # differences of times below it are not significant
 
 
 def effect_cells(rows, row):
@@ -133,7 +133,7 @@ def verdicts(rows, radar):
     for group, where in (("added", "added to the paper's"), ("left out", "in all others")):
         own = pick(rows, radar=radar, group=group)
         said = {"gain": [row for row in own if told(row) > 0], "harm": [row for row in own if told(row) < 0],
-                "are not told from nothing, or below 0.01": [row for row in own if not told(row) and changes(row)],
+                "have no significant gain, or one below 0.01": [row for row in own if not told(row) and changes(row)],
                 "change no list here": [row for row in own if not changes(row)]}
         for verb, of in said.items():
             names = ", ".join(row["chain"] for row in sorted(of, key=lambda row: -abs(row.get("gain", 0))))
