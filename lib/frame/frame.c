@@ -47,14 +47,6 @@ const char *frame_section_name(enum section section)
     return "?";
 }
 
-enum loss frame_loss_of(const char *reason)
-{
-    enum loss loss = 0;
-    while (frame_losses[loss] != NULL && !frame_same_name(frame_losses[loss], reason))
-        loss++;
-    return loss;
-}
-
 const char *frame_loss_words(const struct lost_group *group, struct arena *arena)
 {
     if (frame_loss_of(group->reason) != LOSS_OWN)

@@ -303,7 +303,13 @@ const char *frame_section_name(enum section section);
 extern const char *const frame_paths[], *const frame_losses[];
 
 /* The reason of that name; LOSS_OWN for any other. */
-enum loss frame_loss_of(const char *reason);
+static inline enum loss frame_loss_of(const char *reason)
+{
+    enum loss loss = 0;
+    while (frame_losses[loss] != NULL && !frame_same_name(frame_losses[loss], reason))
+        loss++;
+    return loss;
+}
 
 /* The reason of a group for people, in the arena: "blocked", or "mud: covered" if it is the own
  * reason of the stage mud. */

@@ -80,6 +80,13 @@ int frame_order_lost_groups(const void *left, const void *right)
     return order != 0 ? order : compare_names(a->reason, b->reason);
 }
 
+int frame_order_sightings(const void *left, const void *right)
+{
+    const struct sighting *a = left, *b = right;
+    int order = compare_names(a->sensor, b->sensor);
+    return order != 0 ? order : compare_names(a->object, b->object);
+}
+
 static int compare_paths(const void *left, const void *right)
 {
     const struct path_count *a = left, *b = right;
@@ -163,7 +170,7 @@ void frame_order_part(struct frame *frame, struct frame_part part)
     if ((part.sections & SECTION_COUNTS) != 0)
         order_counts(frame);
     if ((part.sections & SECTION_VISIBILITY) != 0)
-        sort_list(&frame->visibility, sightings_order, frame->arena);
+        sort_list(&frame->visibility, frame_order_sightings, frame->arena);
 }
 
 void frame_order(struct frame *frame)

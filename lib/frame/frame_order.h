@@ -31,3 +31,4 @@ int frame_order_names(const void *left, const void *right);
 int frame_order_echoes(const void *left, const void *right);
 int frame_order_cells(const void *left, const void *right);
 int frame_order_lost_groups(const void *left, const void *right);
+int frame_order_sightings(const void *left, const void *right);

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "frame/frame.h"
+#include "frame/frame_order.h"
 
 static const char *const levels[] = {"v0-40", "v40-60", "v60-80", "v80-100", NULL};
 
@@ -36,20 +36,13 @@ void sightings_judge(struct sighting *sighting)
     sighting->visibility = seen ? (share >= 0.4) + (share >= 0.6) + (share >= 0.8) : 4;
 }
 
-int sightings_order(const void *left, const void *right)
-{
-    const struct sighting *a = left, *b = right;
-    int order = strcmp(a->sensor, b->sensor);
-    return order != 0 ? order : strcmp(a->object, b->object);
-}
-
 static struct sighting *find(const struct frame *frame, const char *sensor, const char *object)
 {
     const struct sighting wanted = {.sensor = sensor, .object = object};
     return frame->visibility.count == 0
                ? NULL
                : bsearch(&wanted, frame->visibility.items, frame->visibility.count, sizeof wanted,
-                         sightings_order);
+                         frame_order_sightings);
 }
 
 /* Counts a target once for each object and kind, however many contributors there are. */

@@ -28,6 +28,3 @@ void sightings_judge(struct sighting *sighting);
 
 /* Counts the targets of every sighting anew. The sightings must be in canonical order. */
 void sightings_count_targets(struct frame *frame);
-
-/* The canonical order, by sensor and object, for sort_items. */
-int sightings_order(const void *left, const void *right);

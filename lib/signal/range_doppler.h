@@ -1,4 +1,4 @@
-/* Peaks of a range-Doppler spectrum: their places and amplitudes (MODEL 11.3).
+/* Peaks of a range-Doppler spectrum that are no side lobes (MODEL 11.3).
  *
  * A spectrum has one map of power for every beam. Its cells are those of transforms padded with
  * zeros, range_padding by rate_padding to a bin. The axis of rates is a ring, and so is that of

@@ -1,4 +1,4 @@
-/* Output to a file or standard output, whole or nothing.
+/* Output to a file, plain or gzip, whole or nothing.
  *
  * A named file is written without a name, in the folder where it will be, and takes its name only
  * when it is complete and on the disk: a run that fails or is killed leaves the old file or none.
