@@ -1,6 +1,7 @@
 #include "base/elementary.h"
 
 #include <float.h>
+#include <stdbool.h>
 
 #if FLT_EVAL_METHOD != 0 || defined __FAST_MATH__
 #error "every operation must round once, to double, as written: with -ffast-math, or registers \
@@ -25,6 +26,8 @@ wider than a double (x87: use SSE2), results would depend on the compiler"
 #define ROUNDER 0x1.8p52
 
 static const double INFINITE = (double)INFINITY, NO_NUMBER = (double)NAN;
+
+__extension__ typedef unsigned __int128 wide;
 
 /* An unevaluated sum hi + lo; lo is small against hi. */
 struct pair {
@@ -111,43 +114,32 @@ static struct reduced reduce_near(double angle_rad)
     return (struct reduced){sum_of(third.hi, lo), (unsigned)bits_of(counted)};
 }
 
-/* sum += window factor 2^(32 shift), modulo 2^192; the most significant word stands first. */
-static void add_product(uint32_t sum[6], const uint32_t window[6], uint32_t factor, int shift)
-{
-    uint64_t carry = 0;
-    for (int i = 5; i >= shift; i--) {
-        carry += sum[i - shift] + (uint64_t)window[i] * factor;
-        sum[i - shift] = (uint32_t)carry;
-        carry >>= 32;
-    }
-}
-
-/* |angle| 2/pi modulo 4 in units of 2^-190, |angle| >= 2^20. Of the bits of 2/pi only those matter
- * whose product with the last place of the angle is below 4; 192 of them leave 2^-137, and no
- * double lies closer than 2^-62 to a multiple of pi/2. */
-static void count_quarters(double angle_rad, uint32_t quarters[6])
+/* |angle| 2/pi modulo 4, |angle| >= 2^20: sets the whole quarters, returns the rest in units of
+ * 2^-128. Of the bits of 2/pi only those matter whose product with the last place of the angle is
+ * below 4; 192 of them leave 2^-137, and no double lies closer than 2^-62 to a multiple of pi/2. */
+static wide count_quarters(double angle_rad, unsigned *whole)
 {
     /* 2/pi in binary, after 64 zeros. */
-    static const uint32_t two_over_pi[] = {
-        0,          0,          0xa2f9836e, 0x4e441529, 0xfc2757d1, 0xf534ddc0, 0xdb629599,
-        0x3c439041, 0xfe5163ab, 0xdebbc561, 0xb7246e3a, 0x424dd2e0, 0x06492eea, 0x09d1921c,
-        0xfe1deb1c, 0xb129a73e, 0xe88235f5, 0x2ebb4484, 0xe99c7026, 0xb45f7e41, 0x3991d639,
-        0x835339f4, 0x9c845f8b, 0xbdf9283b, 0x1ff897ff, 0xde05980f, 0xef2f118b, 0x5a0a6d1f,
-        0x6d367ecf, 0x27cb09b7, 0x4f463f66, 0x9e5fea2d, 0x7527bac7, 0xebe5f17b, 0x3d0739f7,
-        0x8a5292ea, 0x6bfb5fb1, 0x1f8d5d08, 0x56033046,
+    static const uint64_t two_over_pi[] = {
+        0x0000000000000000, 0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041,
+        0xfe5163abdebbc561, 0xb7246e3a424dd2e0, 0x06492eea09d1921c, 0xfe1deb1cb129a73e,
+        0xe88235f52ebb4484, 0xe99c7026b45f7e41, 0x3991d639835339f4, 0x9c845f8bbdf9283b,
+        0x1ff897ffde05980f, 0xef2f118b5a0a6d1f, 0x6d367ecf27cb09b7, 0x4f463f669e5fea2d,
+        0x7527bac7ebe5f17b, 0x3d0739f78a5292ea, 0x6bfb5fb11f8d5d08, 0x5603304600000000,
     };
     uint64_t bits = bits_of(angle_rad);
     uint64_t mantissa = (bits & UINT64_C(0xfffffffffffff)) | UINT64_C(0x10000000000000);
     unsigned begin = (unsigned)(bits >> 52 & 0x7ff) - 1075 - 2 + 64;
-    const uint32_t *words = two_over_pi + begin / 32;
-    uint32_t window[6];
-    for (int i = 0; i < 6; i++) {
-        uint64_t two_words = (uint64_t)words[i] << 32 | words[i + 1];
-        window[i] = (uint32_t)(two_words << begin % 32 >> 32);
+    const uint64_t *words = two_over_pi + begin / 64;
+    uint64_t window[3];
+    for (int i = 0; i < 3; i++) {
+        wide two_words = (wide)words[i] << 64 | words[i + 1];
+        window[i] = (uint64_t)(two_words << begin % 64 >> 64);
     }
-    memset(quarters, 0, 6 * sizeof *quarters);
-    add_product(quarters, window, (uint32_t)mantissa, 0);
-    add_product(quarters, window, (uint32_t)(mantissa >> 32), 1);
+    wide low = (wide)mantissa * window[2];
+    wide high = ((wide)(mantissa * window[0]) << 64) + (wide)mantissa * window[1] + (low >> 64);
+    *whole = (unsigned)(high >> 126);
+    return high << 2 | (uint64_t)low >> 62;
 }
 
 /* (pi/2) (hi + lo), |hi| <= 1/2. */
@@ -159,25 +151,18 @@ static struct pair quarters_rad(double hi, double lo)
 
 static struct reduced reduce_far(double angle_rad)
 {
-    uint32_t words[6];
-    count_quarters(angle_rad, words);
-    unsigned whole = words[0] >> 30;
-    uint64_t high = (uint64_t)words[0] << 34 | (uint64_t)words[1] << 2 | words[2] >> 30;
-    uint64_t low = (uint64_t)words[2] << 34 | (uint64_t)words[3] << 2 | words[4] >> 30;
+    unsigned whole;
+    wide rest = count_quarters(angle_rad, &whole);
     double sign = angle_rad < 0 ? -1 : 1;
-    if (high >> 63) {
+    if (rest >> 127) {
         whole++;
         sign = -sign;
-        low = ~low;
-        high = ~high;
+        rest = ~rest;
     }
-    int shift = 0;
-    for (; !(high >> 63); shift++) {
-        high = high << 1 | low >> 63;
-        low <<= 1;
-    }
-    double hi = scalbn((double)(high >> 11), -53 - shift);
-    double lo = scalbn((double)((high & 0x7ff) << 42 | low >> 22), -106 - shift);
+    int shift = __builtin_clzll((uint64_t)(rest >> 64));
+    rest <<= shift;
+    double hi = scalbn((double)(uint64_t)(rest >> 75), -53 - shift);
+    double lo = scalbn((double)((uint64_t)(rest >> 22) & UINT64_C(0x1fffffffffffff)), -106 - shift);
     return (struct reduced){quarters_rad(sign * hi, sign * lo), angle_rad < 0 ? -whole : whole};
 }
 
@@ -281,25 +266,19 @@ static double angle_of(double y, double x)
         {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
         {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
     };
-    /* By octant, the axis from which the angle is counted, and the direction. */
-    static const struct {
-        struct pair from;
-        double side;
-    } octants[] = {
-        {{0, 0}, 1},
-        {{PI_2_HI, PI_2_LO}, -1},
-        {{2 * PI_2_HI, 2 * PI_2_LO}, -1},
-        {{PI_2_HI, PI_2_LO}, 1},
-    };
+    /* By octant: the axis from which the angle is counted, and the sign with which it counts. */
+    static const struct pair axes[] = {
+        {0, 0}, {PI_2_HI, PI_2_LO}, {2 * PI_2_HI, 2 * PI_2_LO}, {PI_2_HI, PI_2_LO}};
+    static const double sides[] = {1, -1, -1, 1};
     double across = fabs(y), along = fabs(x);
     unsigned steep = across > along;
     double n = steep ? along : across, d = steep ? across : along;
     int j = (int)(n / d * 8 + 0.5);
     struct pair rest = atan_beyond(n, d, j * 0.125);
     unsigned octant = steep + (x < 0 ? 2 : 0);
-    double side = octants[octant].side;
-    struct pair start = sum_of(octants[octant].from.hi, side * eighths[j].hi);
-    start.lo += octants[octant].from.lo + side * eighths[j].lo;
+    double side = sides[octant];
+    struct pair start = sum_of(axes[octant].hi, side * eighths[j].hi);
+    start.lo += axes[octant].lo + side * eighths[j].lo;
     struct pair angle = sum_of(start.hi, side * rest.hi);
     angle.lo += start.lo + side * rest.lo;
     return copysign(angle.hi + angle.lo, y);
@@ -413,8 +392,7 @@ static struct pair log_of(double x)
     double s_tail = ((above - s * below_head) - s * below_tail) * inverse;
     struct pair base = sixteenths[j - 11];
     struct pair sum = sum_of(k * LOG_2_HI + base.hi, 2 * s);
-    sum.lo += (k * LOG_2_LO + base.lo) + (2 * s_tail + log_rest(quotient));
-    return sum;
+    return sum_of(sum.hi, sum.lo + ((k * LOG_2_LO + base.lo) + (2 * s_tail + log_rest(quotient))));
 }
 
 static double log_outside(double x)
@@ -444,7 +422,6 @@ double elementary_log10(double x)
         return log_outside(x);
     const struct pair per_log_10 = {0x1.bcb7b1526e50ep-2, 0x1.95355baaafad3p-57};
     struct pair log = log_of(x);
-    log = sum_of(log.hi, log.lo);
     struct pair product = product_of(log.hi, per_log_10.hi);
     return product.hi + (product.lo + (log.hi * per_log_10.lo + log.lo * per_log_10.hi));
 }
@@ -496,18 +473,14 @@ double elementary_pow(double base, double exponent)
     if (base == 0 || isinf(base))
         return (base == 0) == (exponent > 0) ? 0 : INFINITE;
     struct pair log = log_of(base);
-    log = sum_of(log.hi, log.lo);
     struct pair product = product_of(exponent, log.hi);
     return exp_of(product.hi, product.lo + exponent * log.lo);
 }
 
 double elementary_hypot(double x, double y)
 {
-    double longer = fabs(x), shorter = fabs(y);
-    if (longer < shorter) {
-        longer = fabs(y);
-        shorter = fabs(x);
-    }
+    bool steep = fabs(x) < fabs(y);
+    double longer = fabs(steep ? y : x), shorter = fabs(steep ? x : y);
     if (longer >= 0x1p-400 && longer <= 0x1p500)
         return sqrt(longer * longer + shorter * shorter);
     if (isinf(x) || isinf(y))
