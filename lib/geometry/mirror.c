@@ -91,9 +91,8 @@ bool mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double
            vec2_cross(to_b, to_image) >= -reach_m * vec2_length(to_b);
 }
 
-/* A path with one way straight and one way by the wall. */
-static struct mirror_ghost one_way(double reflection, const struct kinematics *direct,
-                                   const struct kinematics *image, double azimuth_rad)
+struct mirror_ghost mirror_ghost_one_way(double reflection, const struct kinematics *direct,
+                                         const struct kinematics *image, double azimuth_rad)
 {
     double range_m = (direct->range_m + image->range_m) / 2;
     return (struct mirror_ghost){
@@ -102,19 +101,7 @@ static struct mirror_ghost one_way(double reflection, const struct kinematics *d
     };
 }
 
-struct mirror_ghost mirror_ghost_out(double reflection, const struct kinematics *direct,
-                                     const struct kinematics *image)
-{
-    return one_way(reflection, direct, image, direct->azimuth_rad);
-}
-
-struct mirror_ghost mirror_ghost_back(double reflection, const struct kinematics *direct,
-                                      const struct kinematics *image)
-{
-    return one_way(reflection, direct, image, image->azimuth_rad);
-}
-
-struct mirror_ghost mirror_ghost_both(double reflection, const struct kinematics *image)
+struct mirror_ghost mirror_ghost_both_ways(double reflection, const struct kinematics *image)
 {
     return (struct mirror_ghost){.kinematics = *image, .ercs_factor = reflection * reflection};
 }

@@ -66,20 +66,18 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 point_m, struct vec2
  * m; unnecessarily true where the disc passes narrowly by an end of the wall. */
 bool mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double radius_m);
 
-/* A ghost: the path of a wave between a sensor S, an object O and a wall W with more than one
- * bounce. */
+/* A ghost: the echo of an object O along a path from the sensor S by way of a wall W. */
 struct mirror_ghost {
-    struct kinematics kinematics; /* apparent */
-    /* On the ERCS of O, >= 0: what the bounces leave, and the spreading over the path's two ways
-     * over that of an echo at the ghost's own range, as the receiver reckons by its delay. */
+    struct kinematics kinematics; /* as the radar measures them */
+    /* Factor on the ERCS of O, >= 0: the reflection of the bounces, times the ratio of the
+     * spreading along the path to that of an echo at the ghost's range. */
     double ercs_factor;
 };
 
-/* The ghosts S-W-O-S (out), S-O-W-S (back) and S-W-O-W-S (both). direct and image are the
- * kinematics of O and of O' (mirror_image), at ranges R > 0; mirror_bounce says whether these paths
- * exist. The loss at a bistatic angle is not included. */
-struct mirror_ghost mirror_ghost_out(double reflection, const struct kinematics *direct,
-                                     const struct kinematics *image);
-struct mirror_ghost mirror_ghost_back(double reflection, const struct kinematics *direct,
-                                      const struct kinematics *image);
-struct mirror_ghost mirror_ghost_both(double reflection, const struct kinematics *image);
+/* The ghosts with one bounce, S-W-O-S and S-O-W-S, and with two, S-W-O-W-S. direct and image are
+ * the kinematics of O and of its image O' (mirror_image), at ranges > 0. azimuth_rad is that of the
+ * wave that comes back: of O on S-W-O-S, of O' on S-O-W-S. These paths exist where mirror_bounce is
+ * true. The loss at a bistatic angle is not included. */
+struct mirror_ghost mirror_ghost_one_way(double reflection, const struct kinematics *direct,
+                                         const struct kinematics *image, double azimuth_rad);
+struct mirror_ghost mirror_ghost_both_ways(double reflection, const struct kinematics *image);

@@ -305,11 +305,11 @@ static void add_paths(struct look *look, struct ghost_candidate *candidate, bool
     const struct route *direct = &candidate->direct, *mirrored = &candidate->mirrored;
     const struct kinematics *object = &direct->read, *image = &mirrored->read;
     double reflection = bounce_factor(look, candidate);
-    struct mirror_ghost both = mirror_ghost_both(reflection, image), out = both, back = both;
+    struct mirror_ghost both = mirror_ghost_both_ways(reflection, image), out = both, back = both;
     one_way = one_way && direct->factor > 0 && object->range_m > 0;
     if (one_way) {
-        out = mirror_ghost_out(reflection, object, image);
-        back = mirror_ghost_back(reflection, object, image);
+        out = mirror_ghost_one_way(reflection, object, image, object->azimuth_rad);
+        back = mirror_ghost_one_way(reflection, object, image, image->azimuth_rad);
     }
     bool has_both = look->sensor->bounces >= BOUNCES_BOTH_WAYS &&
                     is_within_limits(look, &both.kinematics, image->azimuth_rad);

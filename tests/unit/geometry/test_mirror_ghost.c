@@ -53,9 +53,11 @@ static void the_example_of_the_model_has_its_ghosts(void **state)
         double range_m, azimuth_deg, range_rate_mps, power_db;
     } cases[] = {
         {{direct, 1}, 30.066593, -3.814075, -4.988926, 0},
-        {mirror_ghost_out(0.9, &direct, &mirrored), 30.844685, -3.814075, -4.866171, -1.353466},
-        {mirror_ghost_back(0.9, &direct, &mirrored), 30.844685, 18.434949, -4.866171, -1.353466},
-        {mirror_ghost_both(0.9, &mirrored), 31.622777, 18.434949, -4.743416, -2.706931},
+        {mirror_ghost_one_way(0.9, &direct, &mirrored, direct.azimuth_rad), 30.844685, -3.814075,
+         -4.866171, -1.353466},
+        {mirror_ghost_one_way(0.9, &direct, &mirrored, mirrored.azimuth_rad), 30.844685, 18.434949,
+         -4.866171, -1.353466},
+        {mirror_ghost_both_ways(0.9, &mirrored), 31.622777, 18.434949, -4.743416, -2.706931},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         const struct kinematics *seen = &cases[i].ghost.kinematics;
@@ -73,9 +75,9 @@ static void a_wall_that_reflects_nothing_has_ghosts_of_zero_and_never_nan(void *
     struct kinematics direct = look_at(&STANDARD, &STANDARD.object);
     struct kinematics mirrored = look_at(&STANDARD, &image);
     const double factors[] = {
-        mirror_ghost_out(0, &direct, &mirrored).ercs_factor,
-        mirror_ghost_back(0, &direct, &mirrored).ercs_factor,
-        mirror_ghost_both(0, &mirrored).ercs_factor,
+        mirror_ghost_one_way(0, &direct, &mirrored, direct.azimuth_rad).ercs_factor,
+        mirror_ghost_one_way(0, &direct, &mirrored, mirrored.azimuth_rad).ercs_factor,
+        mirror_ghost_both_ways(0, &mirrored).ercs_factor,
     };
     for (size_t i = 0; i < COUNT(factors); i++)
         assert_close(factors[i], 0, 0);
@@ -155,8 +157,9 @@ static void ranges_are_half_the_legs_and_rates_their_derivatives(void **state)
         struct mirror_image image = image_in(&scene);
         struct kinematics direct = look_at(&scene, &scene.object),
                           mirrored = look_at(&scene, &image);
-        struct kinematics seen[PATHS] = {mirror_ghost_out(1, &direct, &mirrored).kinematics,
-                                         mirror_ghost_both(1, &mirrored).kinematics};
+        struct kinematics seen[PATHS] = {
+            mirror_ghost_one_way(1, &direct, &mirrored, direct.azimuth_rad).kinematics,
+            mirror_ghost_both_ways(1, &mirrored).kinematics};
         for (int path = 0; path < PATHS; path++)
             assert_near(seen[path].range_m, range_m[path], 1e-13);
         for (size_t k = 0; k < COUNT(steps_s); k++) {
