@@ -3,6 +3,7 @@
 #include "run/stage.h"
 #include "text/document.h"
 #include "text/input.h"
+#include "text/path.h"
 #include "traffic/scenario_scenes.h"
 
 struct traffic {
@@ -57,7 +58,7 @@ static int is_table(const char *source, struct runner *runner)
 {
     enum { ENOUGH = 4096 };
     struct diag *diag = runner_diag(runner);
-    if (strcmp(source, "-") == 0 || !document_is_regular(source))
+    if (strcmp(source, "-") == 0 || path_is_special(source))
         return 0;
     struct input *input = runner_input(runner, source);
     char *bytes = arena_get(runner_arena(runner), ENOUGH + 1);
@@ -76,10 +77,10 @@ static int traffic_start(void *state, struct runner *runner)
     const char *path = traffic->recording.source;
     struct diag unknown = {0};
     bool bare = strpbrk(path, "./") == NULL;
-    int table = bare ? document_find("scenarios", path, ".json", arena, &unknown) == NULL
+    int table = bare ? document_find(NULL, "scenarios", path, ".json", arena, &unknown) == NULL
                      : is_table(path, runner);
     if (bare && table)
-        path = document_find("trajectories", path, ".csv", arena, &unknown);
+        path = document_find(NULL, "trajectories", path, ".csv", arena, &unknown);
     if (table < 0)
         return -1;
     return table && path != NULL ? start_table(traffic, path, runner)

@@ -1,8 +1,11 @@
 #include "base/suggestion.h"
 
+#include <ctype.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "base/text.h"
 
 /* The fewest letters of a word that count as the beginning of a longer one. */
 enum { BEGINNING = 3 };
@@ -12,9 +15,9 @@ struct suggestion suggestion_begin(const char *word, size_t length)
     return (struct suggestion){.word = word, .length = length};
 }
 
-static int small(char letter)
+static bool same(char a, char b)
 {
-    return letter >= 'A' && letter <= 'Z' ? letter - 'A' + 'a' : letter;
+    return tolower((unsigned char)a) == tolower((unsigned char)b);
 }
 
 static size_t least(size_t a, size_t b)
@@ -35,10 +38,9 @@ static size_t distance(const char *a, size_t a_length, const char *b, size_t b_l
                 row[j] = j;
                 continue;
             }
-            bool same = small(a[i - 1]) == small(b[j - 1]);
-            row[j] = least(least(row[j - 1], above[j]) + 1, above[j - 1] + !same);
-            if (i > 1 && j > 1 && small(a[i - 1]) == small(b[j - 2]) &&
-                small(a[i - 2]) == small(b[j - 1]))
+            size_t replaced = above[j - 1] + !same(a[i - 1], b[j - 1]);
+            row[j] = least(least(row[j - 1], above[j]) + 1, replaced);
+            if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]))
                 row[j] = least(row[j], two_above[j - 2] + 1);
         }
     }
@@ -66,8 +68,7 @@ int suggestion_find(const char *const *known, const char *word, size_t length,
                     struct suggestion *meant)
 {
     for (int i = 0; known[i] != NULL; i++)
-        if (length > 0 && known[i][0] == word[0] && strncmp(known[i], word, length) == 0 &&
-            known[i][length] == '\0')
+        if (text_is(word, length, known[i]))
             return i;
     if (meant != NULL)
         *meant = suggestion_begin(word, length);

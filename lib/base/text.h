@@ -3,8 +3,10 @@
  * A zeroed text is empty; text_free gives its memory back. */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 struct text {
     char *bytes;
@@ -17,6 +19,13 @@ char *text_room(struct text *text, size_t size);
 void text_add(struct text *text, const char *bytes, size_t length);
 void text_add_word(struct text *text, const char *word);
 void text_format(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* True if the length bytes at text are this word. */
+static inline bool text_is(const char *text, size_t length, const char *word)
+{
+    return length > 0 && *text == *word && strlen(word) == length &&
+           memcmp(text, word, length) == 0;
+}
 
 /* The length of the UTF-8 sequence that begins at bytes, at most room bytes; 0 if there is none
  * (cut short, overlong, a surrogate, beyond U+10FFFF). */

@@ -1,5 +1,6 @@
 #include "recorded/sumo_types.h"
 
+#include "base/text.h"
 #include "text/field.h"
 #include "text/file_format.h"
 #include "text/input.h"
@@ -15,11 +16,6 @@ const struct recorded_word sumo_types_words[] = {
 enum { ID, CLASS, LENGTH, WIDTH, HEIGHT, ATTRIBUTES, MOST_BYTES = 1 << 30 };
 
 static const char *const attributes[] = {"id", "vClass", "length", "width", "height"};
-
-static bool is(const char *name, size_t length, const char *word)
-{
-    return strlen(word) == length && memcmp(name, word, length) == 0;
-}
 
 /* The end of a comment and the like that begins here, NULL if it has none; at itself where a tag
  * begins. */
@@ -47,7 +43,7 @@ static const char *read_tag(const char *at, const char **values, struct arena *a
         if (close == NULL)
             return NULL;
         for (size_t i = 0; values != NULL && i < ATTRIBUTES; i++)
-            if (is(at, length, attributes[i]))
+            if (text_is(at, length, attributes[i]))
                 values[i] = arena_text(arena, open + 1, (size_t)(close - open - 1));
         at = close + 1;
     }
@@ -82,10 +78,11 @@ static const char *take(struct recorded_classes *classes, const char *at, size_t
 {
     const char *values[ATTRIBUTES] = {NULL}, *name = at + 1, *end = skip(at);
     size_t length = strcspn(name, BLANKS "/>");
-    bool type = is(name, length, "vType");
+    bool type = text_is(name, length, "vType");
     if (*name == '/' && *depth > 0)
         --*depth;
-    if (end == at && *depth == 0 && !is(name, length, "routes") && !is(name, length, "additional"))
+    if (end == at && *depth == 0 && !text_is(name, length, "routes") &&
+        !text_is(name, length, "additional"))
         diag_fail(diag, DIAG_DATA,
                   "<routes> is missing; expected routes, or additional elements, of SUMO");
     else if (end == at &&

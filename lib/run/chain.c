@@ -306,7 +306,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     }
     frame_stream_close(&chain.input);
     arena_free(&chain.arena);
-    list_cache_free(&chain.list_cache);
+    arena_free(&chain.list_cache.arena);
     return code;
 }
 

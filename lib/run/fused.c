@@ -203,7 +203,8 @@ static int run_text(const char *name, const char *text, size_t length, bool time
 /* The file of that name, or else the installed pipeline. */
 static const char *find_script(const char *name, struct arena *arena, struct diag *diag)
 {
-    return access(name, F_OK) == 0 ? name : document_find("pipelines", name, ".sh", arena, diag);
+    return access(name, F_OK) == 0 ? name
+                                   : document_find(NULL, "pipelines", name, ".sh", arena, diag);
 }
 
 static int run_file(const char *name, bool timed, struct arena *arena)
@@ -335,7 +336,7 @@ static int add_files(const struct file_kind *kind, struct text *text, struct are
         return -1;
     for (size_t i = 0; i < list.names.count; i++) {
         const char *name = list.names.items[i];
-        const char *path = document_find(kind->name, name, kind->ending, arena, diag);
+        const char *path = document_find(NULL, kind->name, name, kind->ending, arena, diag);
         text_format(text, "%-22s ", name);
         if (path != NULL)
             kind->describe(name, path, text, arena);

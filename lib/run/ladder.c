@@ -185,7 +185,7 @@ static int run_pass(struct pass *pass)
     progress_end(&pass->ladder->progress);
     text_free(&pass->written);
     arena_free(&pass->arena);
-    list_cache_free(&pass->cache);
+    arena_free(&pass->cache.arena);
     return result;
 }
 

@@ -140,7 +140,7 @@ static int set_option(const struct field *field, void *base, const char *value, 
     if (field->kind != FIELD_REAL && field->kind != FIELD_INTEGER)
         result = field_set_text(field, base, value, strlen(value), arena, diag);
     else if (field_read_number(value, strlen(value), &number) != 0)
-        result = field_wrong_kind(field, value, diag);
+        result = field_refuse(field, value, diag);
     else
         result = field_set_number(field, base, number + 0, diag); /* -0 is 0 */
     if (result == 0)

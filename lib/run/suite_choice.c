@@ -4,6 +4,7 @@
 #include "frame/frame_check.h"
 #include "run/runner.h"
 #include "text/document.h"
+#include "text/path.h"
 
 static const struct field suite_choice_fields[] = {SUITE_CHOICE_AFTER_IDEAL, {0}};
 
@@ -47,8 +48,7 @@ static const struct suite *suite_at(struct runner *runner, const char *place,
                                     const struct frame *frame)
 {
     struct diag fault = {0};
-    const struct suite *suite =
-        document_is_regular(place) ? load_suite(runner, place, &fault) : NULL;
+    const struct suite *suite = path_is_special(place) ? NULL : load_suite(runner, place, &fault);
     if (fault.code == DIAG_MEMORY)
         runner->diag = fault;
     return is_suite_of(suite, frame) ? suite : NULL;

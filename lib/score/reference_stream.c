@@ -102,7 +102,7 @@ static int read_member(struct json_scan *scan, struct key *key)
         return -1;
     if (!json_scan_take(scan, ':'))
         return json_scan_unexpected(scan, "':'");
-    if (name.length == 5 && memcmp(name.text, "scene", 5) == 0) {
+    if (text_is(name.text, name.length, "scene")) {
         if (json_scan_peek(scan) != '"')
             return json_scan_unexpected(scan, "a scene's name");
         if (json_scan_string(scan, &text) != 0)
@@ -110,7 +110,7 @@ static int read_member(struct json_scan *scan, struct key *key)
         key->scene = arena_text(scan->arena, text.text, text.length);
         return 0;
     }
-    if (name.length == 5 && memcmp(name.text, "frame", 5) == 0) {
+    if (text_is(name.text, name.length, "frame")) {
         if (strchr("0123456789", json_scan_peek(scan)) == NULL)
             return json_scan_unexpected(scan, "a frame's number");
         return json_scan_number(scan, &key->frame);

@@ -16,6 +16,7 @@
 #include "text/file_format.h"
 #include "text/input.h"
 #include "text/json_scan.h"
+#include "text/path.h"
 #include "text/record_read.h"
 
 void document_guard_memory(void)
@@ -150,8 +151,8 @@ static void refuse_name(const char *kind, const char *name, const char *ending,
         append(diag, "; all are listed by glint --list ", kind);
 }
 
-static const char *find_in(const char *own, const char *kind, const char *name, const char *ending,
-                           struct arena *arena, struct diag *diag)
+const char *document_find(const char *own, const char *kind, const char *name, const char *ending,
+                          struct arena *arena, struct diag *diag)
 {
     struct folders folders;
     if (strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0)
@@ -167,18 +168,6 @@ static const char *find_in(const char *own, const char *kind, const char *name, 
     return NULL;
 }
 
-const char *document_find(const char *kind, const char *name, const char *ending,
-                          struct arena *arena, struct diag *diag)
-{
-    return find_in(NULL, kind, name, ending, arena, diag);
-}
-
-bool document_is_regular(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode);
-}
-
 const char *document_find_file(const char *own, const char *kind, const char *name,
                                const char *ending, struct arena *arena, struct diag *diag)
 {
@@ -187,8 +176,8 @@ const char *document_find_file(const char *own, const char *kind, const char *na
                   kind);
         return NULL;
     }
-    const char *path = find_in(own, kind, name, ending, arena, diag);
-    if (path == NULL || !document_is_plain(name) || document_is_regular(path))
+    const char *path = document_find(own, kind, name, ending, arena, diag);
+    if (path == NULL || !document_is_plain(name) || !path_is_special(path))
         return path;
     diag_fail(diag, DIAG_CONFIG, "%s: not a regular file", path);
     return NULL;
@@ -383,7 +372,7 @@ static const struct law *find_law(struct json_scan *scan)
         json_scan_string(scan, &key) != 0 || !json_scan_take(scan, ':'))
         return NULL;
     for (size_t i = 0; i < sizeof laws / sizeof laws[0]; i++)
-        if (strlen(laws[i].name) == key.length && memcmp(laws[i].name, key.text, key.length) == 0)
+        if (text_is(key.text, key.length, laws[i].name))
             return &laws[i];
     return NULL;
 }

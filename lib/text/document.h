@@ -20,15 +20,15 @@ void document_guard_memory(void);
  * it. */
 const char *document_own_folder(struct arena *arena);
 
-/* The path of a document by its name, in the arena; NULL after a message that lists the places
- * searched and the names that are there. ending is ".json", ".csv" for a table, or ".sh" for a
- * pipeline; pipelines lie beside data/ in a checkout, not in it. */
-const char *document_find(const char *kind, const char *name, const char *ending,
+/* The path of a document by its name, in the arena; NULL after a message that lists the folders
+ * searched and the names in them. own is a folder of the user that is searched first and holds
+ * documents of this kind alone, or NULL. ending is ".json", ".csv" for a table, or ".sh" for a
+ * pipeline; in a checkout the folder of pipelines lies beside data/, not in it. */
+const char *document_find(const char *own, const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag);
 
-/* The same, but own, if not NULL, is a folder of the user's that comes first and holds documents of
- * this kind alone. Refuses "-", and a plain name of what is no regular file: for programs whose
- * standard input is the stream of frames, and for names that frames give. */
+/* The same for programs that read frames from standard input, and for names that frames give:
+ * refuses "-", and a plain name whose file is neither a regular file nor a folder. */
 const char *document_find_file(const char *own, const char *kind, const char *name,
                                const char *ending, struct arena *arena, struct diag *diag);
 
@@ -51,10 +51,6 @@ static inline int document_check_plain(const char *name, struct diag *diag)
                ? 0
                : diag_fail(diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", name);
 }
-
-/* False for a pipe, a device and the like, which may never end. True for a file that is not there.
- */
-bool document_is_regular(const char *path);
 
 /* The names of a kind in all those places, each once, in the order of their bytes. */
 struct document_names {

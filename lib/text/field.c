@@ -27,16 +27,10 @@ const char *field_unit(const char *name)
     return "";
 }
 
-static bool is_word(const char *word, const char *text, size_t length)
-{
-    return length > 0 && word[0] == text[0] && strncmp(word, text, length) == 0 &&
-           word[length] == '\0';
-}
-
 const struct field *field_find(const struct record *record, const char *name, size_t length)
 {
     for (const struct field *field = record->fields; field->name != NULL; field++)
-        if (is_word(field->name, name, length))
+        if (text_is(name, length, field->name))
             return field;
     return NULL;
 }
@@ -99,7 +93,7 @@ int field_out_of_bounds(const struct field *field, double value, struct diag *di
 int field_set_number(const struct field *field, void *base, double value, struct diag *diag)
 {
     if (field->kind != FIELD_REAL && field->kind != FIELD_INTEGER)
-        return field_wrong_kind(field, "a number", diag);
+        return field_refuse(field, "a number", diag);
     if (!(value >= field->low && value <= field->high))
         return field_out_of_bounds(field, value, diag);
     if (field->kind == FIELD_REAL) {
@@ -212,7 +206,7 @@ int field_set_text(const struct field *field, void *base, const char *text, size
     case FIELD_SEED:
         return set_seed(field, base, text, length, diag);
     default:
-        return field_wrong_kind(field, "a string", diag);
+        return field_refuse(field, "a string", diag);
     }
 }
 
@@ -284,13 +278,6 @@ void field_mark_present(const struct record *record, const struct field *field, 
     memcpy((char *)base + record->present_offset, &present, sizeof present);
 }
 
-int field_missing(const struct field *field, struct diag *diag)
-{
-    char expected[512];
-    field_expectation(field, expected, sizeof expected);
-    return diag_fail(diag, DIAG_DATA, "%s: missing; expected %s", field->name, expected);
-}
-
 double field_number(const struct field *field, const void *base)
 {
     switch (field->kind) {
@@ -340,11 +327,11 @@ void field_expectation(const struct field *field, char *text, size_t size)
     }
 }
 
-int field_wrong_kind(const struct field *field, const char *kind, struct diag *diag)
+int field_refuse(const struct field *field, const char *found, struct diag *diag)
 {
     char expected[512];
     field_expectation(field, expected, sizeof expected);
-    return diag_fail(diag, DIAG_DATA, "%s: %s; expected %s", field->name, kind, expected);
+    return diag_fail(diag, DIAG_DATA, "%s: %s; expected %s", field->name, found, expected);
 }
 
 int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag)

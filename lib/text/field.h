@@ -178,15 +178,13 @@ int field_read_number(const char *text, size_t length, double *value);
 bool field_present(const struct record *record, const struct field *field, const void *base);
 void field_mark_present(const struct record *record, const struct field *field, void *base);
 
-/* Refuses a struct without this member with "name: missing; expected ...". */
-int field_missing(const struct field *field, struct diag *diag);
-
 /* The values that the field takes, for messages: "a number in [0, 1e+06] m", "one of a, b, c",
  * ... */
 void field_expectation(const struct field *field, char *text, size_t size);
 
-/* Refuses a value of the wrong JSON kind with "name: KIND; expected a number in ...". */
-int field_wrong_kind(const struct field *field, const char *kind, struct diag *diag);
+/* Refuses the value of a member with "name: FOUND; expected a number in ...", where found is the
+ * JSON kind that was found, or "missing". */
+int field_refuse(const struct field *field, const char *found, struct diag *diag);
 int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag);
 int field_twice(const struct field *field, struct diag *diag);
 int field_out_of_bounds(const struct field *field, double value, struct diag *diag);

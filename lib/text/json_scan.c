@@ -1,6 +1,6 @@
 #include "text/json_scan.h"
 
-#include <stdio.h>
+#include <stdlib.h>
 
 #include "base/number.h"
 #include "base/text.h"
@@ -29,27 +29,14 @@ static size_t utf8_write(uint32_t code, char *out)
     return length;
 }
 
-static int hex_digit(char character)
-{
-    return character >= '0' && character <= '9'   ? character - '0'
-           : character >= 'a' && character <= 'f' ? character - 'a' + 10
-           : character >= 'A' && character <= 'F' ? character - 'A' + 10
-                                                  : -1;
-}
-
 /* The number of four hexadecimal digits; -1 if they are not there. */
 static int32_t hex4(const char *at, const char *end)
 {
-    if (end - at < 4)
-        return -1;
-    int32_t code = 0;
-    for (int i = 0; i < 4; i++) {
-        int digit = hex_digit(at[i]);
-        if (digit < 0)
-            return -1;
-        code = code << 4 | digit;
-    }
-    return code;
+    char digits[] = "....";
+    if (end - at >= 4)
+        memcpy(digits, at, 4);
+    bool good = strspn(digits, "0123456789abcdefABCDEF") == 4;
+    return good ? (int32_t)strtol(digits, NULL, 16) : -1;
 }
 
 /* Decodes the escape after the backslash at *at and moves *at past it; returns the number of bytes,
@@ -145,39 +132,33 @@ int json_scan_string(struct json_scan *scan, struct json_string *string)
     return 0;
 }
 
-static const char *skip_digits(const char *at, const char *end)
+/* Moves *at past digits; returns how many there were. */
+static long skip_digits(const char **at, const char *end)
 {
-    while (at < end && *at >= '0' && *at <= '9')
-        at++;
-    return at;
+    const char *begin = *at;
+    while (*at < end && **at >= '0' && **at <= '9')
+        ++*at;
+    return *at - begin;
 }
 
 /* The end of the JSON number that begins at the cursor, or NULL. */
 static const char *number_end(const struct json_scan *scan)
 {
     const char *at = scan->at, *end = scan->end;
-    if (at < end && *at == '-')
-        at++;
-    const char *whole = at;
-    at = skip_digits(at, end);
-    if (at == whole || (*whole == '0' && at > whole + 1))
-        return NULL;
+    at += at < end && *at == '-';
+    bool zero = at < end && *at == '0';
+    long digits = skip_digits(&at, end);
+    bool good = digits == 1 || (digits > 1 && !zero);
     if (at < end && *at == '.') {
-        const char *fraction = ++at;
-        at = skip_digits(at, end);
-        if (at == fraction)
-            return NULL;
+        at++;
+        good = skip_digits(&at, end) > 0 && good;
     }
     if (at < end && (*at == 'e' || *at == 'E')) {
         at++;
-        if (at < end && (*at == '+' || *at == '-'))
-            at++;
-        const char *exponent = at;
-        at = skip_digits(at, end);
-        if (at == exponent)
-            return NULL;
+        at += at < end && (*at == '+' || *at == '-');
+        good = skip_digits(&at, end) > 0 && good;
     }
-    return at;
+    return good ? at : NULL;
 }
 
 static int scan_long_number(struct json_scan *scan, double *value)

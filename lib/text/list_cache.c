@@ -78,8 +78,3 @@ void list_cache_keep_written(struct list_cache *cache, struct list_cache_entry *
     if (cache->size < LIST_CACHE_SIZE)
         list->written = copy(cache, text, length);
 }
-
-void list_cache_free(struct list_cache *cache)
-{
-    arena_free(&cache->arena);
-}

@@ -22,7 +22,7 @@ struct list_cache_entry {
     struct list_cache_text written; /* text of the list in lines that are written */
 };
 
-/* A zeroed cache is empty. */
+/* A zeroed cache is empty. All its memory is its arena's. */
 struct list_cache {
     struct arena arena;
     LIST_OF(struct list_cache_entry) kept;
@@ -51,5 +51,3 @@ struct list_cache_entry *list_cache_of(struct list_cache *cache, const struct re
 /* Keeps the text that was written of a list, unless the cache has too much text already. */
 void list_cache_keep_written(struct list_cache *cache, struct list_cache_entry *list,
                              const char *text, size_t length);
-
-void list_cache_free(struct list_cache *cache);

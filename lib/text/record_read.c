@@ -30,7 +30,7 @@ static int refuse_value(struct json_scan *scan, const struct field *field)
 {
     char first = json_scan_peek(scan);
     if (first != '\0' && strchr("\"{[tfn-0123456789", first) != NULL)
-        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+        return field_refuse(field, json_scan_kind(scan), scan->diag);
     json_scan_unexpected(scan, "a value");
     return diag_prefix(scan->diag, "%s: ", field->name);
 }
@@ -366,7 +366,7 @@ static int read_record(struct reader *reader, const struct record *record, void 
             if (field->optional)
                 field_set_absent(field, base);
             else if (field->section == 0)
-                return field_missing(field, scan->diag);
+                return field_refuse(field, "missing", scan->diag);
         }
     return 0;
 }

@@ -369,7 +369,7 @@ int scenario_read(const char *name, struct scenario_document *document, struct a
                   struct diag *diag)
 {
     struct text bytes = {0};
-    document->path = document_find("scenarios", name, ".json", arena, diag);
+    document->path = document_find(NULL, "scenarios", name, ".json", arena, diag);
     document->line = NULL;
     if (document->path != NULL && document_bytes(document->path, &bytes, diag) == 0)
         document->line = document_line(document->path, &bytes, "scenario", arena, diag);

@@ -75,17 +75,19 @@ static void names_are_looked_up_in_the_data_folder_first(void **state)
     struct diag diag = {0};
     write_document(scratch, vehicle_text);
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
-    assert_string_equal(document_find("vehicles", "mine", ".json", &scratch->arena, &diag),
+    assert_string_equal(document_find(NULL, "vehicles", "mine", ".json", &scratch->arena, &diag),
                         scratch->path);
     /* A name that is not there is found in the places after it. */
-    assert_non_null(document_find("vehicles", "car", ".json", &scratch->arena, &diag));
+    assert_non_null(document_find(NULL, "vehicles", "car", ".json", &scratch->arena, &diag));
     /* A name that is in both is found in the first. */
     char car[128];
     snprintf(car, sizeof car, "%s/vehicles/car.json", scratch->directory);
     assert_int_equal(link(scratch->path, car), 0);
-    assert_string_equal(document_find("vehicles", "car", ".json", &scratch->arena, &diag), car);
+    assert_string_equal(document_find(NULL, "vehicles", "car", ".json", &scratch->arena, &diag),
+                        car);
     assert_int_equal(setenv("GLINT_DATA", "", 1), 0);
-    assert_string_not_equal(document_find("vehicles", "car", ".json", &scratch->arena, &diag), car);
+    assert_string_not_equal(document_find(NULL, "vehicles", "car", ".json", &scratch->arena, &diag),
+                            car);
     assert_int_equal(unlink(car), 0);
 }
 
@@ -95,8 +97,8 @@ static void a_name_with_a_slash_or_a_dot_is_a_path(void **state)
     static const char *const paths[] = {"./mine", "mine.json", "/a/b", "..", "a/b", "-", "x.y"};
     struct diag diag = {0};
     for (size_t i = 0; i < COUNT(paths); i++)
-        assert_string_equal(document_find("vehicles", paths[i], ".json", &scratch->arena, &diag),
-                            paths[i]);
+        assert_string_equal(
+            document_find(NULL, "vehicles", paths[i], ".json", &scratch->arena, &diag), paths[i]);
 }
 
 static void for_an_unknown_name_the_message_lists_the_places(void **state)
@@ -104,7 +106,7 @@ static void for_an_unknown_name_the_message_lists_the_places(void **state)
     struct scratch *scratch = *state;
     struct diag diag = {0};
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
-    assert_null(document_find("sensors", "nowhere", ".csv", &scratch->arena, &diag));
+    assert_null(document_find(NULL, "sensors", "nowhere", ".csv", &scratch->arena, &diag));
     char begin[160];
     int length =
         snprintf(begin, sizeof begin, "there is no sensors/nowhere.csv; looked in %s/sensors/, /",
@@ -136,7 +138,7 @@ static void folders_that_are_not_there_are_refused(void **state)
     struct document_names list;
     struct diag diag = {0};
     assert_int_equal(setenv("GLINT_DATA", scratch->path, 1), 0);
-    assert_null(document_find("vehicles", "car", ".json", &scratch->arena, &diag));
+    assert_null(document_find(NULL, "vehicles", "car", ".json", &scratch->arena, &diag));
     assert_non_null(strstr(diag.text, "GLINT_DATA: \""));
     assert_int_equal(diag.code, DIAG_CONFIG);
     assert_int_equal(document_list("vehicles", ".json", &list, &scratch->arena, &diag), -1);
@@ -147,7 +149,7 @@ static void a_name_that_is_nearly_right_is_guessed(void **state)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
-    assert_null(document_find("vehicles", "pedestrain", ".json", &scratch->arena, &diag));
+    assert_null(document_find(NULL, "vehicles", "pedestrain", ".json", &scratch->arena, &diag));
     static const char begin[] =
         "there is no vehicles/pedestrain.json (did you mean pedestrian?); looked in ";
     assert_memory_equal(diag.text, begin, sizeof begin - 1);

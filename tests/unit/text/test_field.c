@@ -346,7 +346,7 @@ static void a_missing_member_is_named_with_what_it_may_be(void **state)
                  {PART, "part: missing; expected an object"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         diag = (struct diag){0};
-        assert_int_equal(field_missing(&fields[cases[i].field], &diag), -1);
+        assert_int_equal(field_refuse(&fields[cases[i].field], "missing", &diag), -1);
         assert_string_equal(diag.text, cases[i].message);
     }
     diag = (struct diag){0};

@@ -53,7 +53,7 @@ static void the_same_text_is_the_same_list(void **state)
         assert_close(point->x, i % 2 ? 0.5 : 0.25, 0);
     }
     assert_int_equal(cache.kept.count, 2);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -72,7 +72,7 @@ static void a_faulty_list_is_refused_every_time(void **state)
                                        "1 to 1024");
     }
     assert_int_equal(cache.kept.count, 0);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -90,7 +90,7 @@ static void lists_that_do_not_repeat_are_kept_up_to_a_limit(void **state)
         assert_close(frame.reflectors.items[0].points.items[0].x, i * 0.001, 1e-9);
     }
     assert_int_equal(cache.kept.count, LIST_CACHE_MOST);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -118,7 +118,7 @@ static void long_lists_are_kept_up_to_a_limit_too(void **state)
     assert_true(cache.size >= LIST_CACHE_SIZE && cache.size < 2 * LIST_CACHE_SIZE);
     assert_true(cache.kept.count < 40);
     text_free(&points);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -138,7 +138,7 @@ static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
         if (i > 0)
             *list_add(&set->points, &arena) = (struct point_reflector){.name = "b"};
     }
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -181,7 +181,7 @@ static void the_text_of_a_documents_list_is_kept(void **state)
         assert_int_equal(cache.size, cache.kept.items[0].written.length);
     }
     text_free(&line);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
 }
 
 /* In the next frame the same address may hold another list. */
@@ -200,7 +200,7 @@ static void a_frames_own_list_is_written_every_time(void **state)
     }
     assert_int_equal(cache.kept.count, 0);
     text_free(&line);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
 }
 
 static void a_list_of_a_document_that_changed_is_written_anew(void **state)
@@ -218,7 +218,7 @@ static void a_list_of_a_document_that_changed_is_written_anew(void **state)
     write_set(&cache, &set, &line);
     assert_int_equal(cache.kept.count, 1);
     text_free(&line);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
 }
 
 static void a_list_that_was_read_is_written_in_canonical_form(void **state)
@@ -240,7 +240,7 @@ static void a_list_that_was_read_is_written_in_canonical_form(void **state)
     }
     assert_int_equal(cache.kept.count, 2);
     text_free(&line);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -263,7 +263,7 @@ static void a_list_that_was_only_written_is_found_in_no_line(void **state)
     assert_int_equal(frame.reflectors.items[0].points.count, 1);
     assert_string_equal(frame.reflectors.items[0].points.items[0].name, "b");
     text_free(&line);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -281,7 +281,7 @@ static void a_line_that_ends_within_a_kept_list_does_not_have_it(void **state)
     const char *end = points + strlen(points);
     assert_non_null(list_cache_find(&cache, record, points, end));
     assert_null(list_cache_find(&cache, record, points, end - 1));
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -299,7 +299,7 @@ static void the_text_of_points_is_no_list_of_planes(void **state)
     assert_int_equal(read_points(&frame, both, &diag), -1);
     static const char message[] = "reflectors[0].planes[0].x: unknown key";
     assert_memory_equal(diag.text, message, sizeof message - 1);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -327,7 +327,7 @@ static void a_list_that_fills_the_memory_is_written_every_time(void **state)
     assert_null(cache.kept.items[0].written.bytes);
     text_free(&points);
     text_free(&line);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
     arena_free(&arena);
 }
 
@@ -348,7 +348,7 @@ static void text_that_was_written_is_kept_up_to_a_limit(void **state)
     assert_true(cache.size >= LIST_CACHE_SIZE && cache.size < 2 * LIST_CACHE_SIZE);
     assert_true(cache.kept.count < DOCUMENTS);
     text_free(&line);
-    list_cache_free(&cache);
+    arena_free(&cache.arena);
 }
 
 int main(void)
