@@ -30,17 +30,18 @@ int frame_order_echo_ids(struct echo_id a, struct echo_id b)
     return compare_echo_ids(a, b);
 }
 
-static int compare_contributors(const void *left, const void *right)
+static int compare_by_echo_id(const void *left, const void *right)
 {
-    const struct contributor *a = left, *b = right;
-    return compare_echo_ids(a->id, b->id);
+    const struct echo_id *a = left, *b = right;
+    return compare_echo_ids(*a, *b);
 }
 
 _Static_assert(offsetof(struct class_document, class) == 0 &&
                    offsetof(struct reflector_set, model) == 0 &&
                    offsetof(struct sensor_view, name) == 0 &&
-                   offsetof(struct target, sensor) == 0 && offsetof(struct count, sensor) == 0,
-               "structs that are sorted by frame_order_names begin with a name");
+                   offsetof(struct target, sensor) == 0 && offsetof(struct count, sensor) == 0 &&
+                   offsetof(struct contributor, id) == 0 && offsetof(struct lost_echo, id) == 0,
+               "structs that are sorted by a name or an echo id begin with it");
 
 int frame_order_names(const void *left, const void *right)
 {
@@ -60,13 +61,7 @@ int frame_order_cells(const void *left, const void *right)
     int order = compare_names(a->sensor, b->sensor);
     return order != 0 || a->members.count == 0 || b->members.count == 0
                ? order
-               : compare_contributors(a->members.items, b->members.items);
-}
-
-static int compare_lost_echoes(const void *left, const void *right)
-{
-    const struct lost_echo *a = left, *b = right;
-    return compare_echo_ids(a->id, b->id);
+               : compare_by_echo_id(a->members.items, b->members.items);
 }
 
 int frame_order_lost_groups(const void *left, const void *right)
@@ -125,7 +120,7 @@ static void order_cells(struct frame *frame)
         struct cell *cell = &frame->cells.items[i];
         if (cell->members.count > 2)
             sort_items(cell->members.items + 1, cell->members.count - 1,
-                       sizeof *cell->members.items, compare_contributors, frame->arena);
+                       sizeof *cell->members.items, compare_by_echo_id, frame->arena);
     }
     sort_list(&frame->cells, frame_order_cells, frame->arena);
 }
@@ -136,7 +131,7 @@ static void order_lost(struct frame *frame, const char *stage)
     for (size_t i = 0; i < frame->lost.count; i++) {
         struct lost_group *group = &frame->lost.items[i];
         if (stage == NULL || frame_same_name(group->stage, stage))
-            sort_list(&group->echoes, compare_lost_echoes, frame->arena);
+            sort_list(&group->echoes, compare_by_echo_id, frame->arena);
     }
     frame->ordered.lost = frame->lost.count;
 }
@@ -186,5 +181,5 @@ int frame_order_tied(const struct contributor *a, const struct contributor *b)
         return a->range_rate_mps < b->range_rate_mps ? -1 : 1;
     if (a->azimuth_rad != b->azimuth_rad)
         return a->azimuth_rad < b->azimuth_rad ? -1 : 1;
-    return compare_contributors(a, b);
+    return compare_echo_ids(a->id, b->id);
 }

@@ -1,7 +1,6 @@
 #include "frame/frame_sequence.h"
 
 #include <inttypes.h>
-#include <stdio.h>
 
 /* Two numbers that tell one thing from another, without padding. */
 struct pair {
@@ -20,23 +19,23 @@ static uint32_t scene_of(struct frame_sequence *sequence, const struct frame *fr
     return number;
 }
 
-static int refuse(const struct frame *frame, const char *why, struct diag *diag)
+/* Puts the frame's number and scene in front of a message about it. */
+static int refuse(const struct frame *frame, struct diag *diag)
 {
-    return diag_fail(diag, DIAG_DATA, "frame: %" PRId64 " of scene \"%s\" with seed %" PRIu64 " %s",
-                     frame->frame, frame->scene, frame->seed, why);
+    return diag_prefix(diag, "frame: %" PRId64 " of scene \"%s\" with seed %" PRIu64 " ",
+                       frame->frame, frame->scene, frame->seed);
 }
 
 /* Notes a frame of a scene, which must come behind the scene's latest one. */
 static int ascend(struct scene_progress *scene, const struct frame *frame, struct diag *diag)
 {
-    if (frame->frame <= scene->frame)
-        return diag_fail(diag, DIAG_DATA,
-                         "frame: %" PRId64 " of scene \"%s\" with seed %" PRIu64
-                         " comes behind frame %" PRId64 "; that scene began at %s:%zu",
-                         frame->frame, frame->scene, frame->seed, scene->frame, scene->begin.file,
-                         scene->begin.line);
-    scene->frame = frame->frame;
-    return 0;
+    if (frame->frame > scene->frame) {
+        scene->frame = frame->frame;
+        return 0;
+    }
+    diag_fail(diag, DIAG_DATA, "comes behind frame %" PRId64 "; that scene began at %s:%zu",
+              scene->frame, scene->begin.file, scene->begin.line);
+    return refuse(frame, diag);
 }
 
 int frame_sequence_ascend(struct frame_sequence *sequence, const struct frame *frame,
@@ -51,13 +50,13 @@ int frame_sequence_follow(struct frame_sequence *sequence, const struct frame *f
 {
     uint32_t number = scene_of(sequence, frame, place, arena);
     struct scene_progress *scene = &sequence->scenes.items[number];
-    if (frame->frame > scene->frame && scene->closed)
-        return refuse(frame, "comes after its last one", diag);
-    if (frame->frame > scene->frame + 1) {
-        char why[80];
-        snprintf(why, sizeof why, "is out of order; expected %" PRId64, scene->frame + 1);
-        return refuse(frame, why, diag);
-    }
+    bool closed = frame->frame > scene->frame && scene->closed;
+    if (closed)
+        diag_fail(diag, DIAG_DATA, "comes after its last one");
+    else if (frame->frame > scene->frame + 1)
+        diag_fail(diag, DIAG_DATA, "is out of order; expected %" PRId64, scene->frame + 1);
+    if (closed || frame->frame > scene->frame + 1)
+        return refuse(frame, diag);
     scene->closed = frame->last;
     return ascend(scene, frame, diag);
 }
@@ -72,10 +71,8 @@ int frame_sequence_once(struct frame_sequence *sequence, const struct frame *fra
         return 0;
     }
     struct frame_place first = sequence->places.items[number];
-    return diag_fail(diag, DIAG_DATA,
-                     "frame: %" PRId64 " of scene \"%s\" with seed %" PRIu64
-                     " stands at %s:%zu already",
-                     frame->frame, frame->scene, frame->seed, first.file, first.line);
+    diag_fail(diag, DIAG_DATA, "stands at %s:%zu already", first.file, first.line);
+    return refuse(frame, diag);
 }
 
 int frame_sequence_one_seed(const struct frame_sequence *sequence, struct diag *diag)
