@@ -198,7 +198,6 @@ void suite_derive(struct sensor *sensor)
     sensor->threshold = units_amplitude_from_db(sensor->threshold_db);
     sensor->antenna.pattern = sensor->antenna_pattern;
     sensor->antenna.phase = sensor->phase_reference;
-    sensor->amplitude_law.law = sensor->amplitude_table != NULL ? RADAR_TABLE : RADAR_POWER_LAW;
     sensor->amplitude_law.exponent = sensor->exponent;
     sensor->amplitude_law.calibration_ercs = sensor->calibration_ercs;
     sensor->amplitude_law.calibration_range_m = sensor->calibration_range_m;

@@ -4,22 +4,17 @@
 #include "text/record_read.h"
 #include "text/record_write.h"
 
-/* Bounds of members. No scene reaches beyond 1e7 m and no radar beyond 1e6 m; reported values, with
- * noise and rounding, may be ten times the exact ones. A scan may show the world earlier than its
- * frame. */
+/* Bounds of members. No scene reaches beyond 1e7 m and no radar beyond 1e6 m. Reported values, with
+ * noise and rounding, may be ten times the exact ones. A scan's time may be before its frame's. */
 #define PLACE(owner, member, help) FIELD_REAL_IN(owner, member, -1e7, 1e7, help)
 #define ANGLE(owner, member, help) FIELD_REAL_IN(owner, member, -1e6, 1e6, help)
 #define SPEED(owner, member, help) FIELD_REAL_IN(owner, member, -1e4, 1e4, help)
 #define SIZE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e6, help)
 #define AMPLITUDE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e308, help)
 #define POINTER(owner, member, help) FIELD_REAL_IN(owner, member, -1e308, 1e308, help)
-#define INSTANT(owner, member, help) FIELD_REAL_IN(owner, member, -1e10, 1e10, help)
-#define SCAN_INSTANT(owner, member, help) FIELD_REAL_IN(owner, member, -1e11, 1e11, help)
 #define RANGE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e6, help)
 #define AZIMUTH(owner, member, help) FIELD_REAL_IN(owner, member, -PI, PI, help)
 #define RATE(owner, member, help) FIELD_REAL_IN(owner, member, -1e5, 1e5, help)
-#define REPORTED_RANGE(owner, member) FIELD_REAL_IN(owner, member, 0, 1e7, "as reported")
-#define REPORTED_RATE(owner, member) FIELD_REAL_IN(owner, member, -1e6, 1e6, "as reported")
 #define NAME(owner, member, help) FIELD_NAME_OF(owner, member, help)
 #define UNDECIDED(owner)                                                                           \
     OPTIONAL_FLAG(owner, sign_undecided,                                                           \
@@ -47,7 +42,7 @@
         {RATE(owner, range_rate_mps, "positive when receding, exact")},                            \
         {AMPLITUDE(owner, ercs, "equivalent radar cross section in this direction")},              \
     {                                                                                              \
-        SCAN_INSTANT(owner, time_s, "instant of the measurement")                                  \
+        FIELD_REAL_IN(owner, time_s, -1e11, 1e11, "instant of the measurement")                    \
     }
 
 static const struct field object_fields[] = {
@@ -215,9 +210,9 @@ const struct record quality_record = {
 
 static const struct field target_fields[] = {
     {NAME(struct target, sensor, "name in the suite")},
-    {REPORTED_RANGE(struct target, range_m)},
+    {FIELD_REAL_IN(struct target, range_m, 0, 1e7, "as reported")},
     {AZIMUTH(struct target, azimuth_rad, "as reported")},
-    {REPORTED_RATE(struct target, range_rate_mps)},
+    {FIELD_REAL_IN(struct target, range_rate_mps, -1e6, 1e6, "as reported")},
     {FIELD_REAL_IN(struct target, amplitude_db, -1e4, 1e4, "as reported, 20 log10")},
     {UNDECIDED(struct target)},
     {RANGE(struct target, cell_range_m, "of the cell, without noise")},
@@ -295,7 +290,8 @@ static const struct field frame_fields[] = {
                       "version of this schema")},
     {NAME(struct frame, scene, "unique in a set: source, ego, variant")},
     {FIELD_INTEGER_IN(struct frame, frame, 0, 9007199254740991, "number in the scene, from 0")},
-    {INSTANT(struct frame, time_s, "end of the interval that the frame stands for")},
+    {FIELD_REAL_IN(struct frame, time_s, -1e10, 1e10,
+                   "end of the interval that the frame stands for")},
     {FIELD_REAL_IN(struct frame, interval_s, 1e-9, 1e6,
                    "the frame stands for (time_s - interval_s, time_s]")},
     {OPTIONAL_FLAG(struct frame, last, "is this the scene's last frame?")},

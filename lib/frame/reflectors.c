@@ -216,12 +216,17 @@ const char *reflectors_name_twice(const struct reflector_set *set, struct arena 
     return name_of_post(set);
 }
 
-/* The share of the box that also holds the place (x, y). */
-static double farthest(double least, double x, double y)
+/* Raises the share of the box to one that also holds the place (x, y). */
+static void include(struct reflectors_shape *shape, double x, double y)
 {
-    double far = 2 * (fabs(x) > fabs(y) ? fabs(x) : fabs(y));
-    return far > least ? far : least;
+    shape->share = elementary_max(shape->share, 2 * elementary_max(fabs(x), fabs(y)));
 }
+
+#define INCLUDE_ENDS(shape, list)                                                                  \
+    for (size_t i = 0; i < (list)->count; i++) {                                                   \
+        include((shape), (list)->items[i].from_x, (list)->items[i].from_y);                        \
+        include((shape), (list)->items[i].to_x, (list)->items[i].to_y);                            \
+    }
 
 size_t reflectors_unclear_mirror(const struct reflector_set *set)
 {
@@ -245,25 +250,13 @@ const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
         const struct point_reflector *point = &set->points.items[i];
         shape->faces[i] = (struct reflectors_face){vec2_heading(point->facing_rad),
                                                    directivity_dark_cosine(point->zero_rad)};
-        shape->share = farthest(shape->share, point->x, point->y);
+        include(shape, point->x, point->y);
         shape->inset_m = elementary_max(shape->inset_m, point->inset_m);
         shape->under |= point->under_vehicles > 0;
     }
-    for (size_t i = 0; i < set->planes.count; i++) {
-        const struct plane_reflector *plane = &set->planes.items[i];
-        shape->share = farthest(shape->share, plane->from_x, plane->from_y);
-        shape->share = farthest(shape->share, plane->to_x, plane->to_y);
-    }
-    for (size_t i = 0; i < set->rows.count; i++) {
-        const struct post_row *row = &set->rows.items[i];
-        shape->share = farthest(shape->share, row->from_x, row->from_y);
-        shape->share = farthest(shape->share, row->to_x, row->to_y);
-    }
-    for (size_t i = 0; i < set->mirrors.count; i++) {
-        const struct mirror_plane *mirror = &set->mirrors.items[i];
-        shape->share = farthest(shape->share, mirror->from_x, mirror->from_y);
-        shape->share = farthest(shape->share, mirror->to_x, mirror->to_y);
-    }
+    INCLUDE_ENDS(shape, &set->planes)
+    INCLUDE_ENDS(shape, &set->rows)
+    INCLUDE_ENDS(shape, &set->mirrors)
     return shape;
 }
 

@@ -20,7 +20,7 @@ static double table_amplitude(const struct radar_equation *equation, double rang
 double radar_reference_amplitude(const struct radar_equation *equation, double range_m)
 {
     double counted_m = elementary_max(range_m, equation->range_floor_m);
-    if (equation->law == RADAR_TABLE)
+    if (equation->rows != NULL)
         return table_amplitude(equation, counted_m);
     return equation->threshold / equation->calibration_ercs *
            elementary_pow(equation->calibration_range_m / counted_m, equation->exponent);
@@ -55,7 +55,7 @@ double radar_amplitude(const struct radar_equation *equation, const struct anten
 
 double radar_detection_range_m(const struct radar_equation *equation, double gain, double ercs)
 {
-    if (equation->law == RADAR_TABLE)
+    if (equation->rows != NULL)
         return table_range_m(equation, equation->threshold / (gain * ercs));
     return equation->calibration_range_m *
            elementary_pow(ercs * gain / equation->calibration_ercs, 1 / equation->exponent);

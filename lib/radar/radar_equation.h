@@ -7,21 +7,18 @@
 
 #include "radar/antenna.h"
 
-enum radar_law { RADAR_POWER_LAW, RADAR_TABLE };
-
 struct radar_row {
     double range_m;   /* > 0, ascending */
     double amplitude; /* > 0 */
 };
 
 struct radar_equation {
-    enum radar_law law;
     double exponent;
     double calibration_ercs;
     double calibration_range_m;
     double range_floor_m;         /* > 0; shorter ranges count as this one */
     double threshold;             /* linear amplitude */
-    const struct radar_row *rows; /* of RADAR_TABLE */
+    const struct radar_row *rows; /* of the table; NULL: the power law holds */
     size_t row_count;
 };
 

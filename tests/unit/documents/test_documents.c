@@ -169,7 +169,7 @@ static void tables_are_found_beside_the_document_and_read(void **state)
         fail_msg("%s", diag.text);
     const struct sensor *sensor = suite_sensor(suite, "a");
     assert_null(suite_sensor(suite, "b"));
-    assert_int_equal(sensor->amplitude_law.law, RADAR_TABLE);
+    assert_non_null(sensor->amplitude_law.rows);
     /* Straight in the logarithms of both: at sqrt(10 20) m the amplitude is sqrt(8 2). */
     assert_near(radar_reference_amplitude(&sensor->amplitude_law, sqrt(200)), 4.0, 1e-12);
     assert_close(antenna_gain(&sensor->antenna, 0.5), 0.75, 1e-12);

@@ -12,8 +12,7 @@ static const struct radar_row ROWS[] = {{1, 1000}, {2, 300}, {5, 100}, {20, 5}};
 
 static struct radar_equation paper_law(void)
 {
-    return (struct radar_equation){.law = RADAR_POWER_LAW,
-                                   .exponent = 2,
+    return (struct radar_equation){.exponent = 2,
                                    .calibration_ercs = 0.8,
                                    .calibration_range_m = 30,
                                    .range_floor_m = 0.5,
@@ -22,8 +21,7 @@ static struct radar_equation paper_law(void)
 
 static struct radar_equation table_law(void)
 {
-    return (struct radar_equation){.law = RADAR_TABLE,
-                                   .range_floor_m = 0.5,
+    return (struct radar_equation){.range_floor_m = 0.5,
                                    .threshold = units_amplitude_from_db(6),
                                    .rows = ROWS,
                                    .row_count = sizeof ROWS / sizeof ROWS[0]};
