@@ -1,17 +1,16 @@
 /* Effects: their names, and which of them a run simulates.
  *
- * An effect is a part of the physics that can be on or off. It has a home, the stage that simulates
- * it, and a cause, the member of a document that describes it: without its cause there is no
- * effect. The member `effects` of a suite, or the option --effects of glint-ideal, selects effects:
+ * An effect is a part of the physics that can be on or off. One stage simulates it, its home. One
+ * or more members of documents describe it, its cause: without the cause there is no effect. The
+ * member `effects` of a suite, or the option --effects of glint-ideal, selects effects:
  *
- *     auto                 (default) leave out what provably changes no bit of targets and lost
+ *     auto                 (default) leave out effects that change no bit of targets and lost
  *     all                  simulate every effect that a document describes
- *     none                 none of them
+ *     none                 simulate no effect
  *     occlusion,merging    these and no others
  *     all,-occlusion       a word, then changes to it; -occlusion alone changes auto
  *
- * A stage obeys the selection where it simulates an effect, and tests whether a scene calls for the
- * effect only under auto:
+ * Only under auto a stage tests whether a scene calls for an effect:
  *
  *     bool merge = effects_forced(selection, EFFECT_MERGING) ||
  *                  (effects_enabled(selection, EFFECT_MERGING) && some_echoes_are_close);
@@ -35,11 +34,11 @@ _Static_assert(EFFECT_COUNT < 64, "a set of effects is a uint64_t with a bit for
 
 extern const char *const effects_names[]; /* NULL-terminated */
 
-/* What --explain and glint-plan report: in how many scans of a sensor each effect was simulated or
- * left out, and the time that it took. */
+/* Report of --explain and glint-plan: the scans of a sensor in which each effect was simulated or
+ * left out, and the time of its simulation. */
 struct effect_log {
     int64_t scans;
-    uint64_t simulated, left_out; /* sets of effects: in the scan at hand, so far */
+    uint64_t simulated, left_out; /* sets of effects, of the scan that is not yet counted */
     int64_t scans_simulated[EFFECT_COUNT], scans_left_out[EFFECT_COUNT];
     int64_t spent_ns[EFFECT_COUNT];
     int64_t (*clock_ns)(void);
@@ -47,12 +46,11 @@ struct effect_log {
 
 struct selection {
     uint64_t allowed;       /* the set of effects that may be simulated */
-    bool automatic;         /* auto: may effects be left out where they change nothing? */
-    struct effect_log *log; /* NULL: none is kept */
+    bool automatic;         /* effects may be left out where they change nothing */
+    struct effect_log *log; /* or NULL */
 };
 
-/* Reads the text of --effects. An unknown word is refused with what is known. The log stays NULL.
- */
+/* Reads the text of --effects. Refuses an unknown word (DIAG_CONFIG). The log is NULL. */
 int effects_read(const char *text, struct selection *selection, struct diag *diag);
 
 /* May the effect be simulated? */
@@ -67,8 +65,8 @@ static inline bool effects_forced(const struct selection *selection, enum effect
     return effects_enabled(selection, effect) && !selection->automatic;
 }
 
-/* Notes in the log that the effect was simulated or left out in a part of the scan at hand. An
- * effect that is not enabled counts as left out. */
+/* Notes in the log that the effect was simulated or left out in a part of the scan. An effect that
+ * is not enabled counts as left out. */
 static inline void effects_note(const struct selection *selection, enum effect_id effect,
                                 bool simulated)
 {
@@ -77,7 +75,7 @@ static inline void effects_note(const struct selection *selection, enum effect_i
         *(simulated ? &selection->log->simulated : &selection->log->left_out) |= EFFECT_BIT(effect);
 }
 
-/* The log's clock, 0 without a log: read before an effect is simulated. */
+/* The time before an effect is simulated, by the log's clock; 0 without a log. */
 static inline int64_t effects_clock_ns(const struct selection *selection)
 {
     return selection->log != NULL ? selection->log->clock_ns() : 0;
@@ -91,6 +89,6 @@ static inline void effects_count_time(const struct selection *selection, enum ef
         selection->log->spent_ns[effect] += selection->log->clock_ns() - start_ns;
 }
 
-/* Ends a scan in the log. An effect that was simulated for one object and left out for another
- * counts as simulated in the scan. */
+/* Counts the scan in the log. An effect that was simulated in a part of the scan counts as
+ * simulated. */
 void effects_count_scan(const struct selection *selection);

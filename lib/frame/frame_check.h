@@ -1,6 +1,6 @@
 /* Consistency of a frame's sections, and its account.
  *
- * Tables hold single members to their bounds; this holds sections to each other. */
+ * The tables of fields check each member; this module checks members against each other. */
 #pragma once
 
 #include "frame/frame.h"
@@ -11,26 +11,24 @@
  * listed sensors; cells must have members and targets contributors. Fails with DIAG_DATA. */
 int frame_check(struct frame *frame, struct diag *diag);
 
-/* Checks a part of a frame as a reader of its line would: its members against their bounds, and
- * then as frame_check. */
+/* Checks a part of a frame: its members against their bounds, then as frame_check. */
 int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag);
 
 /* Checks the members of an object against their bounds, and that its class is no path. Fails with
  * DIAG_DATA. */
 int frame_check_object(const struct object *object, struct diag *diag);
 
-/* For a written frame that fails frame_check_part because extreme values were read: names the
- * object of the first entry whose own values are out of bounds (DIAG_DATA). 0 if there is none. */
+/* For a frame that fails frame_check_part after a stage because of extreme input: names the object
+ * of the first entry with a value out of bounds (DIAG_DATA); 0 if there is none. */
 int frame_check_extremes(const struct frame *frame, struct diag *diag);
 
-/* For frames that keep account and have targets, cells or echoes: checks that every echo is still
- * there or lost. Every pair of a sensor that measured and a reflector must have exactly one direct
- * entry, in a target's label or in lost; every echo of another path that was made must have one
- * too. Before there are targets, cells or echoes stand for them. The check knows how many entries
- * each path is due, not which: a missing entry together with an invented one would pass.
+/* Checks the account of a frame with targets, cells or echoes: every echo is in a target or lost.
+ * Every pair of a sensor that measured and a reflector must have exactly one direct entry, in a
+ * target's label or in lost, and every other echo that was made must have one too. In a frame
+ * without targets, its cells or echoes take their place. The check compares numbers of entries for
+ * each sensor and path: a missing entry and an invented one cancel.
  *
  * Fails with DIAG_DATA, and names the first echo that has two entries or the first sensor with a
- * wrong number of entries: an account that does not add up was in most cases wrong when it was
- * read. Frames that carry an account (sections.h) are checked after the stage that writes targets,
- * and by sinks and tools that read them from another process. */
+ * wrong number of entries. The runner checks frames that carry an account (sections.h) after the
+ * stage that writes targets; sinks and tools check frames that they read. */
 int frame_check_account(const struct frame *frame, struct diag *diag);

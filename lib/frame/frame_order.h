@@ -1,14 +1,13 @@
 /* Canonical order of a frame's sections, and its total orders.
  *
- * Stages see every section in canonical order, so that no result depends on the order in which a
- * source lists things. */
+ * Every section that a stage reads is in canonical order, so that no result depends on the order in
+ * a source. */
 #pragma once
 
 #include "frame/frame.h"
 
-/* Brings all sections into canonical order: ascending by ids, names and paths, with a cell's leader
- * before its other members. Objects stay as they are. Targets are grouped by sensor and keep the
- * order of their sensor's list. */
+/* Brings all sections into canonical order, ascending by ids, names and paths, with a cell's leader
+ * before its other members. Objects stay as they are. Targets are sorted by sensor alone. */
 void frame_order(struct frame *frame);
 
 /* The same for a part of the frame. */

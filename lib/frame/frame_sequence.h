@@ -1,9 +1,8 @@
 /* Order and completeness of scenes in a stream of frames.
  *
- * A scene is told by its name and its seed. With --complete the frames of each scene must ascend
- * from 0 without a gap and end with its last frame; sinks that match frames ask less. Scenes may
- * interleave. Every scene is remembered to the end of the stream, as a scene must not come back
- * after its last frame: about 350 bytes for each. */
+ * A scene is known by its name and its seed. With --complete the frames of each scene must ascend
+ * from 0 without a gap and end with its last frame. Scenes may interleave. A scene must not come
+ * back after its last frame, so that every scene takes about 350 bytes to the end of the stream. */
 #pragma once
 
 #include "base/intern.h"
@@ -31,10 +30,10 @@ struct frame_sequence {
     LIST_OF(struct frame_place) places;    /* by the number of the frame */
 };
 
-/* Notes a frame. Fails with DIAG_DATA if it is not the next of its scene; ascend allows gaps, and
- * once any order, but no frame twice, for some hundred bytes a frame. A message about a frame that
- * comes again names both places: the caller puts the frame's own in front. What is kept lies in the
- * arena. */
+/* Notes a frame, in memory of the arena. Fails with DIAG_DATA if it is not the next of its scene
+ * (follow), not behind the latest (ascend), or there already (once, which takes some hundred bytes
+ * a frame). The message names the place of the earlier frame; the caller puts the frame's own in
+ * front. */
 int frame_sequence_follow(struct frame_sequence *sequence, const struct frame *frame,
                           struct frame_place place, struct arena *arena, struct diag *diag);
 int frame_sequence_ascend(struct frame_sequence *sequence, const struct frame *frame,
@@ -45,6 +44,5 @@ int frame_sequence_once(struct frame_sequence *sequence, const struct frame *fra
 /* Fails with DIAG_DATA if scenes of one name came with two seeds. */
 int frame_sequence_one_seed(const struct frame_sequence *sequence, struct diag *diag);
 
-/* Fails with DIAG_DATA if a scene lacks its last frame, or if there was no frame at all, as a
- * source that fails leaves none. */
+/* Fails with DIAG_DATA if a scene lacks its last frame, or if there was no frame at all. */
 int frame_sequence_end(const struct frame_sequence *sequence, struct diag *diag);

@@ -8,8 +8,8 @@ const char *const sections_names[] = {"objects", "reflectors", "echoes",     "ce
 
 enum { CARRY_ALL = (CARRY_VISIBILITY << 1) - 1 };
 
-/* Of each word, in the order of enum carried: the section of that name, the sections that tell that
- * the last stage has run which takes the word, and this stage. */
+/* For each word, in the order of enum carried: the section of that name, the last stage that takes
+ * the word, and sections that are present once this stage has run. */
 static const struct {
     unsigned own, after;
     const char *stage;
@@ -42,7 +42,6 @@ static int read_every(const char *text, size_t length, struct sections_change *c
     return 0;
 }
 
-/* Adds a section to the change, or removes it; it stands in the other set no longer. */
 static int read_word(const char *text, size_t length, struct sections_change *change,
                      struct diag *diag)
 {
