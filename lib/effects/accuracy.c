@@ -4,11 +4,6 @@
 
 #include "radar/interferer.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->sensor->sigma_law != SIGMA_FIXED;
-}
-
 static bool set_sigmas(const struct effect_scan *scan, struct effect_measurement *measurement)
 {
     const struct sensor *sensor = scan->sensor;
@@ -26,6 +21,6 @@ const struct effect effect_accuracy = {
     .left_out_when = "the sensor's sigma_law is fixed",
     .cost = "a division per cell",
     .home = EFFECT_HOME_NOISE,
-    .described = described,
+    .members = {{EFFECT_SENSOR(sigma_law)}},
     .measure[EFFECT_STEP_SIGMA] = set_sigmas,
 };

@@ -3,11 +3,6 @@
 
 #include "radar/folding.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->sensor->unambiguous_range_m > 0 || scan->sensor->unambiguous_rate_mps > 0;
-}
-
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
 {
     const struct sensor *sensor = scan->sensor;
@@ -25,6 +20,6 @@ const struct effect effect_ambiguity = {
     .left_out_when = "the sensor has neither unambiguous_range_m nor unambiguous_rate_mps",
     .cost = "two remainders per echo",
     .home = EFFECT_HOME_SENSOR,
-    .described = described,
+    .members = {{EFFECT_SENSOR(unambiguous_range_m)}, {EFFECT_SENSOR(unambiguous_rate_mps)}},
     .receive = receive,
 };

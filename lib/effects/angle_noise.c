@@ -5,11 +5,6 @@
 #include "base/units.h"
 #include "radar/interferer.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->sensor->pointer_sigma > 0 || scan->sensor->azimuth_floor_rad > 0;
-}
-
 /* Equation (8): sum and delta channel get independent complex noise of the same RMS, pointer_sigma,
  * which other radars raise. */
 static bool add_noise_to_pointers(const struct effect_scan *scan,
@@ -43,7 +38,7 @@ const struct effect effect_angle_noise = {
     .left_out_when = "the sensor's pointer_sigma and azimuth_floor_rad are 0",
     .cost = "four draws and an angle per cell, and two draws for the floor",
     .home = EFFECT_HOME_NOISE,
-    .described = described,
+    .members = {{EFFECT_SENSOR(pointer_sigma)}, {EFFECT_SENSOR(azimuth_floor_rad)}},
     .measure[EFFECT_STEP_POINTERS] = add_noise_to_pointers,
     .measure[EFFECT_STEP_NOISE] = add_floor,
 };

@@ -5,11 +5,6 @@
 #include "base/units.h"
 #include "propagation/carrier.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->sensor->cell_phase != CELL_IN_PHASE;
-}
-
 /* A random phase is drawn anew in each frame. A phase by path is that of the way there and back,
  * plus one of the reflector that is drawn once for all frames. */
 static double phase_rad(const struct effect_scan *scan, const struct echo *echo)
@@ -38,6 +33,6 @@ const struct effect effect_coherence = {
     .left_out_when = "the sensor's cell_phase is in_phase",
     .cost = "a sine and a cosine per echo",
     .home = EFFECT_HOME_SENSOR,
-    .described = described,
+    .members = {{EFFECT_SENSOR(cell_phase)}},
     .receive = receive,
 };

@@ -55,6 +55,18 @@ static double shown_instant_s(const struct frame *frame, const struct sensor *se
     return instant_s - (effects_enabled(selection, EFFECT_LATENCY) ? sensor->latency_s : 0);
 }
 
+static bool is_described(const struct effect *effect, const struct effect_scan *scan)
+{
+    static const char zeros[sizeof(double)];
+    for (const struct effect_member *member = effect->members; member->size > 0; member++) {
+        const void *owner =
+            member->of_conditions ? (const void *)&scan->frame->conditions : scan->sensor;
+        if (memcmp((const char *)owner + member->offset, zeros, member->size) != 0)
+            return true;
+    }
+    return effect->described != NULL && effect->described(scan);
+}
+
 struct effect_scan effect_begin(const struct frame *frame, const struct sensor *sensor,
                                 const struct selection *selection, enum effect_home home)
 {
@@ -68,9 +80,9 @@ struct effect_scan effect_begin(const struct frame *frame, const struct sensor *
         scan.echoes = frame_echoes_of(frame, sensor->name);
     for (enum effect_id id = 0; id < EFFECT_COUNT; id++) {
         const struct effect *effect = effect_table[id];
-        if (effect->home != home || effect->described == NULL)
+        if (effect->home != home || !effect_has_cause(effect))
             continue;
-        bool simulated = effects_enabled(selection, id) && effect->described(&scan);
+        bool simulated = effects_enabled(selection, id) && is_described(effect, &scan);
         effects_note(selection, id, simulated);
         if (simulated)
             add_effect(&scan, id);

@@ -5,9 +5,9 @@
  *
  * An effect's home is the stage that simulates it. The home begins every scan of a sensor with
  * effect_begin and then calls the hooks of the effects that the scan simulates, in the order of the
- * chain. A scan simulates an effect if the selection allows it and its hook `described` finds its
- * cause. An effect without that hook is geometry or a decision (occlusion, merging): modules of its
- * home simulate and note it, and its file has its texts and names the module.
+ * chain. A scan simulates an effect if the selection allows it and the documents describe its
+ * cause. An effect without a described cause is geometry or a decision (occlusion, merging):
+ * modules of its home simulate and note it, and its file has its texts and names the module.
  *
  * Hooks read the frame, the documents and the values that are passed to them, draw random numbers
  * by address (base/random.h) and take memory from the frame's arena. */
@@ -76,6 +76,16 @@ struct effect_measurement {
     struct margins margins;
 };
 
+/* A number, choice or flag of the sensor, or of the scene's conditions. */
+struct effect_member {
+    size_t offset, size;
+    bool of_conditions;
+};
+
+#define EFFECT_MEMBER(owner, member) offsetof(owner, member), sizeof(((owner *)0)->member)
+#define EFFECT_SENSOR(member) EFFECT_MEMBER(struct sensor, member), false
+#define EFFECT_CONDITION(member) EFFECT_MEMBER(struct conditions, member), true
+
 struct effect {
     /* Texts for people, all without a period. */
     const char *summary;       /* a sentence: "rain attenuates echoes" */
@@ -85,7 +95,9 @@ struct effect {
 
     enum effect_home home;
 
-    /* Is its cause described for this scan? */
+    /* The documents describe the effect for a scan if a bit of these members, at most 3, is set, or
+     * if `described` returns true. */
+    struct effect_member members[4];
     bool (*described)(const struct effect_scan *scan);
     /* Sets constants, which the hook receive finds in reception->constants. */
     void (*begin)(const struct effect_scan *scan, double *constants);
@@ -105,12 +117,18 @@ struct effect {
 extern const struct effect *const effect_table[EFFECT_COUNT];
 extern const char *const effect_homes[]; /* names of stages, by enum effect_home */
 
-/* Begins a scan at a home. Notes in the selection's log, for each effect of this home that has the
- * hook `described`, whether the scan simulates it. */
+/* Does the effect have members or the hook `described`? */
+static inline bool effect_has_cause(const struct effect *effect)
+{
+    return effect->described != NULL || effect->members[0].size > 0;
+}
+
+/* Begins a scan at a home. Notes in the selection's log, for each effect of this home that has a
+ * cause, whether the scan simulates it. */
 struct effect_scan effect_begin(const struct frame *frame, const struct sensor *sensor,
                                 const struct selection *selection, enum effect_home home);
 
-/* Does the scan simulate an effect that has the hook `described`? */
+/* Does the scan simulate an effect that has a cause? */
 static inline bool effect_simulates(const struct effect_scan *scan, enum effect_id effect)
 {
     return (scan->effects & EFFECT_BIT(effect)) != 0;

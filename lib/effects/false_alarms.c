@@ -1,16 +1,11 @@
 /* Simulated by noise/false_alarm_cells.c (MODEL 14.9). */
 #include "effects/effect.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->sensor->false_alarms > 0;
-}
-
 const struct effect effect_false_alarms = {
     .summary = "noise alone passes the threshold where there is no echo",
     .cause = "false_alarms of a sensor",
     .left_out_when = "the sensor's false_alarms are 0",
     .cost = "four draws per false alarm",
     .home = EFFECT_HOME_NOISE,
-    .described = described,
+    .members = {{EFFECT_SENSOR(false_alarms)}},
 };

@@ -1,16 +1,11 @@
 /* Simulated by stages/noise.c (MODEL 8). */
 #include "effects/effect.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->sensor->final_threshold;
-}
-
 const struct effect effect_final_threshold = {
     .summary = "a cell whose noisy amplitude is below the threshold is lost",
     .cause = "final_threshold of a sensor",
     .left_out_when = "the sensor's final_threshold is false",
     .cost = "a comparison per cell",
     .home = EFFECT_HOME_NOISE,
-    .described = described,
+    .members = {{EFFECT_SENSOR(final_threshold)}},
 };

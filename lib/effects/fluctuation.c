@@ -1,11 +1,6 @@
 /* Fluctuation of echoes from scan to scan (MODEL 14.14). */
 #include "effects/effect.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->sensor->fluctuation != FLUCTUATION_NONE;
-}
-
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
 {
     const struct sensor *sensor = scan->sensor;
@@ -22,6 +17,6 @@ const struct effect effect_fluctuation = {
     .left_out_when = "the sensor's fluctuation is none",
     .cost = "a draw per echo",
     .home = EFFECT_HOME_SENSOR,
-    .described = described,
+    .members = {{EFFECT_SENSOR(fluctuation)}},
     .receive = receive,
 };

@@ -3,11 +3,6 @@
 
 #include "propagation/attenuation.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->frame->conditions.fog_gpm3 > 0;
-}
-
 static void begin(const struct effect_scan *scan, double *dbpkm)
 {
     const double temperature_c = 10;
@@ -21,7 +16,7 @@ const struct effect effect_fog = {
     .left_out_when = "fog_gpm3 is 0",
     .cost = "an exponential per echo",
     .home = EFFECT_HOME_SENSOR,
-    .described = described,
+    .members = {{EFFECT_CONDITION(fog_gpm3)}},
     .begin = begin,
     .receive = effect_attenuate,
 };

@@ -3,11 +3,6 @@
 
 #include "radar/antenna.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->sensor->misalignment_rad != 0 || scan->sensor->radome_bias_rad > 0;
-}
-
 static bool turn_azimuth(const struct effect_scan *scan, struct effect_measurement *measurement)
 {
     const struct sensor *sensor = scan->sensor;
@@ -29,6 +24,6 @@ const struct effect effect_misalignment = {
     .left_out_when = "the sensor's misalignment_rad and radome_bias_rad are 0",
     .cost = "a sine per cell",
     .home = EFFECT_HOME_NOISE,
-    .described = described,
+    .members = {{EFFECT_SENSOR(misalignment_rad)}, {EFFECT_SENSOR(radome_bias_rad)}},
     .measure[EFFECT_STEP_AZIMUTH] = turn_azimuth,
 };

@@ -3,13 +3,6 @@
 
 #include "base/units.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    const struct sensor *sensor = scan->sensor;
-    return sensor->range_step_m > 0 || sensor->range_rate_step_mps > 0 ||
-           sensor->azimuth_step_rad > 0;
-}
-
 static bool round_values(const struct effect_scan *scan, struct effect_measurement *measurement)
 {
     const struct sensor *sensor = scan->sensor;
@@ -28,6 +21,8 @@ const struct effect effect_quantisation = {
     .left_out_when = "all three steps of the sensor are 0",
     .cost = "three roundings per target",
     .home = EFFECT_HOME_NOISE,
-    .described = described,
+    .members = {{EFFECT_SENSOR(range_step_m)},
+                {EFFECT_SENSOR(range_rate_step_mps)},
+                {EFFECT_SENSOR(azimuth_step_rad)}},
     .measure[EFFECT_STEP_ROUNDING] = round_values,
 };

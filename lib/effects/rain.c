@@ -3,11 +3,6 @@
 
 #include "propagation/attenuation.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->frame->conditions.rain_mmph > 0;
-}
-
 static void begin(const struct effect_scan *scan, double *dbpkm)
 {
     const struct sensor *sensor = scan->sensor;
@@ -21,7 +16,7 @@ const struct effect effect_rain = {
     .left_out_when = "rain_mmph is 0",
     .cost = "an exponential per echo",
     .home = EFFECT_HOME_SENSOR,
-    .described = described,
+    .members = {{EFFECT_CONDITION(rain_mmph)}},
     .begin = begin,
     .receive = effect_attenuate,
 };

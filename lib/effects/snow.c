@@ -3,11 +3,6 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-static bool described(const struct effect_scan *scan)
-{
-    return scan->frame->conditions.snow_mmph > 0;
-}
-
 /* Gunn and East (1954): scattering by flakes smaller than the wave, and absorption (MODEL 14.19).
  */
 static void begin(const struct effect_scan *scan, double *dbpkm)
@@ -25,7 +20,7 @@ const struct effect effect_snow = {
     .left_out_when = "snow_mmph is 0",
     .cost = "an exponential per echo",
     .home = EFFECT_HOME_SENSOR,
-    .described = described,
+    .members = {{EFFECT_CONDITION(snow_mmph)}},
     .begin = begin,
     .receive = effect_attenuate,
 };

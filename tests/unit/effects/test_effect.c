@@ -29,15 +29,15 @@ static void an_effect_acts_at_its_home_alone(void **state)
             measures |= effect->measure[step] != NULL;
         assert_true(effect->home == EFFECT_HOME_SENSOR || !receives);
         assert_true(effect->home == EFFECT_HOME_NOISE || !measures);
-        assert_true(effect->described || !(receives || measures || effect->begin));
+        assert_true(effect_has_cause(effect) || !(receives || measures || effect->begin));
     }
 }
 
-static uint64_t effects_with_described_hook(enum effect_home home)
+static uint64_t effects_with_a_cause(enum effect_home home)
 {
     uint64_t effects = 0;
     for (int i = 0; i < EFFECT_COUNT; i++)
-        if (effect_table[i]->home == home && effect_table[i]->described != NULL)
+        if (effect_table[i]->home == home && effect_has_cause(effect_table[i]))
             effects |= EFFECT_BIT(i);
     return effects;
 }
@@ -50,7 +50,7 @@ static void what_no_document_describes_is_left_out_and_noted(void **state)
         assert_true(scan.effects == 0 && scan.receiving == 0 && scan.constants == NULL);
         assert_close(scan.interference, 0, 0);
         assert_true(bench->log.simulated == 0);
-        assert_true(bench->log.left_out == effects_with_described_hook((enum effect_home)home));
+        assert_true(bench->log.left_out == effects_with_a_cause((enum effect_home)home));
     }
 }
 
