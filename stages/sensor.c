@@ -15,9 +15,6 @@ static bool superpose(const struct scan *scan, const struct selection *selection
     int64_t start_ns = effects_clock_ns(selection);
     bool has_angle =
         resolution_cell_of(sensor, members, count, superposed, scan->context.frame->arena, cell);
-    cell->interference = scan->context.interference;
-    if (cell->interference > 0)
-        cell->effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
     effects_note(selection, EFFECT_SUPERPOSITION, superposed);
     effects_count_time(selection, EFFECT_SUPERPOSITION, start_ns);
     return has_angle;
@@ -27,16 +24,13 @@ static bool superpose(const struct scan *scan, const struct selection *selection
 static void report(struct frame *frame, const struct scan *scan, const struct selection *selection,
                    const struct margins *margins, size_t number)
 {
-    const struct sensor *sensor = scan->context.sensor;
     struct cell cell;
     size_t count;
     const struct received_echo *members = scan_members(scan, number, &count);
     bool has_angle = superpose(scan, selection, members, count, &cell);
-    if (margins != NULL) {
+    if (margins != NULL)
         cell.margins = margins[number];
-        resolution_cell_note_margins(sensor, &cell);
-    }
-    resolution_cell_list(frame, "sensor", sensor, selection, &cell, has_angle);
+    resolution_cell_list(frame, "sensor", &scan->context, selection, &cell, has_angle);
 }
 
 static void sense(struct frame *frame, const struct sensor *sensor,

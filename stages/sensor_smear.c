@@ -5,28 +5,16 @@
 #include "sensor/scan.h"
 #include "sensor/smear.h"
 
-/* The margins of a cell: those of its members, of the threshold and of the angle's sign. */
-static struct margins margins_of(const struct smear *smear, size_t number, struct cell *cell)
-{
-    for (size_t i = 0; i < smear->count; i++)
-        if (smear->cell[i] == number)
-            margins_merge(&cell->margins, smear->echoes[i].margins);
-    resolution_cell_note_margins(smear->sensor, cell);
-    return cell->margins;
-}
-
 /* Lists the cell in the frame, or loses it. */
-static void report(struct frame *frame, const struct selection *selection,
-                   const struct smear *smear, size_t number, double interference)
+static void report(struct frame *frame, const struct effect_scan *scan,
+                   const struct selection *selection, const struct smear *smear, size_t number)
 {
     struct cell cell;
     bool has_angle = smear_cell(smear, number, frame->arena, &cell);
-    cell.interference = interference;
-    if (interference > 0)
-        cell.effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
-    if (frame_carries(frame, CARRY_MARGINS))
-        cell.margins = margins_of(smear, number, &cell);
-    resolution_cell_list(frame, "sensor-smear", smear->sensor, selection, &cell, has_angle);
+    for (size_t i = 0; i < smear->count; i++)
+        if (smear->cell[i] == number)
+            margins_merge(&cell.margins, smear->echoes[i].margins);
+    resolution_cell_list(frame, "sensor-smear", scan, selection, &cell, has_angle);
 }
 
 /* With merging left out, every received echo has a transform of its own. */
@@ -47,7 +35,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
             smear_make(sensor, &scan.received.echoes[first], together, frame->arena);
         effects_count_time(selection, EFFECT_MERGING, start_ns);
         for (size_t number = 0; number < smear.cells; number++)
-            report(frame, selection, &smear, number, context.interference);
+            report(frame, &context, selection, &smear, number);
     }
 }
 

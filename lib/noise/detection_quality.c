@@ -18,7 +18,8 @@ double detection_quality_existence(const struct existence *existence, double pow
     return 1 / (1 + elementary_exp(log_odds));
 }
 
-/* Behind the centre of the box, in its lengths: that of a car of 4.5 m (MODEL 2.1). */
+/* Distance of the rear axle behind the centre of the box, in lengths of the box: that of a car of
+ * 4.5 m (MODEL 2.1). */
 #define REAR_AXLE (1.25 / 4.5)
 
 struct detection_source detection_quality_source(const struct sensor *sensor,
@@ -35,7 +36,8 @@ struct detection_source detection_quality_source(const struct sensor *sensor,
                                      .range_rate_interval_mps = 2 * sensor->unambiguous_rate_mps};
 }
 
-/* The amplitude counts less the mean power of the noise in it, and over the rise of the noise. */
+/* The power of the echo is that of the amplitude less the mean power of the noise in it, relative
+ * to the rise of the noise. */
 static void estimate_range(const struct detection_source *source,
                            struct effect_measurement *measurement, double noise)
 {
@@ -53,7 +55,7 @@ static void estimate_range(const struct detection_source *source,
     measurement->range_rate_sigma_mps = noisy ? rate_mps : 0;
 }
 
-/* At most that of an azimuth anywhere in the field of view. */
+/* The standard deviation is at most that of an azimuth anywhere in the field of view. */
 static void estimate_azimuth(const struct detection_source *source,
                              struct effect_measurement *measurement, double noise)
 {
@@ -86,13 +88,13 @@ void detection_quality_estimate(struct detection_source *source,
     }
 }
 
-/* Digits that nobody needs make long lines. */
+/* Rounds to a part of the unit, as digits that nobody needs make long lines. */
 static double to_part(double value, double parts)
 {
     return round(value * parts) / parts;
 }
 
-/* A standard deviation with that of rounding to multiples of step. */
+/* A standard deviation combined with that of rounding to multiples of step. */
 static double rounded_sigma(const struct detection_source *source, double sigma, double step)
 {
     bool rounds = source->scan != NULL && effect_simulates(source->scan, EFFECT_QUANTISATION);
@@ -164,7 +166,7 @@ static double rear_axle_x_m(const struct frame *frame, const struct object *ego)
     return -REAR_AXLE * ego->length_m;
 }
 
-/* To 0.1 mm and 0.1 mm/s, at the instant that the scan shows. */
+/* Adds places and speeds, rounded to 0.1 mm and 0.1 mm/s, at the instant of the measurement. */
 static void add_places(const struct frame *frame, const struct target *target,
                        struct quality *quality)
 {

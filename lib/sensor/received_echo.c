@@ -3,8 +3,9 @@
 #include "base/elementary.h"
 #include "effects/effect.h"
 
-/* The factor on strength of a ghost whose wave leaves in another direction than it comes back from:
- * each way has the root of the antenna pattern, and the pointers are those of the arrival. */
+/* Factor on the strength of a ghost whose wave leaves in another direction than it arrives from:
+ * each way counts with the root of the antenna pattern, and the pointers are those of the arrival.
+ */
 static double departure_factor(const struct antenna *antenna, const struct echo *echo,
                                double arrival_gain)
 {

@@ -6,7 +6,6 @@
 #include "base/units.h"
 #include "frame/frame_order.h"
 #include "radar/interferer.h"
-#include "radar/resolution.h"
 
 int resolution_cell_compare(const void *left, const void *right)
 {
@@ -22,8 +21,8 @@ struct resolution_echo resolution_cell_place(const struct received_echo *echo)
                                     echo->widening};
 }
 
-/* A sum, and what its roundings left out (Neumaier 1974; MODEL 17.3): a weak echo outlives strong
- * ones that cancel. */
+/* A compensated sum (Neumaier 1974; MODEL 17.3): a weak echo survives beside strong echoes that
+ * cancel. left_out is the sum of the rounding errors. */
 struct compensated {
     double sum, left_out;
 };
@@ -100,6 +99,20 @@ static uint64_t effects_of(const struct received_echo *echoes, size_t count, boo
     return effects;
 }
 
+bool resolution_cell_measure(const struct sensor *sensor, struct antenna_pointers pointers,
+                             struct cell *cell)
+{
+    struct monopulse_angle angle =
+        monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
+    cell->sum_re = creal(pointers.sum);
+    cell->sum_im = cimag(pointers.sum);
+    cell->delta_re = creal(pointers.delta);
+    cell->delta_im = cimag(pointers.delta);
+    cell->azimuth_rad = angle.azimuth_rad;
+    cell->sign_undecided = angle.sign_undecided;
+    return angle.valid;
+}
+
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell)
 {
@@ -125,22 +138,18 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
     struct received_echo merged = superpose ? echoes[0] : merge(echoes, count, weight, azimuth);
     struct antenna_pointers pointers =
         superpose ? add_pointers(sensor, echoes, count) : add_pointers(sensor, &merged, 1);
-    struct monopulse_angle angle =
-        monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
-    cell->sum_re = creal(pointers.sum);
-    cell->sum_im = cimag(pointers.sum);
-    cell->delta_re = creal(pointers.delta);
-    cell->delta_im = cimag(pointers.delta);
-    cell->azimuth_rad = angle.azimuth_rad;
-    cell->sign_undecided = angle.sign_undecided;
-    return angle.valid;
+    return resolution_cell_measure(sensor, pointers, cell);
 }
 
-void resolution_cell_list(struct frame *frame, const char *stage, const struct sensor *sensor,
-                          const struct selection *selection, const struct cell *cell,
-                          bool has_angle)
+void resolution_cell_list(struct frame *frame, const char *stage, const struct effect_scan *scan,
+                          const struct selection *selection, struct cell *cell, bool has_angle)
 {
-    double threshold = interferer_threshold(sensor->threshold, cell->interference);
+    double threshold = interferer_threshold(scan->sensor->threshold, scan->interference);
+    cell->interference = scan->interference;
+    if (cell->interference > 0)
+        cell->effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
+    if (frame_carries(frame, CARRY_MARGINS))
+        resolution_cell_note_margins(scan->sensor, cell);
     if (effects_enabled(selection, EFFECT_THRESHOLD) && cell->amplitude < threshold)
         frame_lose_cell(frame, stage, cell, LOSS_BELOW_THRESHOLD,
                         units_shortfall_db(threshold, cell->amplitude), &cell->margins);
@@ -150,7 +159,7 @@ void resolution_cell_list(struct frame *frame, const char *stage, const struct s
         *list_add(&frame->cells, frame->arena) = *cell;
 }
 
-/* By how many half cells the other echo is beyond the edge of the leader's cell; negative inside.
+/* Distance of the other echo beyond the edge of the leader's cell, in half cells; negative inside.
  */
 static double beyond_edge(const struct sensor *sensor, const struct received_echo *leader,
                           const struct received_echo *other)
@@ -168,11 +177,11 @@ struct neighbourhood {
     const struct sensor *sensor;
     const struct clustered_echoes *all;
     struct resolution_row row;
-    bool *leads;             /* of each echo */
+    bool *leads;             /* for each echo: it opened a cell */
     struct margins *margins; /* of each cell */
 };
 
-/* Notes a pair in the cells of both. The echo must have been left when the leader opened its cell.
+/* Notes a pair in the cells of both, if the other echo had no cell when the leader opened its own.
  */
 static void note_pair(const struct neighbourhood *near, size_t leader, size_t other)
 {
@@ -190,8 +199,8 @@ static void note_pair(const struct neighbourhood *near, size_t leader, size_t ot
     }
 }
 
-/* May an echo this far away in the row change the margins of a cell? Within two half cells it may
- * compete for the lead, and farther only be nearer than all others so far. */
+/* True if an echo this far away in the row may change the margins of a cell: within two half cells
+ * it may compete for the lead; beyond, it must be nearer than all others so far. */
 static bool may_matter(const struct neighbourhood *near, size_t cell, double gap)
 {
     const struct margins *margins = &near->margins[cell];

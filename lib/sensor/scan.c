@@ -1,8 +1,6 @@
 #include "sensor/scan.h"
 
 #include "base/sort.h"
-#include "radar/resolution.h"
-#include "sensor/received_echo.h"
 
 struct scan scan_receive(const struct effect_scan *context)
 {
@@ -25,8 +23,8 @@ struct scan scan_receive(const struct effect_scan *context)
     return scan;
 }
 
-/* Sorts the received echoes into by_cell, cell by cell and in their order, by counting; first holds
- * counts, then the bounds of the cells. */
+/* Sorts the received echoes into by_cell by counting: cell by cell, in their order. first[n + 2]
+ * counts the echoes of cell n, then first[n + 1] is the next place in cell n, at last its end. */
 static void group_by_cell(struct scan *scan)
 {
     struct arena *arena = scan->context.frame->arena;

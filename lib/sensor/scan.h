@@ -7,20 +7,20 @@
 #include "sensor/resolution_cell.h"
 
 struct scan {
-    struct effect_scan context;          /* the effects that the scan is received with */
+    struct effect_scan context;
     struct echo_span added;              /* echoes that effects add: of wheels, limbs, clutter */
     struct clustered_echoes received;    /* the echoes of positive amplitude */
-    size_t cells;                        /* numbered in the order of their leaders */
+    size_t cells;                        /* number of cells, in the order of their leaders */
     const struct received_echo *by_cell; /* the received echoes again, cell by cell */
-    const size_t *first;                /* each cell's first in by_cell, then the end of the last */
-    const struct received_echo *silent; /* echoes without amplitude, which are in no cell */
+    const size_t *first;                 /* first echo of each cell in by_cell, then the total */
+    const struct received_echo *silent;  /* echoes without amplitude, which are in no cell */
     size_t silent_count;
 };
 
-/* Receives the echoes of the context and those that effects add. Makes no cells. */
+/* Receives the echoes of the context and the echoes that effects add. Makes no cells. */
 struct scan scan_receive(const struct effect_scan *context);
 
-/* Receives the echoes and sorts them into cells. auto leaves out merging where no two echoes are
+/* Receives the echoes and sorts them into cells. auto leaves out merging if no two echoes are
  * close. */
 struct scan scan_make(const struct effect_scan *context, const struct selection *selection);
 

@@ -5,15 +5,15 @@
 #include "base/elementary.h"
 #include "radar/point_response.h"
 
-/* Samples in a bin, the widest response, where that of an echo at rest is 1, and the most samples
- * that an echo reaches along one axis. */
+/* Samples in a bin, the widest response in units of that of an echo at rest, and the largest number
+ * of samples that an echo reaches along one axis. */
 enum {
     SAMPLES_PER_BIN = 2,
     MOST_WIDTH = 8,
     MOST_TAPS = 2 * SAMPLES_PER_BIN * (1 + 2 * MOST_WIDTH) + 1
 };
 
-/* The sample nearest to a value, and by how many bins the value is beyond it, in [-1/4, 1/4]. */
+/* The sample nearest to a value, and the value's distance beyond it in bins, in [-1/4, 1/4]. */
 struct place {
     int64_t sample;
     double offset;
@@ -55,16 +55,6 @@ static struct smear_sample *find_or_add(struct smear *smear, int64_t range, int6
     return &smear->samples[*slot - 1];
 }
 
-static struct place range_place(const struct smear *smear, const struct received_echo *received)
-{
-    return place_of(received->range_m, smear->sensor->cell_range_m);
-}
-
-static struct place rate_place(const struct smear *smear, const struct received_echo *received)
-{
-    return place_of(received->range_rate_mps, smear->sensor->cell_range_rate_mps);
-}
-
 static double _Complex phasor_of(double phase_rad)
 {
     struct elementary_sincos phase = elementary_sincos(phase_rad);
@@ -101,11 +91,13 @@ static void set_taps(struct taps *taps, struct place place, double width)
 
 static void add_echo(struct smear *smear, const struct received_echo *received)
 {
+    const struct sensor *sensor = smear->sensor;
     struct taps range, rate;
-    set_taps(&range, range_place(smear, received), width_of(received));
-    set_taps(&rate, rate_place(smear, received), width_of(received));
+    set_taps(&range, place_of(received->range_m, sensor->cell_range_m), width_of(received));
+    set_taps(&rate, place_of(received->range_rate_mps, sensor->cell_range_rate_mps),
+             width_of(received));
     struct antenna_pointers pointers =
-        antenna_pointers(&smear->sensor->antenna, received->echo.azimuth_rad);
+        antenna_pointers(&sensor->antenna, received->echo.azimuth_rad);
     double _Complex strength = received->strength * phasor_of(received->phase_rad);
     bool out_of_phase = received->phase_rad != smear->echoes[0].phase_rad;
     uint64_t effects = received->effects | (out_of_phase ? EFFECT_BIT(EFFECT_COHERENCE) : 0);
@@ -153,14 +145,15 @@ static const struct smear_sample *strongest_around(const struct smear *smear,
 static size_t peak_of(const struct smear *smear, const struct received_echo *received)
 {
     const struct smear_sample *at =
-        find(smear, range_place(smear, received).sample, rate_place(smear, received).sample);
+        find(smear, place_of(received->range_m, smear->sensor->cell_range_m).sample,
+             place_of(received->range_rate_mps, smear->sensor->cell_range_rate_mps).sample);
     for (const struct smear_sample *next = strongest_around(smear, at); next != at;
          next = strongest_around(smear, at))
         at = next;
     return (size_t)(at - smear->samples);
 }
 
-/* The number of samples if no two echoes reach the same one. */
+/* The number of samples if no two echoes reach the same sample. */
 static size_t most_samples(const struct received_echo *echoes, size_t count)
 {
     size_t most = 0;
@@ -193,8 +186,8 @@ struct smear smear_make(const struct sensor *sensor, const struct received_echo 
     return smear;
 }
 
-/* By how many bins the interpolated peak of an echo of that width is beyond its sample, along range
- * or along rate; at most half way to the next sample. */
+/* Distance in bins of the interpolated peak beyond its sample, along range or along rate; at most
+ * half way to the next sample. width is that of the peak's response. */
 static double offset_of(const struct smear *smear, const struct smear_sample *peak, double width,
                         bool along_range)
 {
@@ -209,7 +202,7 @@ static double offset_of(const struct smear *smear, const struct smear_sample *pe
     return elementary_max(elementary_min(offset, most), least);
 }
 
-/* The effects at a peak. A single echo merges with nothing and has no phase relative to others. */
+/* The effects at a peak. A single echo is not merged and has no phase relative to others. */
 static uint64_t effects_of(const struct smear_sample *peak)
 {
     uint64_t merged = EFFECT_BIT(EFFECT_MERGING) | EFFECT_BIT(EFFECT_SUPERPOSITION);
@@ -245,23 +238,15 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
     double _Complex gain = conj(phasor_of(leader->phase_rad)) /
                            (point_response_hann(range / width) * point_response_hann(rate / width));
     struct antenna_pointers pointers = {gain * peak->pointers.sum, gain * peak->pointers.delta};
-    struct monopulse_angle angle =
-        monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     *cell = (struct cell){
         .sensor = sensor->name,
         .range_m = elementary_max(
             ((double)peak->range / SAMPLES_PER_BIN + range) * sensor->cell_range_m, 0),
-        .azimuth_rad = angle.azimuth_rad,
         .range_rate_mps =
             ((double)peak->rate / SAMPLES_PER_BIN + rate) * sensor->cell_range_rate_mps,
         .amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum)),
-        .sum_re = creal(pointers.sum),
-        .sum_im = cimag(pointers.sum),
-        .delta_re = creal(pointers.delta),
-        .delta_im = cimag(pointers.delta),
-        .sign_undecided = angle.sign_undecided,
         .effects = effects_of(peak),
     };
     add_members(smear, number, arena, cell);
-    return angle.valid;
+    return resolution_cell_measure(sensor, pointers, cell);
 }
