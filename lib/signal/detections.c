@@ -13,8 +13,8 @@
 
 #define CRAMER_RAO 0.389848400616838 /* sqrt(6)/(2 pi) */
 
-/* Standard deviations in cells at a signal as strong as the noise: without window the bound; with
- * Hann's 1.58 times that behind the window, whose loss is 1.5; of a pulse 1/sqrt(16 ln 2). */
+/* Standard deviations in cells at an SNR of 1: the bound without a window; for Hann's, whose loss
+ * is 1.5, 1.58 times the bound after the window; 1/sqrt(16 ln 2) for a pulse. */
 static const double factors[] = {
     [POINT_RESPONSE_HANN] = 1.58 * CRAMER_RAO / 1.224744871391589,
     [POINT_RESPONSE_RECTANGULAR] = CRAMER_RAO,
@@ -30,26 +30,26 @@ static double element_sigma_rad(const struct beamforming_array *array, double az
            elementary_cos(azimuth_rad);
 }
 
-struct peak_accuracy detections_accuracy(const struct signal_cube *signal, double azimuth_rad,
-                                         struct peak_snr snr)
+void detections_estimate(const struct signal_cube *signal, double peak_snr, double beam_snr,
+                         struct effect_measurement *measurement)
 {
     const struct sensor *sensor = signal->sensor;
+    double azimuth_rad = measurement->azimuth_rad;
     struct measurement_sigma range = {.cell = sensor->cell_range_m,
                                       .factor = factors[signal->range_response]};
     struct measurement_sigma rate = {.cell = sensor->cell_range_rate_mps,
                                      .factor = factors[sensor->waveform.window]};
-    double rate_mps = measurement_sigma_at_snr(&rate, snr.found);
-    double coupled_m = signal->coupling * signal->range_step_m * rate_mps, azimuth;
-    if (signal->array.elements > 0)
-        azimuth = element_sigma_rad(&signal->array, azimuth_rad, snr.in_beam);
-    else
-        azimuth = monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator, azimuth_rad,
-                                      snr.in_beam);
-    return (struct peak_accuracy){
-        .range_sigma_m = elementary_hypot(measurement_sigma_at_snr(&range, snr.found), coupled_m),
-        .range_rate_sigma_mps = rate_mps,
-        .azimuth_sigma_rad = elementary_min(azimuth, sensor->field_of_view_rad / sqrt(12)),
-    };
+    double rate_mps = measurement_sigma_at_snr(&rate, peak_snr);
+    double coupled_m = signal->coupling * signal->range_step_m * rate_mps;
+    double sigma_rad =
+        signal->array.elements > 0
+            ? element_sigma_rad(&signal->array, azimuth_rad, beam_snr)
+            : monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator, azimuth_rad, beam_snr);
+    measurement->range_sigma_m =
+        elementary_hypot(measurement_sigma_at_snr(&range, peak_snr), coupled_m);
+    measurement->range_rate_sigma_mps = rate_mps;
+    measurement->azimuth_sigma_rad =
+        elementary_min(sigma_rad, sensor->field_of_view_rad / sqrt(12));
 }
 
 double detections_noise_bins(const struct signal_cube *signal)
@@ -63,8 +63,9 @@ double detections_noise_bins(const struct signal_cube *signal)
 #define NONE SIZE_MAX
 #define LEAST_PART 0.5
 
-/* Adds a detection of this amplitude and azimuth, unless no range rate puts it where the sensor
- * measures. */
+/* Adds a detection of this amplitude and azimuth, if a range rate puts it within the sensor's
+ * ranges.
+ */
 static struct detection *add(struct detections *detections, const struct range_doppler_peak *peak,
                              double amplitude, double azimuth_rad, struct arena *arena)
 {
@@ -137,7 +138,7 @@ struct detections detections_of(const struct signal_cube *signal,
     return detections;
 }
 
-/* The part of the echo's amplitude that the detection shows, by its range, range rate and beam. */
+/* The part of the echo's amplitude at the detection's place and in its beam. */
 static double part_of(const struct detections *detections, const struct received_echo *received,
                       const struct detection *detection)
 {
@@ -145,8 +146,7 @@ static double part_of(const struct detections *detections, const struct received
     const struct range_doppler *spectrum = detections->spectrum;
     double range, rate;
     signal_cube_place(signal, received, &range, &rate);
-    range = range_doppler_range_away(spectrum, range, detection->peak);
-    rate = range_doppler_rate_away(spectrum, rate, detection->peak);
+    range_doppler_away(spectrum, detection->peak, &range, &rate);
     double part = fabs(point_response_value(spectrum->range_response, range) *
                        point_response_value(spectrum->rate_response, rate));
     if (signal->array.elements > 0)
@@ -189,7 +189,8 @@ static size_t dominant_echo_of(const struct detections *detections,
     return dominant;
 }
 
-/* Labels a detection with its echoes, whose range rates count in the fold of the strongest. */
+/* Labels a detection with its echoes; their range rates are moved into the fold of the strongest.
+ */
 static void label(const struct signal_cube *signal, struct detection *detection,
                   struct received_echo *members, size_t count, struct arena *arena)
 {
@@ -214,8 +215,8 @@ static void label_false_alarm(const struct sensor *sensor, struct detection *det
     detection->cell = false_alarm_cells_cell(sensor, &noise, detection->amplitude, arena);
 }
 
-/* Records a received echo as lost: below the threshold alone, below it among others, or, beside
- * stronger echoes, without a peak of its own. */
+/* Records a received echo as lost: itself below the threshold, below it together with others, or
+ * beside stronger echoes without a peak of its own. */
 static void lose_echo(const struct detections *detections, struct frame *frame, const char *stage,
                       const struct received_echo *received)
 {
@@ -288,27 +289,11 @@ static struct effect_measurement measurement_of(const struct detection *detectio
     return measurement;
 }
 
-/* The power of an echo whose amplitude was measured, over that of the noise in it. */
+/* Signal-to-noise ratio of an echo by its measured amplitude. */
 static double snr_of(const struct detections *detections, double amplitude)
 {
     double ratio = amplitude / detections->noise;
     return elementary_max(ratio * ratio - 1, 0);
-}
-
-/* Sets the standard deviations at the signal-to-noise ratios that the sensor measured. */
-static void estimate(const struct detections *detections, const struct detection *detection,
-                     struct effect_measurement *measurement)
-{
-    const struct range_doppler_peak *peak = detection->peak;
-    struct peak_snr snr = {
-        .found = snr_of(detections, peak->amplitude * peak->gain),
-        .in_beam = snr_of(detections, detection->amplitude * peak->gain),
-    };
-    struct peak_accuracy accuracy =
-        detections_accuracy(detections->signal, measurement->azimuth_rad, snr);
-    measurement->range_sigma_m = accuracy.range_sigma_m;
-    measurement->range_rate_sigma_mps = accuracy.range_rate_sigma_mps;
-    measurement->azimuth_sigma_rad = accuracy.azimuth_sigma_rad;
 }
 
 void detections_list(const struct detections *detections, struct frame *frame, const char *stage,
@@ -318,9 +303,13 @@ void detections_list(const struct detections *detections, struct frame *frame, c
     struct effect_measurement *measurements =
         arena_get(frame->arena, (count + 1) * sizeof *measurements);
     for (size_t i = 0; i < count; i++) {
-        measurements[i] = measurement_of(&detections->list.items[i]);
+        const struct detection *detection = &detections->list.items[i];
+        const struct range_doppler_peak *peak = detection->peak;
+        measurements[i] = measurement_of(detection);
         if (frame_carries(frame, CARRY_QUALITY) && detections->noise > 0)
-            estimate(detections, &detections->list.items[i], &measurements[i]);
+            detections_estimate(
+                detections->signal, snr_of(detections, peak->amplitude * peak->gain),
+                snr_of(detections, detection->amplitude * peak->gain), &measurements[i]);
         effect_measure(noise, EFFECT_STEP_AZIMUTH, &measurements[i]);
     }
     struct detection_source source = {

@@ -1,10 +1,9 @@
 /* Detections from the peaks of a spectrum, and their labels (MODEL 11.3).
  *
- * An echo belongs to the detection that shows the largest part of its amplitude, if that is at
- * least half. So an echo has one label, and a detection is labelled with the echoes that a radar of
- * this resolution cannot tell apart. A detection to which no echo belongs is labelled with the echo
- * that makes at least half of its amplitude, which then has two labels; if there is none, it is a
- * false alarm. */
+ * An echo belongs to the detection that contains the largest part of its amplitude, if that is at
+ * least half. A detection is labelled with the echoes that belong to it. If there are none, the
+ * label is the echo that makes most of its amplitude, at least half, and that then labels two
+ * detections. Without such an echo the detection is a false alarm. */
 #pragma once
 
 #include "effects/effect.h"
@@ -24,46 +23,36 @@ struct detections {
     const struct signal_cube *signal;
     const struct range_doppler *spectrum;
     struct cfar cfar;
-    double noise;  /* RMS of a bin's; 0: none */
-    double least;  /* amplitude of a detection where no noise makes a threshold */
+    double noise;  /* RMS in a bin; 0: none */
+    double least;  /* amplitude of a detection; 0 with noise, which makes the threshold */
     double time_s; /* instant of the measurement */
     LIST_OF(struct detection) list;
 };
 
-/* A detection for every peak of the spectrum, in every beam that passes its threshold: range,
- * azimuth, range rate and amplitude. noise is the RMS of a bin's. Without noise, detections must
- * meet the sensor's threshold. Memory comes from the frame's arena. */
+/* Range, azimuth, range rate and amplitude of a detection for every peak of the spectrum, in every
+ * beam that passes the peak's threshold. noise is the RMS in a bin; without noise the sensor's
+ * threshold counts. Memory comes from the frame's arena. */
 struct detections detections_of(const struct signal_cube *signal,
                                 const struct range_doppler *spectrum, double noise,
                                 const struct effect_scan *context);
 
-/* Gives every detection its cell, whose range rate is folded as the waveform folds it. Records the
- * received echoes that no detection shows as lost, and counts false alarms. resolved has the
- * strongest echo first. */
+/* Sets the cell of every detection, with its range rate folded as the waveform folds it. Records
+ * received echoes without a detection as lost, and counts false alarms. resolved has the strongest
+ * echo first. */
 void detections_label(struct detections *detections, struct frame *frame, const char *stage,
                       const struct clustered_echoes *resolved);
 
-/* Writes the target list: misaligned, in the sensor's order, up to its limit, rounded. */
+/* Writes the target list: with misalignment, in the sensor's order, up to its limit, rounded. */
 void detections_list(const struct detections *detections, struct frame *frame, const char *stage,
                      const struct effect_scan *noise);
 
-/* Powers over that of a bin's noise, >= 0: in the cell of the spectrum where the peak was found,
- * and there in the beam of the detection. Elsewhere in its bin an echo is weaker than at its place.
- */
-struct peak_snr {
-    double found, in_beam;
-};
+/* Sets the standard deviations of the measurement of a single echo (MODEL 14.21) by the Cramer-Rao
+ * bound of the window and of the elements, or by the slope of sum and delta. The range error of a
+ * chirp contains the error of the range rate. Each is at most that of a value anywhere in a cell,
+ * or in the field of view. Powers, relative to the noise in a bin and >= 0, are those in the cell
+ * of the spectrum where the peak was found: of the peak, and in the beam of the detection. */
+void detections_estimate(const struct signal_cube *signal, double peak_snr, double beam_snr,
+                         struct effect_measurement *measurement);
 
-struct peak_accuracy {
-    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
-};
-
-/* Standard deviations of the place in the spectrum of an echo alone, at an azimuth (MODEL 14.21):
- * by the Cramer-Rao bound of the window and of the elements, or by the slope of sum and delta. A
- * chirp's range error contains the error of the range rate. Each is at most that of a value
- * anywhere in a cell, or in the field of view. */
-struct peak_accuracy detections_accuracy(const struct signal_cube *signal, double azimuth_rad,
-                                         struct peak_snr snr);
-
-/* How many independent bins of noise the sensor searches: ranges times rates times beams. */
+/* Number of independent bins of noise that the sensor searches: ranges times rates times beams. */
 double detections_noise_bins(const struct signal_cube *signal);

@@ -65,8 +65,8 @@ static bool is_above_threshold(const struct range_doppler_peak *peak)
     return peak->amplitude >= peak->threshold;
 }
 
-/* The peak of a cell in its strongest beam, or if that is below its threshold, in the strongest
- * beam that is not: noise differs between beams, and each has its share of the false alarms. */
+/* The peak of a cell in its strongest beam; if that is below its threshold, in the strongest beam
+ * that is above: noise differs between beams, and each has its share of the false alarms. */
 static struct range_doppler_peak peak_at(const struct range_doppler *spectrum,
                                          const struct cfar *cfar, size_t row, size_t column)
 {
@@ -119,24 +119,20 @@ double range_doppler_distance(double to, double from, size_t bins)
     return remainder(to - from, (double)bins);
 }
 
-double range_doppler_range_away(const struct range_doppler *spectrum, double range,
-                                const struct range_doppler_peak *peak)
+void range_doppler_away(const struct range_doppler *spectrum, const struct range_doppler_peak *peak,
+                        double *range, double *rate)
 {
-    return range_doppler_distance(range, peak->range, spectrum->range_bins);
-}
-
-double range_doppler_rate_away(const struct range_doppler *spectrum, double rate,
-                               const struct range_doppler_peak *peak)
-{
-    return range_doppler_distance(rate, peak->rate, spectrum->rate_cells / spectrum->rate_padding);
+    size_t rate_bins = spectrum->rate_cells / spectrum->rate_padding;
+    *range = range_doppler_distance(*range, peak->range, spectrum->range_bins);
+    *rate = range_doppler_distance(*rate, peak->rate, rate_bins);
 }
 
 static bool is_side_lobe(const struct range_doppler *spectrum,
                          const struct range_doppler_peak *peak,
                          const struct range_doppler_peak *stronger)
 {
-    double range = range_doppler_range_away(spectrum, peak->range, stronger);
-    double rate = range_doppler_rate_away(spectrum, peak->rate, stronger);
+    double range = peak->range, rate = peak->rate;
+    range_doppler_away(spectrum, stronger, &range, &rate);
     if (fabs(range) < point_response_main_lobe(spectrum->range_response) &&
         fabs(rate) < point_response_main_lobe(spectrum->rate_response))
         return false;

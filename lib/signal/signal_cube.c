@@ -8,12 +8,12 @@
 #include "radar/interferer.h"
 #include "sensor/scan.h"
 
-/* Beyond this many bins a pulse is below 2^-36 of its peak. */
+/* A pulse is below 2^-36 of its peak beyond this many bins. */
 #define PULSE_REACH 12
-/* Reach, in bins, of the receiver's filter for pulses, 2^-(k^2/2), whose autocorrelation is their
- * point response. */
+/* Reach in bins of the receiver's filter for pulses, 2^-(k^2/2); its autocorrelation is the point
+ * response of pulses. */
 #define FILTER_REACH 7
-/* Bins of range that are kept beyond those that the sensor can read. */
+/* Bins of range that are kept beyond the sensor's ranges. */
 #define MARGIN 4
 
 static bool is_pulsed(const struct signal_cube *signal)
@@ -37,7 +37,7 @@ static void set_times(struct signal_cube *signal)
     signal->coupling = sensor->carrier_hz / signal->slope_hzps / signal->range_step_m;
 }
 
-/* Keeps the cells from the least to the greatest reading of a range, or the whole row. */
+/* Keeps the cells from the least to the greatest measured range, or the whole row. */
 static void set_cells(struct signal_cube *signal)
 {
     signal->range_padding = is_pulsed(signal) ? 1 : SIGNAL_CUBE_PADDING;
@@ -105,10 +105,10 @@ void signal_cube_place(const struct signal_cube *signal, const struct received_e
     *rate = rate_mps / signal->rate_step_mps;
 }
 
-static struct phasor phasor_of(double amplitude, double turns)
+static struct phasor phasor_of(double turns)
 {
     struct elementary_sincos phase = elementary_sincos_turns(turns);
-    return (struct phasor){amplitude * phase.cos, amplitude * phase.sin};
+    return (struct phasor){phase.cos, phase.sin};
 }
 
 static struct phasor times(struct phasor a, struct phasor b)
@@ -140,8 +140,8 @@ static void weigh_channels(const struct signal_cube *signal, const struct receiv
     }
 }
 
-/* By how much the delay of the range cells has grown since the instant of the measurement. A radar
- * that compensates the walk shifts them back, but for the carrier's phase (MODEL 14.20). */
+/* Growth of the delay in the range cells since the instant of the measurement. A radar that
+ * compensates range migration shifts the cells back, but not the carrier's phase (MODEL 14.20). */
 static double walked_s(const struct signal_cube *signal, const struct signal_source *source,
                        double instant_s)
 {
@@ -155,8 +155,8 @@ struct chirp_phase {
     double constant, linear, square;
 };
 
-/* The phase of MODEL 11.3 in powers of t', so that whole turns of the carrier over the range, which
- * are in the echo's phase already, never appear. */
+/* The phase of MODEL 11.3 in powers of t'. The turns of the carrier over the range are not in it:
+ * they are part of the echo's phase. */
 static struct chirp_phase chirp_phase_of(const struct signal_cube *signal,
                                          const struct signal_source *source, double instant_s)
 {
@@ -172,18 +172,18 @@ static struct chirp_phase chirp_phase_of(const struct signal_cube *signal,
     };
 }
 
-/* The samples of one chirp by rotation, in CHAINS independent chains, since each sample waits for
- * the one it comes from; the rotation itself turns with the square of time. n turns leave an error
- * of at most n/CHAINS ulp. */
+/* The samples of one chirp by rotation from sample to sample, in CHAINS independent chains for
+ * speed. The rotation itself turns with the square of time. The error of n samples is at most
+ * n/CHAINS ulp. */
 static void chirp(struct phasor *tone, size_t count, struct chirp_phase phase)
 {
     enum { CHAINS = 4 };
     double unit = 1 / (double)count, leap = CHAINS * unit;
-    struct phasor step[CHAINS], turn = phasor_of(1, 2 * phase.square * leap * leap);
+    struct phasor step[CHAINS], turn = phasor_of(2 * phase.square * leap * leap);
     for (size_t n = 0; n < CHAINS; n++) {
         double x = (double)n * unit - 0.5;
-        tone[n] = phasor_of(1, phase.constant + x * (phase.linear + x * phase.square));
-        step[n] = phasor_of(1, leap * (phase.linear + phase.square * (2 * x + leap)));
+        tone[n] = phasor_of(phase.constant + x * (phase.linear + x * phase.square));
+        step[n] = phasor_of(leap * (phase.linear + phase.square * (2 * x + leap)));
     }
     for (size_t n = CHAINS; n < count; n++) {
         tone[n] = times(tone[n - CHAINS], step[n % CHAINS]);
@@ -201,8 +201,7 @@ static void pulse(struct phasor *tone, size_t count, double bins, struct phasor 
     }
 }
 
-/* Both parts of a complex number at once, as most of the time is spent here. Each lane rounds as it
- * would alone. */
+/* Both parts of a complex number at once, as most time is spent here; each rounds as if alone. */
 typedef double lanes __attribute__((vector_size(2 * sizeof(double))));
 
 static void add(struct phasor *row, const struct phasor *tone, size_t count, struct phasor weight)
@@ -224,7 +223,7 @@ static void add_source(const struct signal_cube *signal, const struct signal_sou
         double delay_s = source->delay_s + walked_s(signal, source, instant_s);
         double range_m = delay_s * SPEED_OF_LIGHT_MPS / 2;
         pulse(signal->tone, signal->samples, range_m / signal->range_step_m,
-              phasor_of(1, source->turns - signal->sensor->carrier_hz * moved_s));
+              phasor_of(source->turns - signal->sensor->carrier_hz * moved_s));
     } else {
         chirp(signal->tone, signal->samples, chirp_phase_of(signal, source, instant_s));
     }

@@ -1,18 +1,17 @@
 /* Signal of one scan, sample by sample, and its spectrum (MODEL 11.3).
  *
- * A scan is one train of repetitions, or two for a waveform with stagger. A repetition's samples in
- * all channels lie in `rows`: the caller has signal_cube_receive make and weight them, transforms
- * them in place over range (chirps), and signal_cube_store keep what the sensor can read. The first
- * train's rows are then transformed over the repetitions into the spectrum; the second's stay.
+ * A scan is one train of repetitions, or two for a waveform with stagger. `rows` holds the samples
+ * of one repetition in all channels: signal_cube_receive makes and weights them, the caller
+ * transforms them in place over range (chirps), and signal_cube_store keeps the cells within the
+ * sensor's ranges. The caller then transforms the first train over the repetitions into the
+ * spectrum; the second train stays as it is.
  *
- * Every echo has the exact phase of its delay at the sample's instant, and every channel weights
- * it: with the antenna's sum and delta pointers at its azimuth, or, for a row of elements, with the
- * magnitude of the sum pointer and the phase of the element's place.
- *
- * An echo's amplitude is that of the received echo in glint-sensor. pointer_sigma is the RMS noise
- * of a cell after windows and transforms, over all elements together, as in glint-noise. The noise
- * of pulses has passed a matched receiver, so that its correlation over range is their point
- * response. */
+ * Every echo has the exact phase of its delay at the sample's instant. Channels weight it with the
+ * antenna's sum and delta pointers at its azimuth, or, for a row of elements, with the magnitude of
+ * the sum pointer and the phase of the element's place. Its amplitude is that of the received echo
+ * in glint-sensor. pointer_sigma is the RMS noise of a cell after windows and transforms, over all
+ * elements together, as in glint-noise. Noise of pulses has passed a matched receiver: its
+ * correlation over range is their point response. */
 #pragma once
 
 #include "base/random.h"
@@ -33,15 +32,14 @@ struct signal_cube {
     double range_step_m, rate_step_mps; /* width of a bin */
     double train_s, repetition_s;       /* the first train's length and repetition interval */
     double slope_hzps;                  /* of a chirp; 0 for pulses */
-    double chirp_s;                     /* its length; negative if it falls, as samples are sorted
-                                         * by frequency; 0 for pulses */
+    double chirp_s;                     /* its length, < 0 if the frequency falls; 0 for pulses */
     double coupling;                    /* bins of range that a rate of 1 m/s adds; 0 for pulses */
     double fold_mps;                    /* range rates this far apart share a bin */
-    size_t folds;                       /* that the second train tells apart; 1: there is none */
+    size_t folds;                       /* that the second train resolves; 1: there is none */
     struct beamforming_array array;     /* elements 0: the channels are sum and delta */
     size_t range_padding, row_cells;    /* cells to a bin; cells of a transformed row */
-    ptrdiff_t first_cell;               /* the first that is kept; below 0 from the row's end */
-    size_t range_cells;                 /* how many are kept */
+    ptrdiff_t first_cell;               /* first cell kept; below 0: from the row's end on */
+    size_t range_cells;                 /* number of cells kept */
     double *weight;                     /* window over the samples */
     struct phasor *tone;                /* scratch: the samples of one echo */
     struct phasor *rows;                /* [channel][row cell]: one repetition */
@@ -49,7 +47,7 @@ struct signal_cube {
     struct phasor *second;              /* [channel][repetition][range cell]; NULL without */
 };
 
-/* What the receivers receive in one scan. */
+/* Input of the receivers in one scan. */
 struct signal_input {
     const struct signal_source *sources;
     size_t count;
@@ -57,17 +55,17 @@ struct signal_input {
     double sigma;                  /* RMS of the noise in a cell; 0: none */
 };
 
-/* The cube of a sensor with a waveform; all memory comes from the arena. */
+/* The cube of a sensor with a waveform. */
 struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *arena);
 
-/* The instant of a repetition, from that of the measurement on. */
+/* Time of a repetition after the measurement. */
 double signal_cube_instant_s(const struct signal_cube *signal, size_t train, size_t repetition);
 
-/* Where the echo has its peak: in bins of range, and of rate without folding. */
+/* Place of the echo's peak in bins of range, and of rate without folding. */
 void signal_cube_place(const struct signal_cube *signal, const struct received_echo *received,
                        double *range, double *rate);
 
-/* The echoes of a scan and its noise, if noisy; memory comes from the arena. */
+/* The echoes of a scan and, if noisy, its noise. */
 struct signal_input signal_cube_input(const struct signal_cube *signal, const struct scan *scan,
                                       bool noisy);
 
@@ -83,6 +81,6 @@ void signal_cube_receive(const struct signal_cube *signal, const struct signal_i
 /* Keeps the transformed rows of one repetition. */
 void signal_cube_store(const struct signal_cube *signal, size_t train, size_t repetition);
 
-/* The transformed spectrum with its power in every beam: of the sum channel, or of beams that cover
- * the field of view, half a beam's width apart. Memory comes from the arena. */
+/* The transformed spectrum with its power in every beam: the sum channel, or beams that cover the
+ * field of view, half a beam's width apart. */
 struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, struct arena *arena);

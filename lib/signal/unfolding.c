@@ -39,8 +39,8 @@ static bool is_measured(const struct signal_cube *signal, double range_m)
     return range_m >= sensor->range_min_m - half_m && range_m <= sensor->range_max_m + half_m;
 }
 
-/* The second train's sample in a beam; cells beyond those that are kept are 0. Sets the number of
- * the cell as a transform counts it. */
+/* The second train's sample in a beam; 0 beyond the cells that are kept. Sets the number of the
+ * cell in the transform. */
 static struct phasor sample_at(const struct signal_cube *signal, const struct beam *beam,
                                size_t repetition, double range, double *number)
 {
@@ -62,9 +62,8 @@ static struct phasor sample_at(const struct signal_cube *signal, const struct be
     return sum;
 }
 
-/* The amplitude in the second train of an echo that was here in the middle of the first. Cells of a
- * chirp's transform are turned by a quarter from one to the next, as its samples count from the
- * chirp's middle. */
+/* The amplitude in the second train of an echo that was here in the middle of the first. A chirp's
+ * samples count from its middle, so the phase turns by a quarter from cell to cell. */
 static double focus(const struct signal_cube *signal, const struct beam *beam, double range,
                     double rate_mps)
 {

@@ -1,12 +1,11 @@
-/* Which of the range rates that fold alike is true.
+/* The true one of the range rates that fold alike.
  *
  * The hypotheses are the range rates v + 2 k v_u within the folds of the waveform that put the peak
- * at a range the sensor measures: a chirp reads the range R of an echo as R + carrier_hz v/slope,
- * so that each has a range of its own. A hypothesis foretells the place and the phase of the echo
- * in every repetition of the second train, in which rates fold at another interval. With these
- * phases taken off, the second train's samples add up to an amplitude. The hypothesis whose
- * amplitude is nearest to that in the first train is chosen; of equal ones the slowest
- * (MODEL 11.3). */
+ * within the sensor's ranges: a chirp measures R + carrier_hz v/slope for the range R, so each has
+ * its own range. From a hypothesis follow the place and the phase of the echo in every repetition
+ * of the second train, where rates fold at another interval. The second train's samples, turned
+ * back by these phases, are added. The hypothesis is chosen whose sum is nearest to the amplitude
+ * in the first train; of equal ones the slowest (MODEL 11.3). */
 #pragma once
 
 #include "signal/signal_cube.h"
@@ -15,8 +14,8 @@ struct unfolding_reading {
     double range_m, range_rate_mps;
 };
 
-/* Chooses for a peak of this amplitude in a beam at the sine of an azimuth; without elements sine
- * does not count. False if there is no hypothesis. Without a second train the rate is that of the
- * peak, in [-v_u, v_u). */
+/* Chooses for a peak of this amplitude, in a beam at the sine of an azimuth if there are elements.
+ * False without a hypothesis. Without a second train the rate is that of the peak, in [-v_u, v_u).
+ */
 bool unfolding_choose(const struct signal_cube *signal, const struct range_doppler_peak *peak,
                       double amplitude, double sine, struct unfolding_reading *reading);

@@ -26,11 +26,13 @@ static struct sensor radar(enum point_response window, int64_t elements)
     return sensor;
 }
 
-static struct peak_accuracy accuracy_of(const struct sensor *sensor, double azimuth_rad,
-                                        double found, double in_beam)
+static struct effect_measurement accuracy_of(const struct sensor *sensor, double azimuth_rad,
+                                             double found, double in_beam)
 {
     struct signal_cube signal = signal_cube_of(sensor, &arena);
-    return detections_accuracy(&signal, azimuth_rad, (struct peak_snr){found, in_beam});
+    struct effect_measurement measurement = {.azimuth_rad = azimuth_rad};
+    detections_estimate(&signal, found, in_beam, &measurement);
+    return measurement;
 }
 
 /* The Cramer-Rao bound of a frequency in white noise, sqrt(6)/(2 pi sqrt(snr)) bins, and with a
@@ -39,7 +41,7 @@ static void range_and_rate_have_the_bound_of_their_window(void **state)
 {
     (void)state;
     struct sensor sensor = radar(POINT_RESPONSE_RECTANGULAR, 0);
-    struct peak_accuracy accuracy = accuracy_of(&sensor, 0, 400, 100);
+    struct effect_measurement accuracy = accuracy_of(&sensor, 0, 400, 100);
     double bound = sqrt(6) / (2 * PI) / 20;
     assert_near(accuracy.range_rate_sigma_mps, 0.25 * bound, 1e-9);
     assert_near(accuracy.range_sigma_m, 2 * bound, 1e-4);
@@ -55,7 +57,7 @@ static void the_error_of_the_rate_adds_to_that_of_the_range(void **state)
     struct sensor sensor = radar(POINT_RESPONSE_RECTANGULAR, 0);
     double steep = accuracy_of(&sensor, 0, 400, 100).range_sigma_m;
     sensor.chirp_slope_hzps = 2e11; /* 0.3825 m for each m/s */
-    struct peak_accuracy accuracy = accuracy_of(&sensor, 0, 400, 100);
+    struct effect_measurement accuracy = accuracy_of(&sensor, 0, 400, 100);
     double coupled = 0.3825 * accuracy.range_rate_sigma_mps;
     assert_near(accuracy.range_sigma_m, sqrt(steep * steep + coupled * coupled), 1e-4);
 }
@@ -77,7 +79,7 @@ static void an_echo_below_the_noise_is_anywhere(void **state)
 {
     (void)state;
     struct sensor sensor = radar(POINT_RESPONSE_HANN, 0);
-    struct peak_accuracy accuracy = accuracy_of(&sensor, 0.1, 0, 0);
+    struct effect_measurement accuracy = accuracy_of(&sensor, 0.1, 0, 0);
     assert_near(accuracy.range_sigma_m, 2 / sqrt(12), 1e-3);
     assert_near(accuracy.range_rate_sigma_mps, 0.25 / sqrt(12), 1e-9);
     assert_near(accuracy.azimuth_sigma_rad, PI / 2 / sqrt(12), 1e-9);
