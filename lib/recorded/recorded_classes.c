@@ -55,7 +55,6 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
                : -1;
 }
 
-/* NULL if there is none of that name. */
 static const struct recorded_word *known(const struct recorded_classes *classes, const char *word,
                                          size_t length)
 {
@@ -79,7 +78,7 @@ static const char *class_of(const struct recorded_classes *classes,
     return NULL;
 }
 
-/* NULL if no word has this class. */
+/* The first word of this class, or NULL. */
 static const struct recorded_word *first_of_class(const struct recorded_word *words,
                                                   const char *class)
 {

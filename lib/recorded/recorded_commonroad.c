@@ -24,31 +24,31 @@ struct state {
     struct interval time, orientation, velocity, lateral, slip, yaw_rate;
 };
 
-/* A rectangle, a circle or a point; or the box around several, not turned, if length_m is said. */
+/* A rectangle, a circle or a point; or the box around several, along the axes. */
 struct area {
     double x_m, y_m, length_m, width_m, orientation_rad, radius_m;
-    unsigned said; /* of a part, bit i: members[i] */
-    bool ended;    /* of a shape or a position */
+    unsigned said; /* bit i: members[i] of a part was read */
+    bool ended;    /* the shape or position was read */
 };
 
 struct document {
     struct xml_rows xml; /* first: xml_rows_close closes it */
     double step_s;
-    size_t depth;         /* elements that are open */
-    char path[PATH_SIZE]; /* of those inside an obstacle, "/shape/rectangle" */
-    char text[NAME_SIZE]; /* of the one that was opened last, without white space before it */
+    size_t depth;         /* number of open elements */
+    char path[PATH_SIZE]; /* of the open elements in an obstacle, "/shape/rectangle" */
+    char text[NAME_SIZE]; /* of the element opened last, without white space before it */
     size_t path_length, text_length;
     bool in_obstacle, still;
-    unsigned ended;                      /* bit i: single_elements[i] of the obstacle */
-    char id[NAME_SIZE], type[NAME_SIZE]; /* of the obstacle; empty: not said yet */
-    struct area shape, position, part;   /* part is added to one of the others at its end */
+    unsigned ended;                      /* bit i: single_elements[i] of the obstacle was read */
+    char id[NAME_SIZE], type[NAME_SIZE]; /* of the obstacle; empty: not read yet */
+    struct area shape, position, part;   /* part is added to shape or position at its end */
     struct state state;
-    struct arena *arena;                 /* of what is kept until the end: */
+    struct arena *arena;                 /* of the members below, kept until the end */
     struct intern ids;                   /* of the obstacles so far */
     LIST_OF(struct recorded_row) stills; /* obstacles that stand still */
     struct intern steps;                 /* times of all others */
-    size_t still_given;                  /* how many of those came in every step */
-    uint32_t step_given;                 /* and in how many steps the next one came */
+    size_t still_given;                  /* number of stills given in every step */
+    uint32_t step_given;                 /* number of steps in which the next still was given */
 };
 
 static const struct state no_state = {{UNSAID, UNSAID}, {UNSAID, UNSAID}, {UNSAID, UNSAID},
@@ -64,7 +64,7 @@ static void fail(struct document *document, const char *what, const char *value,
 
 /* ---- values ---- */
 
-/* Intervals by their paths in a state, and numbers by the names of their elements. */
+/* Intervals by their paths in a state; numbers of a part by the names of their elements. */
 static const struct member {
     const char *name;
     size_t offset;
@@ -86,11 +86,9 @@ static const struct member {
 };
 
 enum { MEMBERS = sizeof members / sizeof *members };
-_Static_assert(MEMBERS <= 32, "a set of members is an unsigned");
-
 _Static_assert(MEMBERS <= 32, "area.said has a bit for each");
 
-/* What is left of a path below an element, or NULL if it is not below it. */
+/* The rest of a path below an element, or NULL if the path is not below it. */
 static const char *below(const char *path, const char *element)
 {
     size_t length = strlen(element);
@@ -98,7 +96,7 @@ static const char *below(const char *path, const char *element)
     return inside && (path[length] == '/' || path[length] == '\0') ? path + length : NULL;
 }
 
-/* An interval is checked at its own end, "" after its path; its ends are set before. */
+/* Reads an end of an interval, or checks the whole interval at its own end (end is ""). */
 static void end_interval(struct document *document, const struct member *member, const char *end)
 {
     struct interval *interval = (void *)((char *)document + member->offset);
@@ -146,8 +144,8 @@ static void join(double *middle, double *size, double other, double other_size)
     *size = high - low;
 }
 
-/* Widens the area to hold the part too. The first part makes the area, so that its numbers stay as
- * they are. Without a centre, a part of a shape lies in its origin. */
+/* Widens the area to hold the part too. The first part becomes the area without any rounding. A
+ * part of a shape that has no centre lies at the origin. */
 static void end_part(struct document *document, struct area *area, bool is_point)
 {
     struct area part = document->part;
@@ -183,8 +181,8 @@ static void end_in_area(struct document *document, struct area *area, const char
 
 /* ---- states become rows ---- */
 
-/* velocity is along the yaw and velocityY to its left, unless a slip angle turns the velocity. The
- * two are along x and y where there is no yaw. */
+/* velocity is along the yaw and velocityY to its left; without velocityY the slip angle turns
+ * velocity. Without a yaw the two are along x and y. */
 static void set_velocity(const struct state *state, struct recorded_row *row)
 {
     double ahead_mps = middle(state->velocity), left_mps = middle(state->lateral);
@@ -199,8 +197,8 @@ static void set_velocity(const struct state *state, struct recorded_row *row)
     row->vy_mps = ahead_mps * heading.y + left_mps * heading.x + 0.0;
 }
 
-/* Moves a row from the point that states are of to the middle of the shape. Where that lies off the
- * point, its velocity is not known. */
+/* Moves a row from the reference point of the states to the middle of the shape. If the two differ,
+ * the velocity is not known. */
 static void centre(const struct area *shape, struct recorded_row *row)
 {
     if (shape->x_m == 0 && shape->y_m == 0)
@@ -329,7 +327,7 @@ static void end_in_state(struct document *document, const char *path, const char
             end_interval(document, &members[i], below(path, members[i].name));
 }
 
-/* Refuses a second element of a kind that an obstacle has once. */
+/* Refuses a second element of a kind that an obstacle may have only once. */
 static void end_single(struct document *document, const char *name)
 {
     static const char *const single_elements[] = {"/type", "/role", "/initialState", "/trajectory"};
@@ -393,7 +391,8 @@ static void fail_at_end(struct xml_rows *xml)
 
 /* ---- the reader ---- */
 
-/* Behind the file, what stands still comes in the steps of all others. */
+/* Gives the rows of the file, and then every obstacle that stands still in each step of the others.
+ */
 static int next_event(void *state, struct recorded_row *row, struct diag *diag)
 {
     struct document *document = state;

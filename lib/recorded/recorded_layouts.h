@@ -1,8 +1,7 @@
 /* Columns of highD, inD, INTERACTION, NGSIM, SUMO and esmini tables.
  *
- * A layout says what the columns are; their order, the case of their letters and other columns do
- * not matter. The first layout whose mark is among the columns is taken, the last one where none
- * is. */
+ * A layout lists the columns of a table. Their order, the case of their letters and other columns
+ * do not matter. A table has the first layout whose mark is among its columns, or else the last. */
 #pragma once
 
 #include "recorded/recorded_row.h"
@@ -14,26 +13,27 @@ enum recorded_need {
     RECORDED_TOGETHER, /* all of these columns or none */
 };
 
-/* A column of text (an id or a class), of times, of frames, of what all rows have alike, or of
- * numbers that become scale * (number + shift) in a member of struct recorded_row. */
+/* A column of text (an id or a class), of times, of frame numbers, of a value that all rows share,
+ * or of numbers that become scale * (number + shift) in a member of struct recorded_row. */
 struct recorded_column {
     const char *name; /* NULL after the last */
     enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_FRAMES, RECORDED_ALIKE, RECORDED_NUMBER } kind;
     enum recorded_need need; /* of several columns of times, one is needed */
     size_t offset;           /* of the member, in struct recorded_cells */
     double low, high;        /* of a number in the file */
-    double scale, shift;     /* of a time: seconds for 1, which is whole unless it is a second */
+    double scale, shift;     /* scale of a time: its unit in s; below 1 s times are whole */
 };
 
-/* One kind of road user in a table. Its first column is the id; a row is of the first kind whose id
- * it has, and has the kind's class if no column says another. All kinds but the first may ride. */
+/* One kind of road user in a table. Its first column is the id. A row is of the first kind whose id
+ * it has; its class is that of the kind unless a column gives another. All kinds but the first may
+ * be passengers. */
 struct recorded_kind {
     const struct recorded_column *columns;
     const char *class;
     double ahead; /* recorded_row.ahead */
 };
 
-/* The values of a row, and numbers that only the layout's function complete reads. */
+/* The values of a row, and two numbers for the layout's function complete. */
 struct recorded_cells {
     struct recorded_row row;
     double aside[2];
@@ -45,15 +45,15 @@ struct recorded_layout {
     struct recorded_format format;              /* place, next and close are those of all tables */
     const char *mark;                           /* name of a column that no other layout has */
     struct recorded_kind kinds[RECORDED_KINDS]; /* columns NULL: no more */
-    /* Names of columns in the file NN_tracksMeta.csv beside the table; id NULL: there is none.
-     * direction is 1 against x, 2 along it; NULL: it is not said. */
+    /* Names of columns in the file NN_tracksMeta.csv beside the table; id NULL: there is no file.
+     * Values of direction are 1 against x and 2 along x; NULL: there is no such column. */
     struct {
         const char *id, *direction;
     } beside;
-    /* A row has columns for everybody: "#1 NAME" for one, "#2 NAME" for another, and so on. Columns
-     * of times have their plain names. A road user without an id in a row is not there. */
+    /* A row has columns for every road user: "#1 NAME", "#2 NAME", and so on; columns of times have
+     * plain names. A road user without an id in a row is not there. */
     bool wide;
-    void (*complete)(struct recorded_cells *cells); /* NULL: its columns say it all */
+    void (*complete)(struct recorded_cells *cells); /* computes the other values, or NULL */
 };
 
 extern const struct recorded_layout recorded_layouts[RECORDED_LAYOUTS];

@@ -20,16 +20,16 @@ enum { TYPE_VEHICLE = 2 }; /* of a moving object, which then has a type as a veh
 
 struct trace {
     struct input *input;
-    bool rear_axle;    /* are velocities those of rear axles? */
-    bool ahead, begun; /* is the message still to be given out? has any been read? */
-    size_t place;      /* where the message begins in the file */
+    bool rear_axle;    /* velocities are those of rear axles */
+    bool ahead, begun; /* the message has rows to give; a message has been read */
+    size_t place;      /* of the message in the file */
     struct text bytes; /* of the message */
     struct arena arena;
     const Osi3__GroundTruth *truth; /* the message */
     const Osi3__Identifier *host;
     int64_t time_ns;
-    size_t given;                        /* of its moving objects, then of the stills */
-    LIST_OF(struct recorded_row) stills; /* stationary objects of the last message with any */
+    size_t given;                        /* number of moving objects given, and then of stills */
+    LIST_OF(struct recorded_row) stills; /* from the last message with stationary objects */
     struct arena still_arena;
 };
 
@@ -54,15 +54,14 @@ static const char *word_of(enum object_kind kind, int32_t number, struct arena *
                : arena_format(arena, "%s_%d", kind == MOVING ? "moving" : "vehicle", (int)number);
 }
 
-/* A number of a message of the base, which is 0 where that lacks it; not said without the message.
- */
+/* A number in a part of the base: 0 if the part lacks it, and not taken without the part. */
 #define NUMBER(part, number, low, high, member)                                                    \
     {                                                                                              \
 #part "." #number, base->part != NULL ? base->part->number : 0, low, high,                 \
             base->part != NULL ? &row->member : NULL                                               \
     }
 
-/* Takes what moving and stationary objects have; false after a message. */
+/* Takes the values that moving and stationary objects share; false after a message. */
 static bool take_body(const struct trace *trace, const char *kind, const Osi3__Identifier *id,
                       const Osi3__Base *base, struct recorded_row *row, struct diag *diag)
 {
@@ -100,8 +99,8 @@ static bool take_body(const struct trace *trace, const char *kind, const Osi3__I
     return true;
 }
 
-/* Adds the turn of the centre about the rear axle, the vector to which is in the body's axes. False
- * if it is out of bounds. */
+/* Adds the velocity of the centre relative to the rear axle, given by its place in the body's axes.
+ * False if the place is out of bounds. */
 static bool move_velocity(struct recorded_row *row, const Osi3__Vector3d *to_rear)
 {
     if (!(fabs(to_rear->x) <= 1e3 && fabs(to_rear->y) <= 1e3))
@@ -136,14 +135,13 @@ static int give_moving(struct trace *trace, const Osi3__MovingObject *object,
     return RECORDED_ROW;
 }
 
-/* Keeps the stationary objects of a message that has some: traces need not repeat them. */
+/* Keeps the stationary objects of a message, if it has any: traces need not repeat them. */
 static int keep_stills(struct trace *trace, struct diag *diag)
 {
     struct arena *arena = &trace->still_arena;
     if (trace->truth->n_stationary_object > 0) {
         arena_clear(arena);
-        trace->stills.items = NULL;
-        trace->stills.count = trace->stills.room = 0;
+        memset(&trace->stills, 0, sizeof trace->stills);
     }
     for (size_t i = 0; i < trace->truth->n_stationary_object; i++) {
         const Osi3__StationaryObject *object = trace->truth->stationary_object[i];
@@ -175,7 +173,8 @@ static void leave_to_arena(void *arena, void *memory)
     (void)memory;
 }
 
-/* Reads so many bytes into the trace's text: their number, less at the end; -1 after a message. */
+/* Reads count bytes into the trace's text. Returns their number, less at the end of the file; -1
+ * after a message. */
 static long read_bytes(struct trace *trace, size_t count, struct diag *diag)
 {
     struct text *bytes = &trace->bytes;
@@ -244,8 +243,8 @@ static int read_time(struct trace *trace, struct diag *diag)
     return 0;
 }
 
-/* Of a text or a log the first four bytes are a length beyond all bounds. Some bytes more let
- * file_format_explain see what it is. */
+/* Refuses a message that is too long. The first four bytes of a text or a log make such a length;
+ * some more bytes let file_format_explain recognize the format. */
 static int refuse_length(struct trace *trace, size_t length, struct diag *diag)
 {
     struct diag ignored = {0};

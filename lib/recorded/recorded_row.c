@@ -20,8 +20,7 @@ int64_t recorded_row_time_ns(double time, double unit_s)
     return (int64_t)whole * (int64_t)per_unit + (int64_t)round((time - whole) * per_unit);
 }
 
-/* Divides whole milliseconds, microseconds or nanoseconds, so that the numerator is exact:
- * milliseconds since 1970 have 41 bits. */
+/* Divides whole milliseconds, microseconds or nanoseconds, so that the numerator is exact. */
 double recorded_row_seconds(int64_t time_ns)
 {
     int64_t unit = time_ns % 1000000 == 0 ? 1000000 : time_ns % 1000 == 0 ? 1000 : 1;
@@ -52,7 +51,7 @@ struct stored_row {
 
 _Static_assert(sizeof(struct stored_row) <= 60, "with what lists take a row has 64 bytes at most");
 
-/* What many rows share: it is interned by its bytes. */
+/* Values that many rows share, interned by their bytes. */
 struct body {
     double length_m, width_m, height_m, ahead, direction_rad;
     uint32_t id, class; /* names */

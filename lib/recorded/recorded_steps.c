@@ -22,8 +22,8 @@ static double seconds_between(const struct recorded_step *from, const struct rec
 
 /* ---- rows become states ---- */
 
-/* Is the row a passenger of the vehicle that was taken last? Its place is the vehicle's then, to
- * the last digit; persons who wait may share a place, too. */
+/* True if the row is a passenger of the vehicle that was taken last, at exactly the same place.
+ * Waiting persons may share a place too. */
 static bool rides(const struct recorded_row *row, const struct recorded_step *step)
 {
     if (!row->passenger || step->states.count == 0)
@@ -71,8 +71,8 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
     return 0;
 }
 
-/* Turns the object to its yaw, which is NAN where it is that of the velocity; at rest it is that of
- * travel, or of the step before. Then moves the object to the centre of its box. */
+/* Sets the object's yaw if it is NAN: from the velocity, at rest from the direction of travel or
+ * the step before. Then moves the object to the centre of its box. */
 static void place_object(struct recorded_state *state, const struct recorded_state *before,
                          double slow_mps)
 {
@@ -103,9 +103,9 @@ static int refuse_second(const struct recorded_steps *steps, const struct record
                      recorded_row_seconds(step->time_ns), format->place, one > other ? other : one);
 }
 
-/* Sorts the states and links each to the one with its id in the step before, unless it moved faster
- * than RECORDED_STEPS_FASTEST_MPS (a new visit). Sums ways and speeds for check_speeds, spreads
- * jumps, and places objects whose yaw or velocity the rows say. */
+/* Sorts the states and links each to the state with its id in the step before, unless it moved
+ * faster than RECORDED_STEPS_FASTEST_MPS (a new visit). Sums path lengths for check_speeds, spreads
+ * jumps, and places objects whose rows give yaw or velocity. */
 static int link_states(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
 {
     const struct recorded_format *format = steps->reader.format;
@@ -147,8 +147,8 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
     return 0;
 }
 
-/* Refuses a recording whose road users hardly move although their speeds say that they go far: 10 m
- * in all at the end, or 1 km before it. Over such ways jumps and stops do not matter. */
+/* Refuses a recording whose road users hardly move although their speeds add up to a long way: 10 m
+ * in all at the end, or 1 km before it. On such ways jumps and stops do not matter. */
 static int check_speeds(const struct recorded_steps *steps, struct diag *diag)
 {
     bool far = steps->said_m >= (steps->ended ? 10 : 1e3);
@@ -202,8 +202,7 @@ static int take_event(struct recorded_steps *steps, struct recorded_step *step, 
     return take_row(steps, step, diag) == 0 ? 1 : -1;
 }
 
-/* Reads a step into the ring, if there is one. A step with a fault is none, and the fault ends the
- * recording. */
+/* Reads a step into the ring, if there is one. A fault drops the step and ends the recording. */
 static void read_step(struct recorded_steps *steps)
 {
     struct recorded_step *step = step_at(steps, steps->read);
@@ -227,8 +226,8 @@ static void read_step(struct recorded_steps *steps)
 
 /* ---- what the rows leave open ---- */
 
-/* The slope, at the middle of three places, of the parabola through them: before and after are the
- * rises to and from it, over times that are 0 where there is no such place. NAN without any. */
+/* The slope, at the middle of three places, of the parabola through them. before and after are the
+ * rises to and from the middle; their times are 0 if there is no such place. NAN without both. */
 static double slope(double before, double before_s, double after, double after_s)
 {
     if (before_s > 0 && after_s > 0)
@@ -239,7 +238,7 @@ static double slope(double before, double before_s, double after, double after_s
     return after_s > 0 ? after / after_s : (double)NAN;
 }
 
-/* Without a step beside it a road user has the speed that the source says, or none. */
+/* Without a neighbouring step a road user has the speed of the source, or 0. */
 static void find_velocity(struct recorded_state *state, const struct recorded_state *before,
                           double before_s, const struct recorded_state *after, double after_s)
 {
@@ -270,7 +269,7 @@ static void find_yaw_rate(struct object *object, const struct recorded_state *be
     object->yaw_rate_radps = isnan(rate_radps) ? 0 : rate_radps;
 }
 
-/* The sum is compensated (Neumaier), because a track may have very many very short steps. */
+/* Adds up the path length; compensated (Neumaier), as a track may have very many short steps. */
 static void travel(struct recorded_state *state, const struct recorded_state *before)
 {
     struct vec2 way_m = {state->object.x_m - before->object.x_m,
@@ -282,8 +281,8 @@ static void travel(struct recorded_state *state, const struct recorded_state *be
     state->object.travelled_m = state->way_m + state->way_rest_m;
 }
 
-/* Refuses a road user that stays where it is, though it was fast at both ends of a long step: the
- * times are in another unit than that of their column. */
+/* Refuses a road user that hardly moves though it is fast at both ends of a long step: the times
+ * are in another unit than that of their column. */
 static int check_way(const struct recorded_steps *steps, const struct recorded_state *state,
                      const struct recorded_state *before, double length_s, struct diag *diag)
 {

@@ -39,7 +39,7 @@ static const struct field recording_fields[] = {
 const struct record recording_options_record = {
     .name = "recording", .size = sizeof(struct recording_options), .fields = recording_fields};
 
-/* A comma ends an id. A backslash takes the meaning from a comma, or a backslash, behind it. */
+/* A comma ends an id, unless a backslash stands before it; two backslashes mean one. */
 static int choose_egos(struct recording *recording, const char *egos, struct diag *diag)
 {
     if (egos == NULL)
@@ -143,7 +143,7 @@ int recording_open(struct recording *recording, struct recorded_reader reader, s
 
 /* ---- steps ---- */
 
-/* --ego all means whoever could carry a radar. */
+/* --ego all means every object that could carry a radar. */
 static bool is_ego(const struct recording *recording, const struct recorded_state *state)
 {
     static const char *const others[] = {"pedestrian", "guardrail", "wall", "post"};
@@ -179,8 +179,8 @@ static int take_step(struct recording *recording, struct diag *diag)
         if (more <= 0)
             return more;
         arena_clear(&recording->step_arena);
-        recording->step_egos.items = NULL;
-        recording->step_egos.count = recording->step_egos.room = recording->ego = 0;
+        memset(&recording->step_egos, 0, sizeof recording->step_egos);
+        recording->ego = 0;
         if (recording->step->time_ns < recording->from_ns)
             continue;
         for (uint32_t i = 0; i < recording->step->states.count; i++)
@@ -268,7 +268,7 @@ static void fill(struct recording *recording, const struct recorded_state *state
     add_objects(recording, state, frame);
 }
 
-/* An ego that never came is an error, for its id may be misspelt. */
+/* Refuses an ego that never came, for its id may be misspelt. */
 static int check_egos(const struct recording *recording, struct diag *diag)
 {
     const struct recorded_format *format = recording->steps.reader.format;
@@ -285,7 +285,7 @@ static int check_egos(const struct recording *recording, struct diag *diag)
     return 0;
 }
 
-/* Notes what was done about jumps. */
+/* Reports the jumps that were spread. */
 static void note_jumps(const struct recording *recording, struct diag *diag)
 {
     const struct recorded_jump_counts *jumps = &recording->steps.jumps;

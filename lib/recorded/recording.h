@@ -1,7 +1,7 @@
 /* Frames of a recording: a scene for each ego.
  *
- * This is what all sources of recorded traffic share: they open a reader of their format
- * (recorded_row.h), and a recording makes frames of what it reads. */
+ * All sources of recorded traffic open a reader of their format (recorded_row.h); a recording makes
+ * frames of its rows. */
 #pragma once
 
 #include "geometry/neighbour_grid.h"
@@ -18,8 +18,8 @@ struct recording_options {
 
 extern const struct record recording_options_record;
 
-/* Fields of a source whose state begins with a struct recording: what it plays with the options
- * that all recordings share, and types, for sources that play SUMO. */
+/* Fields of a stage whose state begins with a struct recording: the source with the shared options,
+ * and --types for SUMO. */
 #define RECORDING_SOURCE(help)                                                                     \
     {FIELD_NAME_OF(struct recording, source, help)},                                               \
     {                                                                                              \
@@ -34,40 +34,39 @@ extern const struct record recording_options_record;
         .word = "FILE", FIELD_OPTIONAL                                                             \
     }
 
-/* What there was of an ego so far. */
+/* An ego and its present visit. */
 struct recorded_ego {
     const char *id;
-    const char *scene; /* of its visit now */
-    int64_t since_ns;  /* when that began */
-    int64_t visits, frames;
+    const char *scene;      /* of the visit */
+    int64_t since_ns;       /* time when the visit began */
+    int64_t visits, frames; /* number of visits so far, and of frames of the present one */
     struct vec2 origin_m;
 };
 
 struct recording {
-    /* What the caller sets. source is the path, for messages and names of scenes. */
+    /* Set by the caller. source is the path, for messages and names of scenes. */
     const char *source;
     struct recording_options options;
-    bool live; /* nothing waits for the next step (recorded_steps.h) */
-    /* The rest is the recording's own. */
-    const char *name; /* of scenes, before the ego's */
-    bool all;         /* is every vehicle an ego? */
+    bool live; /* no step waits for the next one (recorded_steps.h) */
+    /* Set by the recording. */
+    const char *name; /* of scenes, before the ego's name */
+    bool all;         /* every vehicle is an ego */
     int64_t from_ns;
-    struct intern wanted; /* ids of egos, unless all are */
+    struct intern wanted; /* ids of egos, unless all are egos */
     struct recorded_steps steps;
     struct resampling resampling;
-    struct intern ids;                 /* of egos that were there */
+    struct intern ids;                 /* of egos so far */
     LIST_OF(struct recorded_ego) egos; /* by the number of the id */
-    struct conditions conditions;      /* that the options change */
+    struct conditions conditions;      /* changed by the options */
     struct arena *arena;
-    const struct recorded_step *step; /* whose frames are being made */
+    const struct recorded_step *step; /* the present step */
     struct arena step_arena;
-    LIST_OF(uint32_t) step_egos; /* places in the step's states */
-    size_t ego;                  /* of step_egos, whose frame is next */
+    LIST_OF(uint32_t) step_egos; /* places of egos in the step's states */
+    size_t ego;                  /* next one of step_egos */
     struct neighbour_grid grid;
 };
 
-/* Takes over the reader, which is closed with the recording, and after a failure. What the
- * recording keeps lies in the arena. */
+/* Takes over the reader, which is closed with the recording and after a failure. */
 int recording_open(struct recording *recording, struct recorded_reader reader, struct arena *arena,
                    struct diag *diag);
 
@@ -75,16 +74,16 @@ int recording_open(struct recording *recording, struct recorded_reader reader, s
 int recording_conditions(const struct recording_options *options, struct conditions *changes,
                          struct arena *arena, struct diag *diag);
 
-/* The part of a source's name that names its scenes: "tracks" of ../tracks.csv.gz. */
+/* The name of a source's scenes: "tracks" of ../tracks.csv.gz. */
 const char *recording_name(const char *source, struct arena *arena);
 
 /* Fills header and objects of the next frame: 1; 0 at the end; -1 after a message. */
 int recording_next(struct recording *recording, struct frame *frame, struct diag *diag);
 
-/* Refuses the frame that was made last if an object is out of the bounds of its record, for
- * instance too far from the origin; the message names its place in the file. */
+/* Refuses the last frame if an object is out of the bounds of its record, for instance too far from
+ * the origin; the message names its place in the file. */
 int recording_check(const struct recording *recording, const struct frame *frame,
                     struct diag *diag);
 
-/* Of a struct recording; the release of a stage whose state begins with one. */
+/* The release of a stage whose state is or begins with a struct recording. */
 void recording_close(void *recording);

@@ -1,9 +1,9 @@
 /* A recording at another rate than its own.
  *
- * Places and velocities follow the cubic Hermite curve between two steps, yaws the shorter arc,
- * yaw rates and ways travelled the straight line; class and sizes are held. A road user is there
- * from its first step to its last. Instant 0 is the first step of the recording, whatever from_ns
- * is, so that the parts of a recording that is cut by time have the instants of the whole. */
+ * Places and velocities follow the cubic Hermite curve between two steps, yaws the shorter arc; yaw
+ * rates and distances travelled are linear; class and sizes stay. A road user is there from its
+ * first step to its last. Instant 0 is the first step of the recording, whatever from_ns is, so
+ * that parts that are cut by time have the instants of the whole. */
 #pragma once
 
 #include "recorded/recorded_steps.h"
@@ -12,7 +12,7 @@ struct resampling {
     struct recorded_steps *steps;
     double rate_hz;
     int64_t from_ns, to_ns;                /* no instant is before from_ns or after to_ns */
-    int64_t begin_ns, first;               /* time of instant 0, and the first that is made */
+    int64_t begin_ns, first;               /* time of instant 0; number of the first one made */
     const struct recorded_step *from, *to; /* around the next instant; NULL: not read yet */
     struct recorded_step made[2];          /* instants */
     size_t made_count, given;

@@ -8,11 +8,11 @@
 #include "text/file_format.h"
 
 /* Bytes of a piece, and the most bytes of a tag or comment. expat parses an unfinished tag anew
- * with every piece. So the next piece is as long as the unfinished tag, which keeps the cost
+ * with every piece. So a piece is as long as the unfinished tag before it, which keeps the cost
  * linear. */
 enum { PIECE = 64 * 1024, TOKEN = 4 * 1024 * 1024 };
 
-/* Memory that expat got, or did not get. */
+/* Memory that expat asked for; ends the program if there is none. */
 static void *granted(void *memory)
 {
     return memory != NULL ? memory : memory_get((size_t)-1);
@@ -90,7 +90,7 @@ const char *xml_rows_name(struct xml_rows *xml, const char *what, const char *te
 
 /* ---- parsing ---- */
 
-/* Parses a piece more; false at the end and after a fault. */
+/* Parses one more piece; false at the end and after a fault. */
 static bool parse(struct xml_rows *xml)
 {
     int64_t left = TOKEN + 1 - xml->open;
@@ -121,7 +121,7 @@ static bool parse(struct xml_rows *xml)
     return xml->fault.code == DIAG_OK && got > 0;
 }
 
-/* Tells the fault, or the format of a file that is of another one; returns -1. */
+/* Reports the fault, or the format of a file of another format; returns -1. */
 static int report(const struct xml_rows *xml, struct diag *diag)
 {
     size_t length;
@@ -136,8 +136,8 @@ int xml_rows_next(void *state, struct recorded_row *row, struct diag *diag)
     struct xml_rows *xml = state;
     while (xml->taken == xml->events.count && !xml->ended) {
         arena_clear(&xml->arena);
-        xml->events.items = NULL;
-        xml->events.count = xml->events.room = xml->taken = 0;
+        memset(&xml->events, 0, sizeof xml->events);
+        xml->taken = 0;
         xml->ended = !parse(xml);
     }
     if (xml->taken < xml->events.count) {

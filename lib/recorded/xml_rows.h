@@ -1,7 +1,7 @@
-/* Rows of a recording that lies in XML (by expat).
+/* Rows of a recording in XML (by expat).
  *
  * A file is parsed piece by piece. The reader's handlers add events, which are given out before the
- * next piece is parsed. A fault ends the file, after the events before it. */
+ * next piece is parsed. A fault ends the file after the events before it. */
 /* needs: expat */
 #pragma once
 
@@ -21,11 +21,11 @@ struct xml_rows {
     struct input *input;
     const char *kind;                          /* in file_format.def */
     struct diag fault;                         /* that ends the file */
-    const char *advice;                        /* after what is no XML; NULL: none */
+    const char *advice;                        /* added to messages of expat; NULL: none */
     void (*fail_at_end)(struct xml_rows *xml); /* refuses a file that ends within its root */
-    LIST_OF(struct xml_event) events;          /* of the piece that was parsed last */
-    size_t taken;
-    int64_t bytes, open; /* bytes parsed so far; bytes of the tag or comment that has not ended */
+    LIST_OF(struct xml_event) events;          /* of the last piece */
+    size_t taken;                              /* number of events given out */
+    int64_t bytes, open; /* bytes parsed so far; bytes of the unfinished tag or comment */
     struct arena arena;  /* of events and their names */
     bool in_root, ended;
 };
@@ -33,14 +33,14 @@ struct xml_rows {
 /* Takes over the input. The handlers, which the caller sets, get the context. */
 void xml_rows_begin(struct xml_rows *xml, const char *kind, struct input *input, void *context);
 
-/* The format's functions next and close, whose state is or begins with a struct xml_rows. */
+/* next and close of a format; the state is or begins with a struct xml_rows. */
 int xml_rows_next(void *state, struct recorded_row *row, struct diag *diag);
 void xml_rows_close(void *state);
 
 /* The line that is being parsed. */
 size_t xml_rows_line(const struct xml_rows *xml);
 
-/* Refuses the value of an element or attribute of this name; NULL: it is missing. */
+/* Refuses the value of an element or attribute; NULL means that it is missing. */
 void xml_rows_fail(struct xml_rows *xml, const char *what, const char *value,
                    const char *expectation);
 
