@@ -1,12 +1,11 @@
-/* Stable sorting that takes its scratch memory from an arena. libc's qsort allocates for anything
- * over a kilobyte and may or may not be stable. This merge sort merges the runs that are in order
- * already, of which a frame's lists have few, and moves every item once. A list in order costs one
- * pass. */
+/* Stable sorting that takes its scratch memory from an arena: a natural merge sort, which merges the
+ * runs that are in order already. A list in order costs one pass. qsort of the C library need not be
+ * stable, and allocates. */
 #pragma once
 
 #include "base/arena.h"
 
-/* Sorts count items of size bytes; compare as for qsort. */
+/* Sorts count items of size bytes; compare works as for qsort. */
 void sort_items(void *items, size_t count, size_t size, int (*compare)(const void *, const void *),
                 struct arena *arena);
 
