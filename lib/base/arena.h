@@ -1,10 +1,9 @@
 /* Arenas, growing arrays, and memory that is never NULL.
  *
- * Ownership: what belongs to a frame lies in the frame's arena, which the runner clears after each
- * frame; what is loaded from a document lies in the runner's arena and what one frame leaves to the
- * next in the chain's, both freed at the end; nothing else is allocated. Out of memory prints a
- * message on stderr and exits with 71, in jansson too (document_guard_memory), because a library
- * that carried on after a failed allocation has been seen to return wrong numbers. */
+ * Ownership: the data of a frame lie in the frame's arena, which the runner clears after each
+ * frame. Documents lie in the runner's arena, and data that one frame leaves to the next in the
+ * chain's arena; both are freed at the end. When memory runs out, also in jansson
+ * (document_guard_memory), the program prints a message on stderr and exits with 71. */
 #pragma once
 
 #include <stddef.h>
@@ -31,12 +30,12 @@ void *arena_room(struct arena *arena, size_t size);
 /* A NUL-terminated copy of the first length bytes of text. */
 char *arena_text(struct arena *arena, const char *text, size_t length);
 
-/* A text as printf would print it. */
+/* The text that printf would print. */
 char *arena_format(struct arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Forgets everything in the arena but keeps its memory, joined into one block with half as much
- * again, so that a loop that clears its arena each round soon allocates nothing. */
+/* Empties the arena. Several blocks become one of 1.5 times their size, so that a loop that clears
+ * its arena each round soon allocates nothing. */
 void arena_clear(struct arena *arena);
 
 void arena_free(struct arena *arena);

@@ -2,8 +2,8 @@
  *
  * Functions that can fail return 0, or -1 after filling a struct diag; only the mains print and
  * exit. A message names the place, the value and what was expected; the runner puts program, file
- * and line in front of it. A text without a code is a note, and is printed too. Codes are those of
- * sysexits, so that scripts can tell bad data (do not retry) from a full disk (do). */
+ * and line in front of it. A text without a code is a note, and is printed too. Exit codes are
+ * those of sysexits.h: a script can tell bad data (do not retry) from a full disk (retry). */
 #pragma once
 
 enum diag_code {
@@ -35,6 +35,6 @@ enum diag_code diag_code_by_errno(enum diag_code otherwise);
  * knows; returns -1. */
 int diag_prefix(struct diag *diag, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Prints "PROGRAM: MESSAGE" to stderr, with control characters as \xNN, those of two bytes (U+0080
- * to U+009F) too, since a message may quote input. */
+/* Prints "PROGRAM: MESSAGE" to stderr, with control characters, also U+0080 to U+009F, as \xNN,
+ * because a message may quote input. */
 void diag_print(const char *program, const struct diag *diag);

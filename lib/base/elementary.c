@@ -8,10 +8,11 @@
 wider than a double (x87: use SSE2), results would depend on the compiler"
 #endif
 
-/* Polynomials are weighted minimax fits (Remez exchange in 60 digits). The leading two coefficients
- * are rounded to doubles in turn and the later ones fitted to what is left. The comment at each
- * gives the function, the interval and the largest relative error of the fit. Other constants are
- * the named numbers, cut into parts where noted: hi is rounded, lo is the exact number less hi. */
+/* Polynomials are weighted minimax fits (Remez exchange in 60 digits). The first two coefficients
+ * are rounded to doubles one after the other, and the later ones fitted to the remainder. The
+ * comment at each gives the function, the interval and the largest relative error of the fit. Other
+ * constants are the named numbers; of two parts, hi is the rounded number and lo the exact number
+ * less hi. */
 
 #define PI_2_HI 0x1.921fb54442d18p+0
 #define PI_2_LO 0x1.1a62633145c07p-54

@@ -1,12 +1,10 @@
-/* Elementary functions with the same bytes on every machine. They use + - * / sqrt, comparisons and
- * integer operations alone, all of which IEEE 754 rounds exactly, so that neither the compiler, the
- * optimization, the C library nor the CPU can change a result. They need round-to-nearest and no
- * contraction of products and sums; the Makefile's flags give both. scripts/check-house keeps
- * libm's functions out.
+/* Elementary functions with the same bytes on every machine. They use only + - * / sqrt,
+ * comparisons and integer operations. IEEE 754 defines the results of these to the bit, so no
+ * compiler, C library or CPU changes one. They need round-to-nearest and no contraction of products
+ * and sums; the Makefile's flags give both. scripts/check-house refuses libm's functions.
  *
- * The bounds are in units in the last place of the exact result, with 0.5 for a correctly rounded
- * one. tests/unit/base/test_elementary measures them against MPFR, over logarithmic draws of the
- * whole domain and densely at the hard places of each function. */
+ * Errors are in units in the last place (ulp) of the exact result; 0.5 ulp is correct rounding.
+ * tests/unit/base/test_elementary measures them against MPFR. */
 #pragma once
 
 #include <math.h>
@@ -17,37 +15,36 @@ struct elementary_sincos {
     double sin, cos;
 };
 
-/* For every finite angle, 1e300 rad too; within 0.9 ulp. Odd and even exactly; NaN for
- * infinities. */
+/* Sine and cosine of every finite angle, also of 1e300 rad, within 0.9 ulp. The sine is exactly
+ * odd, the cosine exactly even; NaN for infinities. */
 double elementary_sin(double angle_rad);
 double elementary_cos(double angle_rad);
 
-/* Both for little more than the cost of one: the same doubles as elementary_sin and
- * elementary_cos. */
+/* The same two doubles, for little more than the cost of one. */
 struct elementary_sincos elementary_sincos(double angle_rad);
 
-/* The angle less whole turns (of 2 pi, not of its double), from -PI to PI as doubles. Every finite
- * angle within 0.6 ulp; angles already in the range unchanged. Odd exactly; NaN for infinities. */
+/* The angle minus a multiple of the exact 2 pi, from -PI to PI as doubles, within 0.6 ulp for every
+ * finite angle. An angle in this range is returned unchanged. Exactly odd; NaN for infinities. */
 double elementary_wrap(double angle_rad);
 
 /* Sine and cosine of 2 pi turns, |turns| <= 2^48, within 0.9 ulp: whole, half and quarter turns are
  * exact. */
 struct elementary_sincos elementary_sincos_turns(double turns);
 
-/* The angle of (x, y), within 0.6 ulp, from -PI to PI as doubles; signed zeros and infinities as in
- * C's atan2. Odd in y exactly. */
+/* The angle of the point (x, y), within 0.6 ulp, from -PI to PI as doubles; signed zeros and
+ * infinities as in C's atan2. Exactly odd in y. */
 double elementary_atan2(double y, double x);
 
-/* Within 0.8 ulp; odd exactly; NaN beyond [-1, 1]. */
+/* The arc sine within 0.8 ulp; exactly odd; NaN outside [-1, 1]. */
 double elementary_asin(double sine);
 
-/* For x >= 0; -infinity at 0, NaN below. elementary_log is within 0.9 ulp, elementary_log10 within
- * 0.6 and exact where x is a power of ten. */
+/* Logarithms to the bases e and 10 for x >= 0; -infinity at 0, NaN below. elementary_log is within
+ * 0.9 ulp, elementary_log10 within 0.6 and exact where x is a power of ten. */
 double elementary_log(double x);
 double elementary_log10(double x);
 
-/* Within 0.9 ulp, and within 1 unit of the subnormals where the result is one; 0 or infinity where
- * it leaves the doubles. */
+/* e^x within 0.9 ulp, or within 2^-1074 where the result is subnormal; 0 or infinity where the
+ * result is no double. */
 double elementary_exp(double x);
 
 /* base^exponent for base >= 0 and a finite exponent, NaN otherwise; within 1 ulp, correctly rounded
@@ -58,8 +55,7 @@ double elementary_pow(double base, double exponent);
  * 0. */
 double elementary_hypot(double x, double y);
 
-/* x 2^exponent, rounded once where it is subnormal: a product where the power is a normal double,
- * else scalbn. */
+/* x 2^exponent; a subnormal result is rounded once. */
 static inline double elementary_scaled(double x, int exponent)
 {
     if (exponent < -1022 || exponent > 1023)
@@ -69,9 +65,8 @@ static inline double elementary_scaled(double x, int exponent)
     return x * power;
 }
 
-/* The lesser and the greater of two numbers; of equal ones the first, so that two zeros of
- * different sign have one answer, which fmin and fmax leave open. Of a NaN and a number, the
- * number. */
+/* The lesser and the greater of two numbers. Of equal numbers the first: fmin and fmax leave open
+ * which of two zeros of different sign they return. Of a NaN and a number, the number. */
 static inline double elementary_min(double a, double b)
 {
     return b < a || isnan(a) ? b : a;

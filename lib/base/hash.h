@@ -8,9 +8,9 @@
 
 #define HASH_START UINT64_C(0xcbf29ce484222325)
 
-/* The 64-bit hash that random addresses and digests of documents are made of: FNV-1a with the final
- * mix of splitmix64; not for adversaries. Calls can be chained to hash several pieces: the end of
- * each piece counts, so ("a", "bc") and ("ab", "c") differ. */
+/* The 64-bit hash in random addresses and digests of documents: FNV-1a with the final mix of
+ * splitmix64; adversaries can find collisions. Calls can be chained over several pieces: the end of
+ * each piece is hashed too, so ("a", "bc") and ("ab", "c") differ. */
 uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t length);
 uint64_t hash_text(uint64_t hash, const char *text);
 

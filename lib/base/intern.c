@@ -2,8 +2,6 @@
 
 #include "base/text.h"
 
-/* A name with its ends: they are the whole of a name of up to 16 bytes; first is the whole of one
- * shorter than 8. */
 static inline struct intern_name name_of(const char *text, size_t length)
 {
     if (length < 8)

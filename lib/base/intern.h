@@ -1,7 +1,7 @@
 /* Names, each kept once and known by its number. Numbers are 0, 1, 2, ... in the order in which the
  * names first came.
  *
- * A name may hold any bytes, those of a struct of numbers for instance. A zeroed struct is empty.
+ * A name may hold any bytes, for instance those of a struct of numbers. A zeroed struct is empty.
  * All memory is the arena's, which must be the same one at every call. */
 #pragma once
 
@@ -10,8 +10,7 @@
 struct intern_name {
     const char *text; /* NUL-terminated */
     size_t length;
-    uint64_t first, last; /* the first and the last eight bytes, which may overlap; of a short name
-                           * all bytes, and 0 */
+    uint64_t first, last; /* first and last eight bytes; of a name shorter than 8, all and 0 */
 };
 
 struct intern {

@@ -110,8 +110,8 @@ char *put_ten_thousandths(uint32_t value, char *text)
     return without_zeros(text + 5);
 }
 
-// Of all decimals that read back to mantissa * 2^-scale the shortest, and of those the nearest, as
-// a multiple of 10^-places. places is the least number that puts at least one multiple between the
+// The shortest decimal that reads back to mantissa * 2^-scale, and the nearest of several, as a
+// multiple of 10^-places. places is the least number that puts at least one multiple between the
 // midpoints to both neighbours. So fewer than ten multiples lie there, and at most one multiple of
 // ten, which is then shorter. The product is exact in 128 bits, its fraction in 64. Ties go to the
 // even decimal.

@@ -27,9 +27,9 @@ size_t number_write_whole(uint64_t value, char *text);
 bool number_read(const char *begin, const char *end, double *value);
 
 /* Reads the number at the beginning of [begin, end), as the nearest double, if it has the form of
- * JSON, no exponent, at most NUMBER_DIGITS digits and a size below 10^8. Returns where it ends;
- * NULL if it is none of these, or no number. With NUMBER_ROOM readable bytes, whatever is behind
- * the number, it takes half the time. */
+ * JSON, no exponent, at most NUMBER_DIGITS digits and a size below 10^8. Returns the end of the
+ * number, or NULL for any other text. It takes half the time if at least NUMBER_ROOM bytes are
+ * readable, whatever follows the number. */
 const char *number_take(const char *begin, const char *end, double *value);
 
 /* The double nearest to digits / 10^places; places from 0 to NUMBER_DIGITS. */

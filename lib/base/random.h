@@ -1,8 +1,8 @@
 /* Random numbers, each a function of its own address (Philox4x64, Random123).
  *
- * A draw is a function of its address: the seed, the scene, the frame, the sensor, the reflector
- * and the purpose. So it does not depend on any other draw: not on sharding, on the order of
- * objects, on effects that are left out, nor on whether stages are piped or fused. */
+ * The address is the seed, the scene, the frame, the sensor, the reflector and the purpose. A draw
+ * depends on nothing else: not on shards, the order of objects, effects that are left out, or
+ * whether stages are piped or fused. */
 #pragma once
 
 #include <stdbool.h>
@@ -60,7 +60,7 @@ void random_gaussian(const struct random_address *address, enum random_purpose p
 void random_gaussian_pair(const struct random_address *address, enum random_purpose purpose,
                           uint32_t index, double gaussian[2]);
 
-/* All draws of one random object or case, one after another, at its address. */
+/* The draws at one address, one after another. */
 struct random_sequence {
     struct random_address address;
     enum random_purpose purpose;

@@ -22,8 +22,8 @@ struct suggestion suggestion_begin(const char *word, size_t length);
 /* Offers a known word. Of equally near ones the first by its bytes is suggested. */
 void suggestion_offer(struct suggestion *suggestion, const char *known);
 
-/* The number, from 0, of the word among the known ones, of which the last is NULL. If it is none of
- * them, -1, and in *meant, unless that is NULL, the suggestion. */
+/* The index of the word in a list of known words that ends with NULL. For an unknown word -1, and
+ * the suggestion in *meant, unless meant is NULL. */
 int suggestion_find(const char *const *known, const char *word, size_t length,
                     struct suggestion *meant);
 

@@ -34,8 +34,7 @@ size_t text_utf8(const char *bytes, size_t room);
 /* A JSON string with its quotes and escapes; length bytes of valid UTF-8. */
 void text_add_json(struct text *text, const char *bytes, size_t length);
 
-/* Writes the same at a place with room for text_json_size(length) bytes, more than it can take;
- * returns where it ends. */
+/* Writes the same string at a place with room for text_json_size(length) bytes; returns its end. */
 char *text_put_json(char *at, const char *bytes, size_t length);
 size_t text_json_size(size_t length);
 
@@ -82,8 +81,8 @@ static inline uint64_t text_short_word(const char *bytes, size_t length)
            (uint64_t)byte[length - 1] << 8 * (length - 1);
 }
 
-/* For the first byte that is not plain (text_plain) its high bit; bits of later bytes mean nothing,
- * 0 if all eight are plain. */
+/* The lowest bit set is the high bit of the first byte that is not plain (text_plain); higher bits
+ * mean nothing. 0 if all eight bytes are plain. */
 static inline uint64_t text_not_plain(uint64_t word)
 {
     const uint64_t ones = UINT64_C(0x0101010101010101);

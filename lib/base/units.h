@@ -19,13 +19,12 @@ double units_amplitude_from_db(double db);
 /* The wavelength of a carrier, which must be positive. */
 double units_wavelength_m(double carrier_hz);
 
-/* The same direction in (-pi, pi], without -PI: within 1e-15 rad for every finite angle, 1e300 rad
- * too. */
+/* The same direction in (-pi, pi], never -PI, within 1e-15 rad for every finite angle. */
 double units_wrap_rad(double angle_rad);
 
 /* sin(x)/x, 1 at 0. Within 2 ulp for |x| <= 3 without a series: sin is accurate near 0. */
 double units_si(double x);
 
-/* The nearest multiple of step, halves away from 0. A step of 0 leaves the value as it is, and so
- * does one too small for the double to have a nearer multiple. */
+/* The nearest multiple of step, halves away from 0. The value is unchanged if step is 0 or |value /
+ * step| is at least 2^52. */
 double units_rounded(double value, double step);

@@ -11,7 +11,7 @@
 
 double directivity_angle_rad(struct vec2 a, struct vec2 b)
 {
-    /* + 0.0 turns -0 into 0: a vector of length zero is at angle 0, never at pi. */
+    /* + 0.0 turns -0 into 0, so that a vector of length zero is at angle 0, never at pi. */
     return elementary_atan2(fabs(vec2_cross(a, b)), vec2_dot(a, b) + 0.0);
 }
 

@@ -1,8 +1,8 @@
 /* Directivity of a reflector: its visibility function, and lobes.
  *
- * The visibility V of a point (MODEL 2.2) is a factor by delta, the angle between the point's
- * facing and the direction to the sensor, in [0, pi]. All shapes are 1 up to full_rad, except
- * cosine, which falls from the start, and 0 beyond zero_rad. */
+ * The visibility V of a point (MODEL 2.2) is a factor that depends on delta in [0, pi], the angle
+ * between the point's facing and the direction to the sensor. All shapes are 1 up to full_rad,
+ * except cosine, which falls from the start, and 0 beyond zero_rad. */
 #pragma once
 
 #include "base/vec2.h"
@@ -24,17 +24,16 @@ double directivity_visibility(enum visibility_shape shape, double full_rad, doub
                               double delta_rad);
 
 /* V of a point that faces along a unit vector, seen along to_viewer, the vector from the point to
- * the sensor (or to the bounce of a ghost). The result is that of directivity_visibility at the
- * angle between both, to the last bit; the angle is only computed where V is not plainly 0 or 1. */
+ * the sensor (or to the bounce of a ghost). The same double as directivity_visibility at the angle
+ * between both, which is computed only where V is not clearly 0 or 1. */
 double directivity_visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
                                     struct vec2 facing, struct vec2 to_viewer);
 
-/* V is 0 wherever the cosine of delta is below this value, which lies below cos(zero_rad) by far
- * more than rounding. */
+/* A little less than cos(zero_rad): V is surely 0 where the cosine of delta is below this value. */
 double directivity_dark_cosine(double zero_rad);
 
-/* True only if V is 0 for every viewer within slack_m of the end of to_viewer. dark_cosine is that
- * of directivity_dark_cosine. */
+/* True only if V is 0 for every viewer within slack_m of the end of to_viewer. dark_cosine comes
+ * from directivity_dark_cosine. */
 static inline bool directivity_surely_zero(double dark_cosine, struct vec2 facing,
                                            struct vec2 to_viewer, double slack_m)
 {
@@ -57,6 +56,6 @@ struct lobe {
     double depth_db;         /* 0: no lobe, the factor is 1 everywhere */
 };
 
-/* The factor on amplitude, in (0, 1], for a viewer whose azimuth is off_rad in [0, pi] from the
- * lobe's middle and whose zenith angle, seen from the point, is zenith_rad. */
+/* The factor on amplitude, in (0, 1], for a viewer off_rad in [0, pi] of azimuth from the lobe's
+ * middle, at the zenith angle zenith_rad as seen from the point. */
 double directivity_lobe_factor(const struct lobe *lobe, double off_rad, double zenith_rad);

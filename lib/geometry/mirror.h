@@ -1,13 +1,13 @@
 /* Flat sides that mirror: specular points, images and ghosts (MODEL 2.3, 14.1).
  *
  * A flat side, or wall, is the segment a to b with its outer face to the right of a -> b. Only that
- * face mirrors: a guardrail has two. The wall may move and turn with the body that carries it. For
- * the unit normal n and a point o at the height h = n · (o - a) over the wall the image is
+ * face mirrors: a guardrail has two. The wall may move and turn with its body. With the unit normal
+ * n and the height h = n · (o - a) of a point o over the wall, the image is
  *
  *     o' = o - 2 h n,   v' = V(o') + w - 2 (n · w) n,   w = v - V(o),
  *
- * where V is the velocity of the body's material at a place: seen from the wall, the image of the
- * velocity is the velocity of the image. Metres and metres per second, in one plane. */
+ * where V is the velocity of the body's material at a place. Metres and metres per second, in one
+ * plane. */
 #pragma once
 
 #include "geometry/kinematics.h"
@@ -17,19 +17,18 @@
  * margin_m at both ends. along is the unit vector from a to b. A segment of length zero (below
  * 1e-160 m) has no specular point.
  *
- * The ends are decided exactly, by the projection onto along: the direction of a -> b would not do,
- * because rounding bends joints. Two sides in line that share a vertex and have the same direction
- * as doubles never lose the foot at their joint; both hold the foot only where it is the vertex
- * itself, and line_of_sight.h gives it to one of them.
+ * The ends are decided exactly, by the projection onto along, not onto b - a, whose rounding bends
+ * joints. If two sides in line share a vertex and the doubles of along, one of them has the foot
+ * near the joint; both have it only if it is the vertex itself, and line_of_sight.h then chooses
+ * one.
  *
- * The foot is rounded. On a side parallel to one axis the line of sight is parallel to the other
- * axis to the last bit, so an outline that it touches blocks it. On other sides the line passes
- * within 2 ulp of the largest coordinate or distance, so an outline that it only touches may be
- * missed by that. */
+ * The foot is rounded. For a side parallel to an axis the line of sight is exactly perpendicular,
+ * so an outline that it touches blocks it. For other sides the line is off by up to 2 ulp of the
+ * largest coordinate or distance, so it may miss an outline that it only touches. */
 bool mirror_specular_point(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
                            struct vec2 sensor, struct vec2 *foot);
 
-/* A wall and one sensor. mirror_of sets what follows from both. */
+/* A wall and one sensor, and the members that mirror_of computes from both. */
 struct mirror {
     struct vec2 a, b;
     struct motion body; /* {0} for a wall that stands */
@@ -55,15 +54,14 @@ struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_
 
 /* True if the wall mirrors the point towards the sensor; sets bounce_m, the place on the wall. Both
  * must be strictly on the wall's outer side, and the line from the sensor to the image must cross
- * the segment, ends included. Exact signs decide (predicates.h), for the image as it is rounded.
- * There is no bounce for a wall of length zero, nor for a sensor or point that lies behind the wall
- * or on its line, exactly or after its height is rounded; so no division is by zero. A mirrored
- * scene has the mirrored answer to the last bit. */
+ * the segment, ends included. Exact signs (predicates.h) of the rounded image decide. There is no
+ * bounce for a wall of length zero, or if sensor or point lies behind the wall or on its line,
+ * exactly or after rounding. A mirrored scene has exactly the mirrored answer. */
 bool mirror_bounce(const struct mirror *mirror, struct vec2 point_m, struct vec2 *bounce_m);
 
-/* False only if mirror_bounce is false for every point within radius_m of the centre, so that a
- * whole body and a wall can be passed over at once. Sound under rounding for coordinates up to 1e7
- * m; unnecessarily true where the disc passes narrowly by an end of the wall. */
+/* False only if mirror_bounce is false for every point within radius_m of the centre, for
+ * coordinates up to 1e7 m. May be true without need where the disc passes close by an end of the
+ * wall. */
 bool mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double radius_m);
 
 /* A ghost: the echo of an object O along a path from the sensor S by way of a wall W. */

@@ -55,7 +55,7 @@ static inline struct vec2 motion_box_place(const struct box *box, double x, doub
 void motion_box_outline(const struct box *box, struct vec2 corner[4]);
 
 /* The unit vector from one place to another, both in fractions and not equal. Along a side of the
- * box it is the heading itself or perpendicular to it, so that walls in line with one yaw share it
- * to the last bit. */
+ * box it is exactly the heading or perpendicular to it, so that walls in line with equal yaw have
+ * the same vector. */
 struct vec2 motion_box_along(const struct box *box, double from_x, double from_y, double to_x,
                              double to_y);

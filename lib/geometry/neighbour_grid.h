@@ -1,5 +1,5 @@
-/* Finds places within a radius by a grid. Filling takes time in proportion to the number of places,
- * and a search in proportion to the number in the nine cells around its point. */
+/* Finds places within a radius by a grid. Time to fill is proportional to the number of places,
+ * time to search to the number in nine cells. */
 #pragma once
 
 #include "base/arena.h"
@@ -17,7 +17,7 @@ struct neighbour_grid {
 struct neighbour_grid neighbour_grid_of(const struct vec2 *places, size_t count, double radius_m,
                                         struct arena *arena);
 
-/* Writes the numbers of all places within the radius of this one, itself too, in ascending order;
- * found has room for all places. Returns how many. */
+/* Writes the numbers of all places within the radius of this place, itself included, in ascending
+ * order; found has room for all places. Returns their count. */
 size_t neighbour_grid_find(const struct neighbour_grid *grid, struct vec2 place, uint32_t *found,
                            struct arena *arena);

@@ -3,12 +3,11 @@
  * A body is an upright prism over the convex outline through count corners, counter-clockwise, up
  * to top_m. A top_m of INFINITY is the flat world, in which no line passes above anything.
  *
- * Whether a line touches the outline is exact for the given coordinates (predicates.h). The test is
- * closed: a line that touches an outline in one point, runs through a corner, along an edge or
- * through the joint of two walls is blocked. Only edges block, so a sensor inside an outline sees
- * what is inside with it and nothing beyond. Bodies are never tested against their own reflectors.
- * Heights are compared as plain doubles, so rounding, some 1e-15 m, decides a line that grazes a
- * top. */
+ * Whether a line touches the outline is exact for the given coordinates (predicates.h). A line is
+ * blocked also if it touches an outline in one point only, at a corner, along an edge or at the
+ * joint of two walls. Only edges block, so a sensor inside an outline sees all that is inside and
+ * nothing beyond. Bodies are never tested against their own reflectors. Heights are compared as
+ * doubles: a line within some 1e-15 m of a top may be blocked or free. */
 #pragma once
 
 #include <stddef.h>
@@ -27,8 +26,8 @@ struct obstruction_line {
     double from_height_m, to_height_m;
 };
 
-/* The least height of the line above the body's top where it is over the body; negative below the
- * top. Only for a line that touches the outline. */
+/* The least height of a line that touches the outline above the body's top; negative below the top.
+ */
 double obstruction_above_m(const struct vec2 *corners, size_t count, double top_m,
                            const struct obstruction_line *line);
 
@@ -44,17 +43,17 @@ struct obstruction {
  * outline and is not above its top all along; for other lines the factor is 1. A line inside the
  * outline from end to end is free.
  *
- * With diffraction the body is a knife edge at the easiest of the ways round it: to the left, to
- * the right or over the top. To either side the edge is the corner that reaches farthest into the
- * line, measured by nu with the distances of the corner's foot on the line from both ends; if the
- * line does not touch the outline, only corners between both ends count. From two Fresnel radii
- * inside the shadow on, nu >= 2 sqrt(2), the factor is 0. */
+ * With diffraction the body is a knife edge on the path with the least loss: to the left, to the
+ * right or over the top. The edge of a side is the corner with the largest nu, for the distances of
+ * the corner's foot on the line from both ends; if the line does not touch the outline, only
+ * corners between both ends count. From two Fresnel radii inside the shadow on, nu >= 2 sqrt(2),
+ * the factor is 0. */
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
                                   const struct obstruction_line *line, double wavelength_m);
 
 /* The diffraction parameter of ITU-R P.526, nu = depth sqrt(2 (d1 + d2)/(lambda d1 d2)). depth_m is
- * how far the sight line lies inside the shadow at the edge, negative outside; d1 and d2 are the
- * distances from the edge to sensor and reflector, which count as at least 0.1 m; wavelength > 0.
+ * the depth of the sight line in the shadow at the edge, negative outside; d1 and d2 are the
+ * distances from the edge to sensor and reflector, at least 0.1 m each; wavelength > 0.
  */
 double obstruction_edge_parameter(double depth_m, double sensor_side_m, double reflector_side_m,
                                   double wavelength_m);
@@ -64,6 +63,6 @@ double obstruction_edge_parameter(double depth_m, double sensor_side_m, double r
  * exactly 1. J is within 0.15 dB of Fresnel's integral from nu = -0.77 to 12. */
 double obstruction_edge_amplitude_factor(double parameter);
 
-/* No edge farther than this from a sight line of length range_m changes the factor: the largest
- * first Fresnel radius along the line. 0 for a wavelength of 0. */
+/* The largest first Fresnel radius along a sight line of length range_m: an edge farther away does
+ * not change the factor. 0 for a wavelength of 0. */
 double obstruction_edge_reach_m(double range_m, double wavelength_m);

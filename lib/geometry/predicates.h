@@ -1,11 +1,11 @@
 /* Exact side of a line and order along a direction.
  *
  * Every yes-or-no decision of glint's geometry (is the line of sight blocked, does it touch a
- * corner) rests on these signs, so that no compiler, no CPU and no rotation of the scene changes an
- * answer. A floating-point filter settles nearly all calls; the rest is summed exactly (J. R.
- * Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
- * 1997). Exact as long as no product of coordinates under- or overflows: each coordinate is 0 or
- * has a size between 1e-140 and 1e140 m. */
+ * corner) depends on these signs, so no compiler and no CPU changes an answer. A floating-point
+ * filter decides nearly all calls; the others are summed exactly (J. R. Shewchuk, Adaptive
+ * Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997). Exact as long as
+ * no product of coordinates under- or overflows: each coordinate is 0 or has a size between 1e-140
+ * and 1e140 m. */
 #pragma once
 
 #include "base/vec2.h"

@@ -1,7 +1,8 @@
 /* Azimuths that bodies cover, and which bodies hide which. A silhouette holds the outermost corners
- * of a box that the sensor sees. From two silhouettes follows whether one box can hide any of the
- * other or surely hides all of it: auto leaves out occlusion by the first answer, and only sight
- * lines between both answers need the exact test (obstruction.h). */
+ * of a box that the sensor sees. Two silhouettes show whether one box can hide any part of the
+ * other, and whether it surely hides all of it. The effect selection auto leaves occlusion out if
+ * no box can hide another; sight lines that are neither surely free nor surely hidden need the
+ * exact test (obstruction.h). */
 #pragma once
 
 #include "base/arena.h"
@@ -10,18 +11,17 @@
 /* Boxes are enlarged by this to every side, far more than the rounding of a place. */
 #define SILHOUETTE_SLACK_M 1e-6
 
-/* The directions from the sensor that a box covers: all from the right corner to the left one, less
- * than a quarter turn. Both corners are zero if the sensor is in the box or too near for an extent
- * below a quarter turn: such a box counts as both before and behind every other, and hides
- * nothing. */
+/* The directions from the sensor that a box covers, from the right corner to the left one, less
+ * than a quarter turn. Both corners are zero if the sensor is in the box or so near that the box
+ * covers a quarter turn or more: such a box overlaps every other and hides nothing. */
 struct silhouette {
     struct vec2 right_m, left_m;  /* the outermost corners, from the sensor */
     double nearest_m, farthest_m; /* from the sensor, of the whole box */
 };
 
-/* The silhouette of a box, centred on the origin of its own frame, with half_m from there to its
- * front and to its side. viewer_m is the sensor's place in that frame; the corners come out turned
- * by heading, the box's unit vector forward in the frame of the result. */
+/* The silhouette of a box, centred on the origin of its own frame, with half its length and width
+ * in half_m. viewer_m is the sensor's place in that frame; the corners are turned by heading, the
+ * box's forward unit vector in the frame of the result. */
 struct silhouette silhouette_of(struct vec2 half_m, struct vec2 heading, struct vec2 viewer_m);
 
 /* The silhouette of a single point. */
@@ -32,7 +32,7 @@ static inline struct silhouette silhouette_of_place(struct vec2 place_m)
 }
 
 /* False only if no line of sight to a point in the box behind touches the box in front, because the
- * one in front begins beyond the end of the other or lies beside it. */
+ * box in front begins beyond the end of the other box or lies beside it. */
 static inline bool silhouette_overlaps(const struct silhouette *front,
                                        const struct silhouette *behind)
 {
@@ -64,12 +64,12 @@ static inline bool silhouette_outside(const struct silhouette *silhouette, struc
            (vec2_cross(silhouette->right_m, left) < 0 && vec2_cross(silhouette->left_m, left) < 0);
 }
 
-/* Index of bodies by azimuth, so that a question about one direction concerns few of many bodies.
- * The horizon around a sensor is cut into sectors. Each sector, or group of neighbouring sectors,
+/* Index of bodies by azimuth, so that a search in one direction meets few of many bodies. The
+ * horizon around a sensor is divided into sectors. Each sector, or group of neighbouring sectors,
  * has the set of the bodies, by number, whose silhouettes reach into it. Sets are bits, 64 to a
- * word: they are joined a word at a time and come out in ascending order. */
+ * word. */
 struct silhouette_index {
-    unsigned shift; /* from a sector's number to its set's, to the right */
+    unsigned shift; /* right shift from a sector's number to its set's */
     size_t words;   /* per set */
     uint64_t *sets; /* in counter-clockwise order of their sectors */
     size_t *found;  /* numbers, ascending: the result of the last search */
@@ -96,6 +96,6 @@ struct silhouette_index silhouette_index_begin(size_t count, struct arena *arena
 void silhouette_index_enter(struct silhouette_index *index, size_t number,
                             struct silhouette_span span);
 
-/* Writes to found all numbers that were entered in any sector of the span; returns how many: every
- * body whose silhouette has one of the sectors, and possibly more. */
+/* Writes to found, in ascending order, all numbers that were entered in any sector of the span, and
+ * possibly more; returns their count. */
 size_t silhouette_index_find(const struct silhouette_index *index, struct silhouette_span span);

@@ -42,7 +42,7 @@ static void refuse_repeated_names(const struct csv_table *table, struct arena *a
     }
 }
 
-/* Is the first row one of values, with a name for each? No column is named by a number. */
+/* True if the first row has values, with a given name for each: no column is named by a number. */
 static bool lacks_header(const struct reader *reader)
 {
     size_t count = 0;
@@ -93,7 +93,8 @@ static void on_cell(void *text, size_t length, void *context)
     text_add(&reader->text, text, length + 1);
 }
 
-/* libcsv reports CR and LF of one line end as the ends of two rows, the end of the text as -1. */
+/* libcsv reports CR and LF of one line end as the ends of two rows, and the end of the text as -1.
+ */
 static void on_row(int end, void *context)
 {
     struct reader *reader = context;
@@ -172,7 +173,7 @@ static void end_text(struct reader *reader)
     memset(text_room(&reader->text, NUMBER_ROOM), 0, NUMBER_ROOM);
 }
 
-/* The text has grown to its end, so that its cells have their places. */
+/* Called when the text does not grow any more: then addresses of its cells stay valid. */
 static void show_rows(struct reader *reader)
 {
     reader->cells.count = 0;
@@ -214,7 +215,7 @@ struct csv_table_rows {
     bool held;   /* was the first line a row? */
 };
 
-/* What the first line tells: what separates cells, and whether the header is in a later line. */
+/* Finds in the first line what separates cells, and whether the header is in a later line. */
 static void look_at_first(struct csv_table_rows *rows, const char *line, size_t length)
 {
     const struct csv_table_form *form = rows->form;
@@ -229,7 +230,7 @@ static void look_at_first(struct csv_table_rows *rows, const char *line, size_t 
         rows->blanks = memchr(line, '"', length) == NULL;
 }
 
-/* A comma for every run of blanks, but for those at the ends. */
+/* Replaces every run of blanks by a comma, and drops blanks at the ends. */
 static void put_commas(struct csv_table_rows *rows, const char **line, size_t *length)
 {
     struct text *commas = &rows->commas;
@@ -248,7 +249,7 @@ static void put_commas(struct csv_table_rows *rows, const char **line, size_t *l
     *length = commas->length;
 }
 
-/* Parses a line more, and the end after the last. */
+/* Parses the next line, or the end of the table. */
 static void parse_line(struct csv_table_rows *rows)
 {
     const char *line;

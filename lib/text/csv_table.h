@@ -1,11 +1,11 @@
 /* CSV tables with named columns, read and written.
  *
  * libcsv reads them in strict mode, plain or gzip. The first row names the columns; a byte order
- * mark before it and CRLF are accepted. Every row must have as many cells as the header, and a line
- * end behind it: without one the last number of a file that was cut may pass for another. Rows
- * without any cell are skipped, and blanks around a cell without quotes do not belong to it.
- * Messages name the row as a spreadsheet shows it (the header is usually row 1, empty rows count,
- * line breaks inside quotes do not) and, for a cell, its column. */
+ * mark before it and CRLF are accepted. Every row must have as many cells as the header and end
+ * with a line end, because the last number of a file that was cut may be incomplete. Rows without
+ * cells are skipped, and blanks around an unquoted cell are dropped. Messages name the row as a
+ * spreadsheet numbers it (the header is usually row 1; empty rows count, line breaks inside quotes
+ * do not) and the column. */
 #pragma once
 
 #include "base/arena.h"
@@ -27,15 +27,15 @@ struct csv_table {
 int csv_table_parse(const struct text *text, struct csv_table *table, struct arena *arena,
                     struct diag *diag);
 
-/* How a table may begin whose first line is no header. */
+/* The beginning of a table whose first line is not the header. */
 struct csv_table_form {
-    const char *const *names; /* of its columns, NULL after the last: taken where the first row has
-                               * as many cells and begins with a number */
-    const char *preamble;     /* where the first line begins so, the header is the next line */
-    const char *header;       /* that begins so */
+    const char *const *names; /* of columns, NULL after the last: used where the first row has as
+                               * many cells and begins with a number */
+    const char *preamble;     /* if the first line begins so, lines are skipped up to the header */
+    const char *header;       /* the beginning of the header after a preamble */
 };
 
-/* The same row by row, in constant memory; form may be NULL. Where the first line has no comma,
+/* Reads a table row by row in constant memory; form may be NULL. Where the first line has no comma,
  * cells are separated by semicolons, or else by any number of blanks. Opening reads the header; the
  * input stays the caller's. NULL after a message. */
 struct csv_table_rows;
@@ -43,7 +43,7 @@ struct csv_table_rows *csv_table_open(struct input *input, const struct csv_tabl
                                       struct diag *diag);
 void csv_table_close(struct csv_table_rows *rows);
 
-/* A table of the columns alone. */
+/* The header, in a table that may have no rows. */
 const struct csv_table *csv_table_names(const struct csv_table_rows *rows);
 
 /* The rows that end in the next line, most often one; NULL at the end, or after a message. */

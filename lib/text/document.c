@@ -45,7 +45,7 @@ int document_check_folder(const char *named_by, const char *folder, struct diag 
     return diag_fail(diag, DIAG_CONFIG, "%s: \"%s\" is no folder", named_by, folder);
 }
 
-/* Where documents of a kind may lie, the first place first; all end with a slash. */
+/* Folders of documents of a kind, in the order of search; all end with a slash. */
 struct folders {
     const char *paths[5];
     size_t count;
@@ -134,7 +134,7 @@ static void append(struct diag *diag, const char *separator, const char *text)
     snprintf(diag->text + used, sizeof diag->text - used, "%s%s", separator, text);
 }
 
-/* Says what was meant, where it was looked for, and how to list what is there. */
+/* Names a similar document, the folders searched, and the command that lists all documents. */
 static void refuse_name(const char *kind, const char *name, const char *ending,
                         const struct folders *folders, struct arena *arena, struct diag *diag)
 {
@@ -248,7 +248,7 @@ struct variation {
 
 static int draw_value(struct variation *variation);
 
-/* Draws a value whose path goes on from outside by what was added to it. */
+/* Draws a value, and then cuts the path to its length outside of this value. */
 static int draw_part(struct variation *variation, size_t outside)
 {
     int result = draw_value(variation);
@@ -306,7 +306,8 @@ static void add_number(struct variation *variation, double value)
     drawn->length += number_write(value, text_room(drawn, NUMBER_SIZE));
 }
 
-/* A law draws from its values: 1, or 0 if they are not what it expects, or -1 after a message. */
+/* Each law draws one value: returns 1, or 0 if its values are not as expected, or -1 after a
+ * message. */
 static int draw_uniform(struct variation *variation, struct json_scan values)
 {
     double pair[2];

@@ -1,9 +1,9 @@
-/* JSON documents for people: found, read, checked and drawn. jansson checks their text; the reader
- * of records (record_read.h) reads what it says.
+/* JSON documents for people: found, read, checked and drawn. jansson checks the syntax, and
+ * record_read.h reads the values.
  *
- * A bare name (no slash, no dot) is <kind>/<name>.json in $GLINT_DATA, then in ../share/glint and
- * in ../../data beside the executable, then in ./data; anything else is a path. Every fault of a
- * document is DIAG_CONFIG, and so is a GLINT_DATA that is no folder. */
+ * A bare name (no slash, no dot) means <kind>/<name>.json in $GLINT_DATA, then in ../share/glint
+ * and in ../../data beside the executable, then in ./data; anything else is a path. Every fault of
+ * a document is DIAG_CONFIG, and so is a GLINT_DATA that is no folder. */
 #pragma once
 
 #include "base/random.h"
@@ -32,10 +32,11 @@ const char *document_find(const char *own, const char *kind, const char *name, c
 const char *document_find_file(const char *own, const char *kind, const char *name,
                                const char *ending, struct arena *arena, struct diag *diag);
 
-/* Refuses what is no folder, in the name of the option or variable that gives it. */
+/* Refuses a path that is no folder; the message names the option or variable that gives the path.
+ */
 int document_check_folder(const char *named_by, const char *folder, struct diag *diag);
 
-/* Is the name no path: neither "." nor "..", and without a slash? */
+/* True for a name without a slash, except "." and "..". */
 static inline bool document_is_plain(const char *name)
 {
     if (name[0] == '.' && (name[1] == '\0' || (name[1] == '.' && name[2] == '\0')))
@@ -43,8 +44,8 @@ static inline bool document_is_plain(const char *name)
     return strchr(name, '/') == NULL;
 }
 
-/* Refuses a name that is a path (DIAG_DATA), where a name leads into the folders of documents and
- * nowhere else. */
+/* Refuses a name that is a path (DIAG_DATA), for names that may lead only into the folders of
+ * documents. */
 static inline int document_check_plain(const char *name, struct diag *diag)
 {
     return document_is_plain(name)
@@ -52,32 +53,32 @@ static inline int document_check_plain(const char *name, struct diag *diag)
                : diag_fail(diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", name);
 }
 
-/* The names of a kind in all those places, each once, in the order of their bytes. */
+/* The names of the documents of a kind in all these folders, each once, in the order of bytes. */
 struct document_names {
     LIST_OF(const char *) names;
 };
 int document_list(const char *kind, const char *ending, struct document_names *list,
                   struct arena *arena, struct diag *diag);
 
-/* What a document says under "origin"; NULL if it is no document, or says nothing there. */
+/* The text of the member "origin" of a document; NULL if there is none. */
 const char *document_origin(const char *path, struct arena *arena);
 
-/* The bytes of a document (standard input for "-"); then what they say, in the struct that the
- * record describes; all of it lies in the arena. Messages are "PATH: objects[2].x_m: ...". */
+/* Reads the bytes of a document ("-": standard input). document_parse reads the values into the
+ * struct of the record and into the arena. Messages are "PATH: objects[2].x_m: ...". */
 int document_bytes(const char *path, struct text *bytes, struct diag *diag);
 int document_parse(const char *path, const struct text *bytes, const struct record *record,
                    void *base, struct arena *arena, struct diag *diag);
 
-/* The two halves of document_parse. jansson checks the bytes and says in which line they are wrong,
- * unless they are of another format than this kind (file_format.h); what it read is one line in the
- * arena, NULL after a message, for the reader of records. */
+/* The two halves of document_parse. document_line checks the syntax and returns the document as one
+ * line in the arena. It returns NULL after a message with the line of the fault, or with the format
+ * of the bytes if they are of another kind (file_format.h). document_take reads the values. */
 const char *document_line(const char *path, const struct text *bytes, const char *kind,
                           struct arena *arena, struct diag *diag);
 int document_take(const char *path, const char *line, const struct record *record, void *base,
                   struct arena *arena, struct diag *diag);
 
 /* The line of a document with a draw in the place of every distribution. Any value may be an object
- * with one member that names a law:
+ * whose one member names a law:
  *
  *     {"uniform": [low, high]}  {"normal": [mean, sd]}  {"choice": [value, value, ...]}
  *
@@ -87,5 +88,5 @@ int document_take(const char *path, const char *line, const struct record *recor
 const char *document_draw(const char *line, struct random_address address, struct arena *arena,
                           struct diag *diag);
 
-/* The $defs of a JSON Schema: what may stand for a value, drawn, and for a number, drawn_number. */
+/* The $defs of a JSON Schema: distributions of any value (drawn) and of numbers (drawn_number). */
 extern const char document_drawn_schema[];

@@ -56,7 +56,7 @@ struct field {
 /* Tables end with a field without a name. A record with sections has their bits in an unsigned
  * member at present_offset: a section is absent unless its bit is set. Members for which 0 is a
  * value like any other are sections too. A record with steady lists has, at document_offset, a
- * pointer to the struct of a document from which it was copied, or NULL. */
+ * pointer to the struct of the document that it was copied from, or NULL. */
 struct record {
     const char *name;
     const char *help;
@@ -147,7 +147,7 @@ static inline unsigned field_sections(const struct record *record, const void *b
     return present;
 }
 
-/* The unit by the name's ending, for messages and help: "m" for range_m, "" if the number has
+/* The unit that a name ends with, for messages and help: "m" for range_m, "" if the number has
  * none. */
 const char *field_unit(const char *name);
 
@@ -189,8 +189,8 @@ int field_unknown(const struct record *record, const char *name, size_t length, 
 int field_twice(const struct field *field, struct diag *diag);
 int field_out_of_bounds(const struct field *field, double value, struct diag *diag);
 
-/* Refuses text that is not a name with "name: a name of 0 bytes; expected ...", "name: control
- * character ...". */
+/* Refuses text that is no name: "name: a name of 0 bytes; expected ...", "name: control character
+ * ...". */
 int field_require_name(const struct field *field, const char *text, size_t length,
                        struct diag *diag);
 
@@ -205,7 +205,7 @@ struct field_list {
 
 struct field_list field_list(const struct field *field, const void *base);
 
-/* True if this steady list is still that of the document, which does not change any more. */
+/* True if this steady list is still the list of the document, which does not change. */
 bool field_unchanged(const struct record *record, const struct field *field, const void *base);
 
 /* Appends one zeroed item to the list member and returns its address. For FIELD_NAMES the item is a

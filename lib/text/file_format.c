@@ -7,7 +7,7 @@ static const struct file_format formats[] = {
 #include "text/file_format.def"
 };
 
-/* A message of OSI stands behind its length, a text behind a byte order mark. */
+/* Skips the length before a message of OSI, and blanks and a byte order mark before a text. */
 static size_t begin_of(const char *bytes, size_t length)
 {
     enum { LENGTH = 4 };

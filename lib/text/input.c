@@ -20,7 +20,7 @@ struct input {
     size_t raw_at, raw_end;
     bool sniffed, gzip, inside_member, damaged;
     z_stream stream;
-    struct text line; /* bytes that were read; those that no line has used yet lie behind line_at */
+    struct text line; /* bytes that were read; bytes from line_at on are not used yet */
     size_t line_at;
     size_t head_length;
     char head[HEAD_SIZE];
@@ -79,7 +79,7 @@ void input_before_waiting(struct input *input, struct input_pause pause)
     input->pause = pause;
 }
 
-/* Reads what there is, or else waits, also where whoever opened the file asked not to. */
+/* Reads the bytes that are ready, or waits for some, also if the file was opened non-blocking. */
 static long read_file(struct input *input, void *bytes, size_t size, struct diag *diag)
 {
     struct pollfd file = {.fd = input->fd, .events = POLLIN};
@@ -120,7 +120,7 @@ static int start_member(struct input *input, struct diag *diag)
     return 0;
 }
 
-/* An empty file is an empty stream, but gzip data has a header even of nothing. */
+/* An empty file is an empty stream; but a name in .gz promises gzip data, which have a header. */
 static int check_empty(const struct input *input, struct diag *diag)
 {
     size_t length = strlen(input->name);
@@ -184,7 +184,7 @@ static long read_gzip(struct input *input, char *bytes, size_t size, struct diag
         if (done == Z_STREAM_END)
             input->inside_member = false;
         else if (done != Z_OK)
-            input->damaged = true; /* refused in the next round or call: first come the bytes that
+            input->damaged = true; /* refused in the next round or call, after the bytes that
                                     * were unpacked */
     }
     return (long)(room - stream->avail_out);

@@ -15,7 +15,7 @@
 
 struct input;
 
-/* What to do before a wait for bytes: whoever writes them may first wait for what is held back. */
+/* Called before a wait for bytes: their writer may itself wait for output that is still held. */
 struct input_pause {
     void (*act)(void *with); /* NULL: nothing */
     void *with;
@@ -29,16 +29,16 @@ void input_guard_descriptors(void);
 struct input *input_open(const char *path, struct diag *diag);
 void input_close(struct input *input);
 
-/* Sets what a read does first if it would have to wait. */
+/* Sets the function that is called before a read has to wait. */
 void input_before_waiting(struct input *input, struct input_pause pause);
 
 /* "stdin" or the path, for messages. */
 const char *input_name(const struct input *input);
 
-/* The part of a regular file that has been read; of all others 0. */
+/* The part of a regular file that has been read, from 0 to 1; 0 for any other file. */
 double input_share(const struct input *input);
 
-/* The first bytes that were read, unpacked, at most 4096: for file_format.h. */
+/* The first bytes that were read, unpacked, at most 4096, for file_format.h. */
 const char *input_head(const struct input *input, size_t *length);
 
 /* Reads up to size bytes; returns their number, 0 at the end, -1 after a message. */
@@ -46,7 +46,7 @@ long input_read(struct input *input, char *bytes, size_t size, struct diag *diag
 
 /* Reads the next line, without its newline; it is valid until the next call. Returns 1, 0 at the
  * end, -1 after a message (a line longer than limit bytes, or damaged input). The last line may
- * lack its newline: there is a NUL behind it then. */
+ * lack its newline; then a NUL follows it. */
 int input_line(struct input *input, size_t limit, const char **line, size_t *length,
                struct diag *diag);
 

@@ -65,7 +65,7 @@ static size_t unescape(const char **at, const char *end, char *out)
     return utf8_write(0x10000 + ((uint32_t)(code - 0xd800) << 10) + (uint32_t)(low - 0xdc00), out);
 }
 
-/* Moves past the closing quote and counts escapes, so that the caller knows whether to decode. */
+/* Moves past the closing quote and counts the escapes. */
 static int skip_string(struct json_scan *scan, size_t *escapes)
 {
     *escapes = 0;

@@ -1,7 +1,7 @@
 #include "text/list_cache.h"
 
-/* The cached list to try next: frames repeat their lists in the same order, so the search begins
- * behind the list found last. */
+/* The cached list to try next. The search begins behind the list found last, because frames repeat
+ * their lists in the same order. */
 static struct list_cache_entry *candidate(const struct list_cache *cache, size_t tries)
 {
     return &cache->kept.items[(cache->next + tries) % cache->kept.count];

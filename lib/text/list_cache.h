@@ -14,7 +14,7 @@ struct list_cache_text {
     size_t length;
 };
 
-/* A list that does not change any more: one read from a line, or a document's. */
+/* A list that does not change any more: it was read from a line, or belongs to a document. */
 struct list_cache_entry {
     const struct record *record;    /* record of the items */
     LIST_OF(void) items;            /* without spare room, so that a list_add makes a copy */
@@ -41,10 +41,10 @@ bool list_cache_full(const struct list_cache *cache);
 void list_cache_keep(struct list_cache *cache, const struct field *field, const void *base,
                      const char *text, size_t length);
 
-/* The cached list of the steady list member of the struct at base, found or added by its address,
- * if it was read into the cache or is a document's. NULL for any other list, whose memory may hold
- * another one in the next frame, and when the cache is full. Two lists at one address, of whatever
- * records, are both empty. */
+/* The cached list of the steady list member of the struct at base, found by its address, or added
+ * if it is a document's. NULL for any other list, because its memory may hold another list in the
+ * next frame, and when the cache is full. Two lists at one address, of whatever records, are both
+ * empty. */
 struct list_cache_entry *list_cache_of(struct list_cache *cache, const struct record *record,
                                        const struct field *field, const void *base);
 

@@ -24,10 +24,10 @@ enum { DESCRIPTORS = 100 }; /* that are looked at when a signal ends the process
 
 /* A file without a name in the folder where it will be. Where the file system has no files without
  * names (NFS) it is called .glint-PROCESS-NUMBER@HOST. The process removes it, also when a signal
- * ends it. What SIGKILL leaves behind is removed by the next process of that host that writes into
- * the folder. A lock (flock) tells it from the file of a process that runs; where there are no
- * locks it stays, and so does what other hosts left. A name that is taken is never written or
- * replaced, and no link is followed. */
+ * ends it. After SIGKILL the file stays, until the next process of that host that writes into
+ * the folder removes it. A lock (flock) tells it from the file of a process that runs; where there
+ * are no locks it stays, and so does what other hosts left. A name that is taken is never written
+ * or replaced, and no link is followed. */
 struct whole_file {
     int fd;
     char *path, *folder;
@@ -101,9 +101,9 @@ static void expect_signals(void)
             sigaction(signals[i], &end, NULL);
 }
 
-/* Gives the file the first temporary name that is free; makes the file if it is not open yet. Other
- * processes leave a locked file alone. One of them may have found it before it was locked and
- * removed it: then the next name is tried. */
+/* Gives the file the first temporary name that is free; makes the file if it is not open yet.
+ * Another process may find the file before it is locked, and remove it: then the next name is
+ * tried. */
 static int name_file(struct whole_file *file)
 {
     struct utsname system;
@@ -130,8 +130,8 @@ static int name_file(struct whole_file *file)
     return 0;
 }
 
-/* Is the path free, or a file that may be written and replaced? Else errno says why not. In a
- * sticky folder only the owners of file and folder may replace a file. */
+/* True if the path is free, or a file that may be written and replaced; errno has the reason if
+ * not. In a sticky folder only the owners of file and folder may replace a file. */
 static bool may_take(const struct whole_file *file, struct stat *there)
 {
     struct stat folder;

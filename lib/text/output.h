@@ -27,14 +27,14 @@ struct output *output_open(const char *path, struct diag *diag);
 struct text *output_text(struct output *output);
 int output_send(struct output *output, struct diag *diag);
 
-/* True if a terminal shows what is written, and there is something. */
+/* True if text is held and a terminal will show it. */
 bool output_prints(const struct output *output);
 
-/* Writes all that is held where somebody may wait for it: to standard output, a pipe or a device. A
- * file and compressed output keep it until there is more, or the end. */
+/* Writes all that is held to standard output, a pipe or a device, where a reader may wait for it.
+ * Files and compressed output hold it until there is more, or the end. */
 int output_flush(struct output *output, struct diag *diag);
 
-/* Writes bytes that lie elsewhere. */
+/* Appends bytes, and writes whole pieces. */
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag);
 
 /* Writes all that is held, to the disk if it is a file, so that closing it only gives it its name.
@@ -45,8 +45,8 @@ int output_finish(struct output *output, struct diag *diag);
  * removed instead; what was written to standard output or to a device stays written. */
 int output_close(struct output *output, bool whole, struct diag *diag);
 
-/* Writes bytes to an open file: 0, or -1 with errno. Waits where there is no room, also if whoever
- * opened the file asked not to. */
+/* Writes bytes to an open file: 0, or -1 with errno. Waits where there is no room, also if the
+ * file was opened non-blocking. */
 int output_write_all(int fd, const char *bytes, size_t length);
 
 /* Writes bytes to standard output and closes it. */

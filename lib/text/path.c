@@ -7,7 +7,7 @@
 
 #include "base/arena.h"
 
-enum { LINKS = 40 }; /* that Linux follows for one path */
+enum { LINKS = 40 }; /* Linux follows as many for one path */
 
 int path_descriptor(const char *path)
 {

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-/* The descriptor that the path stands for, which a shell's > would write to as well: "-",
+/* The descriptor that the path stands for, as for a shell's >: "-",
  * /dev/stdout, /dev/fd/N, /proc/self/fd/N; -1: none. */
 int path_descriptor(const char *path);
 
@@ -23,6 +23,6 @@ char *path_target(const char *path);
 
 /* Whether two paths lead to one file. Files are compared by device and inode, so a link and another
  * spelling of the path are the same file. Two files that are not there are the same if they would
- * have one name in one folder, also through links. A terminal or another device is never the same:
- * whoever writes to one of them harms nobody. */
+ * have one name in one folder, also through links. A terminal or another character device never
+ * counts as the same file, because writing to it destroys nothing. */
 bool path_same_file(const char *a, const char *b);

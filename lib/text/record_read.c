@@ -25,7 +25,7 @@ static int unexpected(struct json_scan *scan, const char *what)
     return diag_prefix(scan->diag, ": ");
 }
 
-/* Refuses what is no value of this member. */
+/* Refuses a value of the wrong kind, or a character that begins no value. */
 static int refuse_value(struct json_scan *scan, const struct field *field)
 {
     char first = json_scan_peek(scan);
@@ -44,7 +44,7 @@ static void keep_name(struct reader *reader, const struct field *field, const ch
     FIELD_STORE(const char *, field, base, kept);
 }
 
-/* Reads a name of plain characters, which needs no check; false if it is another. */
+/* Reads a name of plain characters, which needs no check; returns false for any other. */
 static bool take_name(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
@@ -116,8 +116,8 @@ static int read_list(struct reader *reader, const struct field *field, void *bas
     return diag_prefix(scan->diag, "%s: ", field->name);
 }
 
-/* Reads a list that an earlier line may have had: then it is in the cache. If not, it is read into
- * the cache's memory, with names of its own. */
+/* Takes a list that an earlier line had from the cache. Any other list is read into the memory of
+ * the cache, with names of its own. */
 static int read_steady(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
@@ -160,7 +160,7 @@ static int read_number(struct json_scan *scan, const struct field *field, void *
     return field_set_number(field, base, number, scan->diag);
 }
 
-/* Reads a number of the form of number_take if it is in bounds; false if it is another. */
+/* Reads a number that number_take can read, if it is in bounds; otherwise returns false. */
 static bool take_real(struct json_scan *scan, const struct field *field, void *base)
 {
     double number;
@@ -263,7 +263,7 @@ static int read_value(struct reader *reader, const struct field *field, void *ba
     return refuse_value(scan, field);
 }
 
-/* Most members are numbers, names and records, which need no more than a first look. */
+/* Most members are numbers, names and records: these are tried first. */
 static inline int read_member(struct reader *reader, const struct field *field, void *base)
 {
     if ((field->kind == FIELD_REAL && take_real(&reader->scan, field, base)) ||
@@ -274,7 +274,7 @@ static inline int read_member(struct reader *reader, const struct field *field, 
     return read_value(reader, field, base);
 }
 
-/* True if the line goes on with this member's key and its colon, as the writer has them. At least
+/* True if the line goes on with this member's key and colon in the writer's spelling. At least
  * FIELD_KEY_SIZE bytes must lie ahead. */
 static bool key_is_next(const char *at, const struct field *field)
 {
@@ -288,8 +288,8 @@ static bool key_is_next(const char *at, const struct field *field)
     return difference == 0 && text_word(at + length - 8) == text_word(key + length - 8);
 }
 
-/* Reads the key of the first of these members that comes next; NULL if it is another key, or
- * written otherwise. */
+/* Reads the next key if it is the key of one of these members in the writer's spelling; returns
+ * this member, or NULL. */
 static const struct field *take_key(struct json_scan *scan, const struct field *field)
 {
     if (scan->end - scan->at < FIELD_KEY_SIZE)

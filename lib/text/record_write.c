@@ -50,7 +50,7 @@ static bool is_plain_name(const char *text)
     return *end == '\0' && end > text && end - text <= FIELD_NAME_SIZE;
 }
 
-/* Skips a name that is the same pointer as the one before, as neighbours often have. */
+/* Skips a name that is the same pointer as the name before: neighbours often share one. */
 static int check_names(const struct record *record, const struct field *field, struct items *items,
                        struct diag *diag)
 {
@@ -70,7 +70,7 @@ static int check_names(const struct record *record, const struct field *field, s
     return 0;
 }
 
-/* Skips a list that is still a document's: it was checked when the document was read. */
+/* Skips a list of a document: it was checked when the document was read. */
 static int check_lists(const struct record *record, const struct field *field, struct items *items,
                        struct diag *diag)
 {
@@ -96,8 +96,8 @@ static int check_lists(const struct record *record, const struct field *field, s
     return 0;
 }
 
-/* Checks an embedded struct of all items at once; one that is a section item by item, because not
- * every item need have it. */
+/* Checks an embedded struct of all items at once. If it is a section, it is checked item by item,
+ * because some items may lack it. */
 static int check_embedded(const struct record *record, const struct field *field,
                           struct items *items, struct diag *diag)
 {
@@ -222,7 +222,7 @@ static void write_list(const struct field *field, const void *base, struct write
     *writer->at++ = ']';
 }
 
-/* Writes a list that an earlier line may have had: then its text is in the cache. */
+/* Writes a list from the text that the cache has of it, if an earlier line had the same list. */
 static void write_steady(const struct record *record, const struct field *field, const void *base,
                          struct writer *writer)
 {
