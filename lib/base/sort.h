@@ -1,6 +1,6 @@
-/* Stable sorting that takes its scratch memory from an arena: a natural merge sort, which merges
- * the runs that are in order already. A list in order costs one pass. qsort of the C library need
- * not be stable, and allocates. */
+/* Stable sorting that takes its scratch memory from an arena. A natural merge sort merges the runs
+ * that are in order already, so a list in order costs one pass. qsort of the C library need not be
+ * stable, and allocates. */
 #pragma once
 
 #include "base/arena.h"
