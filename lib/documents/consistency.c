@@ -18,8 +18,8 @@ double consistency_beam_rad(const struct sensor *sensor)
     return antenna_beam_rad(&sensor->antenna);
 }
 
-/* The resolution cells in which a sensor tests for echoes: ranges times the range rates of its
- * false alarms times azimuths, of which there is one without an azimuth_cell_rad. */
+/* The number of resolution cells of a scan: ranges times range rates of false alarms times
+ * azimuths; without an azimuth_cell_rad there is one azimuth. */
 static double cells(const struct sensor *sensor)
 {
     double ranges = (sensor->range_max_m - sensor->range_min_m) / (2 * sensor->half_range_m);
@@ -51,7 +51,7 @@ static double beat_hz(const struct sensor *sensor, double range_m)
     return 2 * range_m * fabs(sensor->chirp_slope_hzps) / SPEED_OF_LIGHT_MPS;
 }
 
-/* Adds a check of which the document has both sides. */
+/* Adds a check if the document has both sides. */
 static size_t add(struct consistency *checks, size_t count, const struct consistency *check)
 {
     if (check->left_value > 0 && check->right_value > 0)
@@ -138,10 +138,9 @@ size_t consistency_list(const struct sensor *sensor, struct consistency *checks)
 bool consistency_holds(const struct consistency *check)
 {
     double ratio = check->left_value / check->right_value;
-    /* The roundings of figures that are equal are no disagreement. */
     if (check->kind == CONSISTENCY_EQUAL)
         return ratio <= 2 && ratio >= 0.5;
-    return ratio <= 1 + 1e-6;
+    return ratio <= 1 + 1e-6; /* equal figures may be rounded */
 }
 
 int consistency_check(const struct sensor *sensor, size_t index, struct diag *diag)

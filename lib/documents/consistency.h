@@ -1,9 +1,9 @@
 /* Whether the figures of a sensor agree with each other.
  *
- * A radar's physics binds figures: the cell in range rate takes a dwell that must fit the cycle,
- * the echo from the farthest range has a beat frequency that the receiver must pass. A check
- * compares two of them. Some disagreements are impossible, and the suite is refused; others are
- * doubts, which glint --datasheet prints with both sides. */
+ * Physics relates figures of a radar: the cell in range rate takes a dwell, which must fit into the
+ * cycle; the echo from the greatest range has a beat frequency, which the receiver must pass. A
+ * check compares two figures. An impossible pair refuses the suite; glint --datasheet prints other
+ * disagreements as doubts. */
 #pragma once
 
 #include "documents/suite.h"
@@ -26,28 +26,25 @@ enum consistency_kind {
 struct consistency {
     enum consistency_kind kind;
     enum consistency_unit unit;
-    const char *left, *right; /* what they are, by members of the document */
+    const char *left, *right; /* formulas of members of the document */
     double left_value, right_value;
-    const char *member; /* the one that the left side comes from, if it is strict; the right side
-                         * is a member itself */
+    const char *member; /* strict: the member in the formula `left`; `right` is a member itself */
 };
 
 enum { CONSISTENCY_MOST = 20 };
 
-/* The checks of a sensor with its derived members, of which the document has both sides: their
- * number, at most CONSISTENCY_MOST. */
+/* Writes the checks of a sensor with derived members, if the document has both sides, and returns
+ * their number, at most CONSISTENCY_MOST. */
 size_t consistency_list(const struct sensor *sensor, struct consistency *checks);
 
 bool consistency_holds(const struct consistency *check);
 
-/* Refuses the impossible (DIAG_CONFIG), with the paths of both members; index is the sensor's in
- * its suite. */
+/* Refuses a strict check that does not hold (DIAG_CONFIG). index is the sensor's in its suite. */
 int consistency_check(const struct sensor *sensor, size_t index, struct diag *diag);
 
-/* Range rates within +- this are read right from the signal of the waveform (MODEL 11.3); 0 without
- * one. */
+/* Range rates within +- this do not fold in the signal (MODEL 11.3); 0 without a waveform. */
 double consistency_fold_mps(const struct sensor *sensor);
 
-/* The 3 dB width of a beam on boresight: of the row of elements, where the waveform has one, else
- * of the antenna's sum pattern, two ways. */
+/* The 3 dB width of the beam on boresight: of the waveform's row of elements, one way, or without
+ * one of the antenna's sum pattern, two ways. */
 double consistency_beam_rad(const struct sensor *sensor);

@@ -1,6 +1,6 @@
 /* Data sheet of a suite: its figures, and their text.
  *
- * They follow from the document alone: one echo, no rain, no interference, heights left aside. */
+ * The figures hold for one echo in the plane, without rain and interference. */
 #pragma once
 
 #include "base/text.h"
@@ -8,7 +8,7 @@
 
 enum { DATASHEET_AZIMUTHS = 4, DATASHEET_LEVELS = 3, DATASHEET_ECHOES = 3, DATASHEET_CHANCES = 2 };
 
-/* Standard deviations of reported values at one amplitude; with steps, those of rounding are in. */
+/* Standard deviations of reported values at one amplitude, rounding to steps included. */
 struct datasheet_accuracy {
     double snr_db; /* infinity without noise */
     double range_sigma_m, range_rate_sigma_mps;
@@ -18,18 +18,17 @@ struct datasheet_accuracy {
 struct datasheet {
     double azimuth_rad[DATASHEET_AZIMUTHS]; /* from boresight to the border of the view */
     struct datasheet_accuracy accuracy[DATASHEET_LEVELS]; /* at the threshold, 10 and 20 dB above */
-    double
-        chance[DATASHEET_CHANCES]; /* of detection: where the mean echo meets the threshold, 0.9 */
+    double chance[DATASHEET_CHANCES];   /* of detection of a mean echo at the threshold, and 0.9 */
     double echo_dbsm[DATASHEET_ECHOES]; /* 0, 10, 20 */
-    /* The range up to which an echo is detected with that chance, at most range_max_m; 0 if it is
-     * so nowhere from range_min_m on. */
+    /* The range up to which an echo is detected with that chance, at most range_max_m; 0: nowhere
+     * from range_min_m on. */
     double range_m[DATASHEET_AZIMUTHS][DATASHEET_ECHOES][DATASHEET_CHANCES];
-    double weakest_dbsm; /* meets the threshold on boresight at range_max_m */
+    double weakest_dbsm; /* the echo that meets the threshold on boresight at range_max_m */
 };
 
 /* The figures of a sensor with its derived members. */
 void datasheet_of(const struct sensor *sensor, struct datasheet *sheet);
 
-/* Adds a sheet for every sensor, in degrees, dBsm, m and km/h; sensors that differ in nothing but
- * name and mount share one. A check that does not hold is a line that begins with "doubt:". */
+/* Adds a sheet for every sensor, in degrees, dBsm, m and km/h. Neighbours that differ only in name
+ * and mount share one. A check that does not hold is a line that begins with "doubt:". */
 void datasheet_add(const struct suite *suite, struct text *text);

@@ -1,21 +1,19 @@
 /* Other reflectors of a class: its contour, 3GPP's sensing targets.
  *
- * A vehicle document may describe its class by mean cross sections (MODEL 2.7) or name a sensing
- * target of 3GPP (MODEL 2.8); each replaces the points, planes and rows of its reflector set. */
+ * A vehicle document may have mean cross sections of its class (MODEL 2.7) or name a sensing target
+ * of 3GPP (MODEL 2.8). Each replaces the points, planes and rows of the reflector set. */
 #pragma once
 
 #include "frame/reflectors.h"
 
-/* The contour: mean cross sections over scans by aspect; left and right are alike. The cross
- * section of each of the four faces is spread evenly over the face's length, as a density of power
- * per metre, and gathered in posts, one in the middle of each piece of the face.
+/* Mean cross sections over scans by aspect, left and right alike. Each of the four faces divides
+ * its cross section evenly over its length among posts, one in the middle of each piece.
  *
- * Posts are seen from their face's outer side, by a raised cosine over the angle off its normal
- * (directivity.h). It gives the face its whole cross section on the normal, half of the oblique one
- * at 45 degrees, where the next face adds the other half, and nothing from 90 degrees on or before.
- * So the powers of all posts in sight, added without regard to phase, make the class's cross
- * section on each normal and on each diagonal, whatever the spacing; an object longer or wider than
- * its class has more in proportion. */
+ * The visibility of a post is a raised cosine over the angle off the face's normal (directivity.h).
+ * A face has its whole cross section on the normal, half of the oblique one at 45 degrees, where
+ * the next face adds the other half, and none from 90 degrees on. So the powers of all posts in
+ * sight add up to the class's cross section on each normal and on each diagonal, whatever the
+ * spacing; the cross section grows with the length and width of an object. */
 struct contour {
     unsigned given; /* bits of the members that the document has: all or none */
     double front_dbsm, rear_dbsm, side_dbsm, oblique_dbsm;
@@ -23,15 +21,14 @@ struct contour {
 
 extern const struct record contour_record;
 
-/* The largest excess of the oblique cross section over another, in dB: half of the oblique one,
- * which each of two faces contributes, is then the whole of that face's. */
+/* The most by which the oblique cross section exceeds another, in dB: each of two faces then
+ * contributes its whole cross section at 45 degrees. */
 #define REFLECTOR_MODELS_OBLIQUE_DB 3.0
 
 /* Refuses a larger oblique cross section, and a document with some members but not all. */
 int reflector_models_check_contour(const struct contour *contour, struct diag *diag);
 
-/* The angles off a face's normal up to which its posts are fully visible, and from which on they
- * are invisible. */
+/* Posts are fully visible up to one angle off the face's normal, invisible from the other on. */
 struct contour_view {
     double full_rad, zero_rad;
 };

@@ -26,10 +26,10 @@ enum range_migration {
 };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
-/* What the designer of the sensors expects of a scan (MODEL 14.21). */
+/* Echoes that a sensor expects in a scan, by its designer (MODEL 14.21). */
 struct suite_prior {
-    double echoes; /* mean number, detected or not */
-    double snr_db; /* mean power over that of the noise */
+    double echoes; /* mean number of echoes, detected or not */
+    double snr_db; /* mean power of echoes over the power of the noise */
 };
 
 struct sensor {
@@ -96,7 +96,7 @@ struct suite {
     struct suite_prior prior;
     LIST_OF(struct sensor) sensors; /* in the document's order */
     const char *given;              /* the name or path that the user gave */
-    const char *name;               /* of it the last part, without .json and what follows */
+    const char *name;               /* the last part of it, up to .json */
     char digest[17];
 };
 
@@ -105,10 +105,8 @@ extern const struct record sensor_record, suite_record;
 /* The sensor of that name, or NULL. */
 const struct sensor *suite_sensor(const struct suite *suite, const char *name);
 
-/* Fills a sensor's derived members from the document's, but for the suite's prior and the rows of
- * tables. */
+/* Sets a sensor's derived members, except prior and the rows of tables. */
 void suite_derive(struct sensor *sensor);
 
-/* Refuses combinations of members that contradict each other; each member alone is checked by its
- * field. */
+/* Refuses members that contradict each other (DIAG_CONFIG). */
 int suite_check(const struct sensor *sensor, struct diag *diag);

@@ -3,6 +3,6 @@
 
 #include "documents/suite.h"
 
-/* Loads a suite with its tables and derived members. The digest is a 64-bit hash over the document
- * and every table. All of it lies in the arena; NULL after a message (DIAG_CONFIG). */
+/* Loads a suite with its tables and derived members into the arena. The digest is a 64-bit hash of
+ * the document and every table. NULL after a message (DIAG_CONFIG). */
 const struct suite *suite_file_load(const char *name, struct arena *arena, struct diag *diag);

@@ -33,8 +33,7 @@ static int check_visibility(const char *list, size_t index, double full_rad, dou
     return 0;
 }
 
-/* Checks what field tables cannot: names are unique, visibility does not end before it is full, and
- * mirrors have one law. */
+/* Names are unique, zero_rad is at least full_rad, and a mirror has one law of reflection. */
 static int check_reflectors(const struct reflector_set *set, struct arena *arena, struct diag *diag)
 {
     const char *twice = reflectors_name_twice(set, arena);

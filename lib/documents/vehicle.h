@@ -1,5 +1,6 @@
-/* Documents of classes of road users and things. They hold size, reflection centres and other
- * models of a class (data/vehicles/). */
+/* Documents of classes of road users and things.
+ *
+ * A document in data/vehicles/ has the size, the reflection centres and other models of a class. */
 #pragma once
 
 #include "documents/reflector_models.h"
@@ -17,12 +18,11 @@ struct vehicle {
 
 extern const struct record vehicle_record;
 
-/* Refuses what cannot be a class: a path, or a name with a dot that is no file NAME.json of the
- * working folder (DIAG_DATA). */
+/* Refuses a class that is a path, or has an ending other than .json (DIAG_DATA). */
 int vehicle_check_class(const char *class, struct diag *diag);
 
-/* Finds, reads and checks the document of a class: in folder, if that is not NULL, before all other
- * places (text/document.h). All it holds lies in the arena; NULL after a message (DIAG_CONFIG). */
+/* Finds, reads and checks the document of a class, in `folder` first unless that is NULL, then in
+ * the other places (text/document.h). It lies in the arena. NULL after a message (DIAG_CONFIG). */
 const struct vehicle *vehicle_load(const char *class, const char *folder, struct arena *arena,
                                    struct diag *diag);
 

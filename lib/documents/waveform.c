@@ -48,13 +48,13 @@ double waveform_range_step_m(const struct waveform *waveform, double cell_range_
     return waveform->kind == WAVEFORM_PULSE ? cell_range_m / 4 : cell_range_m;
 }
 
-/* Bins of the transform over this distance or more have independent noise. */
+/* The least distance of bins of the transform whose noise is independent. */
 static size_t independent_bins(const struct waveform *waveform)
 {
     return waveform->window == POINT_RESPONSE_HANN ? 3 : 1;
 }
 
-/* Refuses a CFAR window, or a stagger, for which the range rates do not suffice. */
+/* Refuses a CFAR window or a stagger that needs more repetitions. */
 static int check_rates(const struct waveform *waveform, struct diag *diag)
 {
     struct cfar cfar = waveform_cfar(waveform, 1, 1);

@@ -1,7 +1,8 @@
-/* Waveform and CFAR search of a radar, for glint-sensor-signal. The record is the member `waveform`
- * of a sensor's document. The resolution is that of the document's cells: chirps have the bandwidth
- * c/(2 cell_range_m), pulses are cell_range_m wide at half their amplitude, and a train of
- * repetitions lasts wavelength/(2 cell_range_rate_mps). */
+/* Waveform and CFAR search of a radar, for glint-sensor-signal.
+ *
+ * The member `waveform` of a sensor's document. The document's cells give the resolution: chirps
+ * have the bandwidth c/(2 cell_range_m), pulses are cell_range_m wide at half their amplitude, and
+ * a train of repetitions lasts wavelength/(2 cell_range_rate_mps). */
 #pragma once
 
 #include "radar/cfar.h"
@@ -14,7 +15,7 @@ struct waveform {
     enum waveform_kind kind;
     int64_t samples;     /* 0: the document describes no waveform */
     int64_t repetitions; /* chirps or pulses of a train */
-    int64_t stagger;     /* range rates are known within so many folds; 0: they fold */
+    int64_t stagger;     /* folds of range rate that a second train tells apart; 0: no train */
     int64_t elements;    /* 0: the sum and delta channels of the antenna */
     double spacing;      /* of the elements, in wavelengths */
     enum point_response window;
@@ -28,10 +29,10 @@ extern const struct record waveform_record;
 /* The distance between range bins. */
 double waveform_range_step_m(const struct waveform *waveform, double cell_range_m);
 
-/* Refuses combinations of members that contradict each other. No waveform at all is accepted. */
+/* Refuses members that contradict each other (DIAG_CONFIG). 0 samples, no waveform, pass. */
 int waveform_check(const struct waveform *waveform, double cell_range_m, double range_max_m,
                    struct diag *diag);
 
-/* The search in a spectrum of `padding` cells to a bin. Its windows take neighbours whose noise is
- * independent. Each beam has its share of the probability of a false alarm. */
+/* The search in a spectrum with `padding` cells to a bin. The noise of the cells in its windows is
+ * independent. The probability of a false alarm is divided by the number of beams. */
 struct cfar waveform_cfar(const struct waveform *waveform, size_t padding, size_t beams);

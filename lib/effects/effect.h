@@ -22,8 +22,8 @@ enum effect_home { EFFECT_HOME_IDEAL, EFFECT_HOME_SENSOR, EFFECT_HOME_NOISE };
 /* Constants of one effect in one scan. */
 enum { EFFECT_CONSTANTS = 3 };
 
-/* The steps by which noise measures a cell, in their order. glint-sensor-signal reads its targets
- * off the signal and takes only the last two steps. */
+/* The steps by which noise measures a cell, in their order. Of targets that glint-sensor-signal
+ * reads in the signal, only the last two steps are left. */
 enum effect_step {
     EFFECT_STEP_POINTERS, /* changes the sum and delta pointers, before the angle is read */
     EFFECT_STEP_SIGMA,    /* sets the standard deviations that EFFECT_STEP_NOISE then uses */
@@ -68,7 +68,7 @@ struct effect_measurement {
     struct random_address address; /* of the cell's draws */
     struct antenna_pointers pointers;
     double range_m, azimuth_rad, range_rate_mps;
-    /* Standard deviations: of the noise that is added, then as far as the sensor knows. */
+    /* Standard deviations: of the added noise, later as the sensor estimates them. */
     double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
     double amplitude; /* linear */
     bool sign_undecided;
@@ -150,22 +150,21 @@ bool effect_attenuate(const struct effect_scan *scan, struct effect_reception *r
 /* Calls the hooks receive on one echo. Returns the set of effects that changed it. */
 uint64_t effect_receive(const struct effect_scan *scan, struct effect_reception *reception);
 
-/* A cell's own values and margins; the amplitude is that of its sum pointer. Without a scan (NULL)
- * it has no address and no standard deviations, which the steps need. */
+/* The cell's values and margins, and the amplitude of its sum pointer. Without a scan (NULL) the
+ * address and the standard deviations, which the steps need, are 0. */
 struct effect_measurement effect_measurement_of(const struct effect_scan *scan,
                                                 const struct cell *cell);
 
-/* Calls the hooks of one step on a cell, and adds the effects that changed it to
- * measurement->effects. */
+/* Calls the hooks of one step, and adds the effects that changed a value to its label. */
 void effect_measure(const struct effect_scan *scan, enum effect_step step,
                     struct effect_measurement *measurement);
 
-/* Echoes of rolling wheels and of limbs. A direct echo, the parent, stays as it is; its parts are
+/* Echoes of rolling wheels and of limbs. A direct echo, the parent, stays as it is. Its parts are
  * echoes of the same object and reflector on the path wheel or limb, with numbers from 1. A part
  * has its parent's height, time, effects and margins, and a share of its cross section.
  *
- * Has the echo such a part, which moves along the sight line? Otherwise all parts would have the
- * echo's own range rate, and none is made. */
+ * Does the echo have such a part, and a range rate by its motion over ground? Without that rate
+ * every part has the echo's own range rate, and none is made. */
 bool effect_has_moving_part(const struct echo *parent, enum moving_part part);
 
 /* Has any echo of the scan such a part? */

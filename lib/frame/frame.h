@@ -1,16 +1,15 @@
 /* The one record that every stage reads and writes.
  *
- * A frame is what is known of one scene in one interval of time. On the wire it is one line, which
- * needs no other line to be understood. Each stage fills sections: traffic objects, extract
- * reflectors, ideal sensors and echoes, sensor cells, noise targets. The sections lost and counts
- * say what became of all other echoes. All memory of a frame is in its arena.
+ * A frame is one scene in one interval of time. In a stream it is one line, complete by itself.
+ * Each stage fills sections: traffic objects, extract reflectors, ideal sensors and echoes, sensor
+ * cells, noise targets. The sections lost and counts account for all other echoes. All memory of a
+ * frame is in its arena.
  *
- * Conventions of all members here and of all modules above: SI units and radians, with the unit in
- * the name; a name without a unit is dimensionless. Axes are those of ISO 8855: x forward, y left,
- * angles counter-clockwise. Azimuths count from boresight, positive to the left; range rates are
- * positive when receding. Positions of objects are the centres of their boxes, from the frame's
- * origin; mounts count from the centre of the ego's box. Amplitudes are linear, except members that
- * end in _db. */
+ * Conventions in all modules: SI units and radians, with the unit in the name; a name without a
+ * unit is dimensionless. Axes are those of ISO 8855: x forward, y left, angles counter-clockwise.
+ * Azimuths count from boresight, positive to the left; range rates are positive when receding.
+ * Positions of objects are the centres of their boxes, from the frame's origin; mounts count from
+ * the centre of the ego's box. Amplitudes are linear, except members that end in _db. */
 #pragma once
 
 #include "base/random.h"
@@ -46,10 +45,8 @@ struct frame_part {
     const char *stage; /* of SECTION_LOST only the groups of this stage; NULL: all groups */
 };
 
-/* A road user or thing: truth. A length, width or height of 0 stands for that of the class, which
- * glint-extract fills in. The velocity is that of the box's centre and need not point along the
- * yaw.
- */
+/* A road user or thing: truth. A length, width or height of 0 means the size of the class, which
+ * glint-extract fills in. The velocity of the box's centre need not point along the yaw. */
 struct object {
     const char *id;
     const char *class;
@@ -57,7 +54,7 @@ struct object {
     double vx_mps, vy_mps, yaw_rate_radps;
     double length_m, width_m, height_m;
     double travelled_m; /* since the scene began */
-    const char *extra;  /* the user's own member, passed on byte for byte; in all structs below */
+    const char *extra;  /* the user's own member, here and below, passed on byte for byte */
 };
 
 /* The document that described a class to the stage which wrote the reflectors. */
@@ -67,7 +64,7 @@ struct class_document {
     double rear_axle_x_m; /* from the centre of the box; 0: the document does not say */
 };
 
-/* What a reader of targets needs to know of a sensor. */
+/* The properties of a sensor that readers of targets need. */
 struct sensor_view {
     const char *name;
     double mount_x_m, mount_y_m, mount_yaw_rad;
@@ -78,7 +75,7 @@ struct sensor_view {
     double carrier_hz;       /* 0: not known */
     double cycle_s;          /* 0: a scan in every frame */
     bool measured;           /* does the frame have a scan of this sensor? */
-    double age_s;            /* the frame's time less that of which the scan tells */
+    double age_s;            /* the frame's time less the time that the scan shows */
 };
 
 struct sensors {
@@ -88,8 +85,8 @@ struct sensors {
     LIST_OF(struct sensor_view) list;
 };
 
-/* The path of an echo's wave, or what sent it back. A ghost is seen where its last leg comes from.
- * Random numbers are addressed by these values: a new path goes to the end. */
+/* The path of an echo's wave. A ghost appears in the direction of its last leg. Addresses of random
+ * numbers contain these values: a new path goes to the end. */
 enum path {
     PATH_DIRECT,           /* sensor, object, sensor */
     PATH_WALL_OBJECT,      /* sensor, wall, object, sensor */
@@ -102,7 +99,7 @@ enum path {
     PATH_COUNT,
 };
 
-/* Tells one echo from all others of a sensor's scan. */
+/* The identity of an echo in a sensor's scan. */
 struct echo_id {
     const char *object;
     const char *reflector;
@@ -111,7 +108,7 @@ struct echo_id {
     int64_t number;     /* from 1 where several may be alike in all members above; else 0 */
 };
 
-/* What a sensor would read of a reflector along one path, exactly. */
+/* The exact measurement of a reflector by a sensor along one path. */
 struct echo {
     const char *sensor;
     struct echo_id id;
@@ -121,7 +118,7 @@ struct echo {
     double height_m;      /* of the reflector's middle over the road; 0: not known */
     double extent_m;      /* from the reflector's lowest to its highest part; 0: a point */
     enum moving_part moving_part;
-    double ground_rate_mps; /* the part of range_rate_mps that the motion over ground makes */
+    double ground_rate_mps; /* part of range_rate_mps, by the object's motion over ground */
     double heading_rad;     /* of the object, from boresight */
     double time_s;          /* of the measurement */
     uint64_t effects;       /* EFFECT_BITs of the effects that changed one of these values */
@@ -164,8 +161,8 @@ enum quality_group {
 };
 _Static_assert(QUALITY_EGO < 1U << 31, "a set of groups is an unsigned");
 
-/* What the sensor itself knows of a detection, from its report and its document (MODEL 14.21), and
- * labels, which are exact. */
+/* Quality of a detection by its report and the sensor's document (MODEL 14.21), and exact labels.
+ */
 struct quality {
     double snr_db, rcs_dbsm;
     double range_sd_m, range_rate_sd_mps, azimuth_sd_rad; /* standard deviations */
@@ -187,8 +184,7 @@ struct target {
     bool sign_undecided;
     double cell_range_m, cell_azimuth_rad, cell_range_rate_mps;
     double cell_amplitude;
-    double cell_sum;  /* amplitude of the cell's sum pointer: what is reported without noise; 0: not
-                       * known */
+    double cell_sum;  /* amplitude of the cell's sum pointer, without noise; 0: not known */
     uint64_t effects; /* EFFECT_BITs of those that changed a value of the target or a contributor */
     LIST_OF(struct contributor) contributors;
     struct margins margins;
@@ -203,8 +199,8 @@ enum loss {
     LOSS_OWN, /* a reason that only its stage knows */
 };
 
-/* The range is to 1 mm and the azimuth to 1e-5 rad. Both are the echo's; of a reflector that sent
- * none they are its place in the plane, for a flat side its middle. */
+/* Range and azimuth of the echo, rounded to 1 mm and 1e-5 rad; without an echo those of the
+ * reflector's place in the plane, for a flat side of its middle. */
 struct lost_echo {
     struct echo_id id;
     double range_m, azimuth_rad; /* range 0: not known */
@@ -217,8 +213,8 @@ struct lost_echo {
 struct lost_group {
     const char *sensor;
     const char *stage;
-    const char *reason;    /* the name of an enum loss, or the stage's own: of a to z and _ */
-    enum effect_id effect; /* to which the reason belongs, or EFFECT_NONE */
+    const char *reason;    /* the name of an enum loss, or the stage's own, of a to z and _ */
+    enum effect_id effect; /* that loses echoes for the reason, or EFFECT_NONE */
     LIST_OF(struct lost_echo) echoes;
 };
 
@@ -228,8 +224,7 @@ struct path_count {
     int64_t echoes;
 };
 
-/* What one sensor has to account for (frame_check.h): its pairs with a reflector, and the echoes
- * that were made. */
+/* Numbers for the account (frame_check.h): pairs of a sensor and a reflector, and echoes made. */
 struct count {
     const char *sensor;
     int64_t pairs;
@@ -246,7 +241,7 @@ struct frame {
     uint64_t seed;
     const char *ego;
     double origin_x_m, origin_y_m;
-    uint64_t sections; /* set of enum carried: what it carries by choice, now or once it is made */
+    uint64_t sections; /* set of enum carried: the choice of what it carries */
     struct conditions conditions;
     LIST_OF(struct object) objects;
     LIST_OF(struct class_document) vehicles; /* by class; empty before extraction */
@@ -266,7 +261,7 @@ struct frame {
     LIST_OF(struct object *) by_id; /* the cache of frame_order_objects; empty: not sorted yet */
     struct {
         size_t lost, counts;
-    } ordered; /* so many items were in canonical order; those behind them are new */
+    } ordered; /* numbers of items in canonical order; later items are new */
 };
 
 extern const struct record frame_record;
@@ -280,8 +275,7 @@ extern const struct record quality_record;
 extern const struct record lost_echo_record;
 extern const struct record lost_group_record;
 
-/* True if both names are equal. It is quick for names that are one pointer, as those of documents
- * and objects are, and for names whose first letters differ. */
+/* True if both names are equal: quick for one pointer, and for different first letters. */
 static inline bool frame_same_name(const char *a, const char *b)
 {
     return a == b || (*a == *b && strcmp(a, b) == 0);
@@ -290,7 +284,7 @@ static inline bool frame_same_name(const char *a, const char *b)
 /* Empties the frame. Its arena keeps its memory, and the cache of lists stays. */
 void frame_clear(struct frame *frame);
 
-/* Does the frame carry this, now or once it is made? */
+/* Does the choice of the frame contain this? */
 static inline bool frame_carries(const struct frame *frame, enum carried what)
 {
     return (frame->sections & what) != 0;
@@ -311,8 +305,8 @@ static inline enum loss frame_loss_of(const char *reason)
     return loss;
 }
 
-/* The reason of a group for people, in the arena: "blocked", or "mud: covered" if it is the own
- * reason of the stage mud. */
+/* The reason of a group, in the arena: "blocked", or "mud: covered" for a reason of the stage mud's
+ * own. */
 const char *frame_loss_words(const struct lost_group *group, struct arena *arena);
 
 /* Removes sections from the frame. */
@@ -321,7 +315,7 @@ void frame_drop(struct frame *frame, unsigned sections);
 /* The object with this id, or NULL: by bisection once frame_order_objects has sorted them. */
 struct object *frame_object(const struct frame *frame, const char *id);
 
-/* False for the paths of ghosts, clutter and false alarms, which are where no object is. */
+/* True for paths whose echoes come from the place of an object: no ghost, clutter, false alarm. */
 bool frame_shows_object(enum path path);
 
 /* The contributor of the greatest weight, the first of equals; NULL: the target has no label. */
@@ -341,8 +335,7 @@ struct object frame_object_in(struct object object, struct motion motion);
  * sections in canonical order. */
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);
 
-/* The echoes and the cells of one sensor. They stand together, as sections are grouped by sensor.
- */
+/* The echoes and the cells of one sensor, which are neighbours in canonical order. */
 struct echo_span {
     const struct echo *items;
     size_t count;
@@ -363,9 +356,8 @@ struct contributor frame_contributor(const struct echo *echo);
 /* An echo, or a member of a cell, as it is lost. */
 struct lost_echo frame_lost_echo(const struct contributor *echo, const struct margins *margins);
 
-/* Adds a lost echo to the group of its sensor, stage and reason; a stage loses the echoes of one
- * sensor after those of another. Does nothing unless the frame keeps account. All text must live as
- * long as the frame. */
+/* Adds a lost echo to the group of its sensor, stage and reason, if the frame keeps account. A
+ * stage must finish one sensor before the next. All text must live as long as the frame. */
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo);
 
@@ -378,22 +370,19 @@ void frame_lose_own(struct frame *frame, const char *stage, const char *sensor, 
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins);
 
-/* Adds to the sensor's counts of echoes made along a path, and of pairs with a reflector; a stage
- * counts those of one sensor after those of another. */
+/* Adds to the sensor's counts of echoes made along a path, and of pairs with a reflector. A stage
+ * must finish one sensor before the next. */
 void frame_count_echoes(struct frame *frame, const char *sensor, enum path path, int64_t echoes);
 void frame_count_pairs(struct frame *frame, const char *sensor, int64_t pairs);
 
 /* The echoes that a count has along a path. */
 int64_t frame_counted_echoes(const struct count *count, enum path path);
 
-/* Appends a target with the cell as its label; the target's own values and margins are the cell's,
- * without noise. */
+/* Appends a target with the cell's values, without noise, its margins and its members as label. */
 struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db);
 
-/* Addresses of random numbers (random.h) hold the frame's seed, scene and number, the sensor, and
- * the identity of the echo. Random numbers of a cell have the address of its leader.
- *
- * The address of a sensor's whole scan, with no echo. */
+/* Addresses of random numbers (random.h) contain the frame's seed, scene and number, the sensor and
+ * the identity of the echo; of a cell, of its leader. The address of a scan contains no echo. */
 struct random_address frame_draw_address_of_scan(const struct frame *frame, const char *sensor);
 
 /* The address of an echo in that scan. */

@@ -15,8 +15,7 @@
 enum moving_part { MOVING_NONE, MOVING_WHEEL, MOVING_LIMBS };
 extern const char *const reflectors_moving_parts[]; /* names on the wire, ending with NULL */
 
-/* A corner, a wheel house, a pole: a point that is seen from a range of angles around its facing.
- */
+/* A corner, a wheel house, a pole: a point that is seen from angles around its facing. */
 struct point_reflector {
     const char *name;
     double x, y;
@@ -28,7 +27,7 @@ struct point_reflector {
     enum visibility_shape shape;
     double ercs;
     enum moving_part moving_part;
-    double under_vehicles; /* part of its ERCS that is left under raised vehicles in the way */
+    double under_vehicles; /* share of the ERCS that is left if only raised vehicles block it */
     struct lobe lobe;      /* a factor on ERCS besides visibility */
 };
 
@@ -81,8 +80,8 @@ struct reflector_set {
     const struct reflectors_shape *shape; /* the document's, or NULL */
 };
 
-/* Values that follow from a set's lists. All its reflectors and mirrors lie within share times an
- * object's box, and inset_m beyond. */
+/* Values by a set's lists. All reflectors and mirrors lie within share times an object's box, and
+ * inset_m beyond. */
 struct reflectors_shape {
     struct reflectors_face *faces; /* one for each point */
     double share;                  /* at least 1 */
@@ -99,11 +98,11 @@ struct reflectors_face {
 extern const struct record reflector_set_record;   /* of a frame: with model and objects */
 extern const struct record reflector_model_record; /* of a vehicle document: without these */
 
-/* True if all lists of the set are still those of its document, which need no second check. */
+/* True if all lists of the set are those of its document, which was checked when it was loaded. */
 bool reflectors_unchanged(const struct reflector_set *set);
 
-/* A name that two reflectors of the set have, or NULL. With a row "a" points and planes must not be
- * called a_1 and so on, as its posts are. */
+/* A name of two reflectors of the set, or NULL. The posts of a row "a" have the names a_0, a_1 and
+ * so on, which no point or plane may have. */
 const char *reflectors_name_twice(const struct reflector_set *set, struct arena *arena);
 
 /* The number, from 0, of the first mirror that has both a material and a reflection, or neither;
@@ -146,8 +145,7 @@ bool reflectors_surely_no_foot(const struct box *box, const struct plane_reflect
 double reflectors_lobe(const struct box *box, const struct point_reflector *point,
                        struct vec2 place, struct vec2 sensor, double zenith_rad);
 
-/* The numbers [first, end) of the posts that may be within range_m of the sensor: all that are, and
- * at most two others. */
+/* The numbers [first, end) of all posts within range_m of the sensor, and of at most two others. */
 void reflectors_posts_within(const struct box *box, const struct post_row *row, struct vec2 sensor,
                              double range_m, int64_t *first, int64_t *end);
 

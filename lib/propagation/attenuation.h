@@ -1,7 +1,7 @@
 /* Attenuation by rain and fog, ITU-R P.838-3 and P.840 (MODEL 14.15).
  *
- * Both are of one way. Rain is for 1 to 1000 GHz. Fog is of droplets far smaller than the
- * wavelength, with the double-Debye permittivity of water, up to 200 GHz. */
+ * The attenuation gamma, in dB/km, is one way. The law of rain holds for 1 to 1000 GHz, the law of
+ * fog, with the double-Debye permittivity of water, up to 200 GHz. */
 #pragma once
 
 #include "propagation/carrier.h"

@@ -1,7 +1,7 @@
 /* Random points on the ground in view of a sensor.
  *
- * Points are even over the area between two ranges within the field of view (MODEL 14.9, 14.13).
- * random_poisson draws how many there are. */
+ * Points are distributed evenly over the area between two ranges within the field of view (MODEL
+ * 14.9, 14.13); random_poisson draws their number. */
 #pragma once
 
 #include "base/vec2.h"
@@ -10,8 +10,7 @@
  * per m^2 times this area is a mean count. */
 double ground_return_area_m2(double range_min_m, double range_max_m, double field_of_view_rad);
 
-/* The range of a point drawn evenly over that area, from a uniform number in (0, 1). Its azimuth is
- * even over the field of view. */
+/* The range of a point of that area, from a uniform number in (0, 1). */
 double ground_return_range_m(double range_min_m, double range_max_m, double uniform);
 
 /* The range rate of a standing point at an azimuth from boresight: -v · u, with the velocity v of

@@ -5,8 +5,8 @@
  * x of a triangular law from -1 to 1.5 with its peak at 0 (MODEL 14.12, assumed). */
 #pragma once
 
-/* Mean of the Poisson count of points that one visible wheel shows per scan, and their amplitude
- * over that of the wheel's own echo, -10 dB; both assumed. */
+/* The mean of the Poisson number of echoing points on a visible wheel in a scan, and their
+ * amplitude over the amplitude of the wheel's own echo, -10 dB; both assumed. */
 #define MICRO_DOPPLER_WHEEL_COUNT 1.5
 #define MICRO_DOPPLER_WHEEL_FACTOR 0.316227766016837933200
 
@@ -15,16 +15,15 @@ struct wheel_point {
     double angle_rad; /* psi, 0 at the top */
 };
 
-/* A point with rho even over 0.3 to 1 and psi even around the wheel, each from one uniform number.
- */
+/* A point with rho even over 0.3 to 1 and psi even around the wheel, from two uniform numbers. */
 struct wheel_point micro_doppler_wheel_point(const double uniform[2]);
 
 /* The range rate of a point. hub_mps is the hub's range rate, rolling_mps the part of it that the
  * hub's motion over ground makes: its velocity over ground along the sight line. */
 double micro_doppler_wheel_rate_mps(double hub_mps, double rolling_mps, struct wheel_point point);
 
-/* Mean of the Poisson count of limbs that one person shows per scan, and their amplitude over the
- * torso's, -6 dB; both assumed. */
+/* The mean of the Poisson number of echoing limbs of a person in a scan, and their amplitude over
+ * the torso's, -6 dB; both assumed. */
 #define MICRO_DOPPLER_LIMB_COUNT 0.5
 #define MICRO_DOPPLER_LIMB_FACTOR 0.501187233627272285002
 

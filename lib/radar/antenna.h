@@ -27,7 +27,7 @@ struct antenna_row {
 
 struct antenna {
     enum antenna_pattern pattern;
-    enum antenna_phase phase; /* a table has no phase of its own and takes the dipole pair's e */
+    enum antenna_phase phase;       /* a table has the phase of the dipole pair */
     const struct antenna_row *rows; /* of ANTENNA_TABLE */
     size_t row_count;
 };
@@ -49,9 +49,9 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad);
  * least such azimuth to the left, within 5e-5 rad; PI if there is none. */
 double antenna_beam_rad(const struct antenna *antenna);
 
-/* Azimuths from this on, to either side, are outside a field of view of that full width. It ends
+/* The azimuth from which on, to either side, echoes are outside a field of view of that full width:
  * 1e-9 rad before its border, so that the foot on a wall parallel to boresight, at 90 degrees but
- * for its rounding, is outside (MODEL 2.5). */
+ * for rounding, is outside (MODEL 2.5). */
 double antenna_border_rad(double field_of_view_rad);
 
 /* The azimuth at which the antenna has this ratio of delta to sum: equation (7) inverted (MODEL
@@ -64,9 +64,9 @@ double antenna_azimuth_rad(const struct antenna *antenna, double delta, double s
  * strictly. *row becomes the first row at fault, counted from 0, or count if rows are missing. */
 const char *antenna_table_fault(const struct antenna_row *rows, size_t count, size_t *row);
 
-/* Azimuth error of a misaligned sensor behind a bumper (MODEL 14.8). It looks to the right of where
- * it believes by the yaw error; the bumper, as a radome, bends the beam by the bias, with periods
- * of 20 to 40 degrees in practice. */
+/* Azimuth error of a misaligned sensor behind a bumper (MODEL 14.8). The boresight is to the right
+ * of its documented direction by the yaw error. The bumper, a radome, bends the beam by the bias,
+ * with periods of 20 to 40 degrees in practice. */
 struct boresight_error {
     double yaw_error_rad;
     double bias_rad;

@@ -20,16 +20,15 @@ struct cfar {
     double factor;  /* cfar_factor */
 };
 
-/* The factor with which noise passes with the probability P = false_alarm, if its power is
- * exponential and independent in the cell and all cells of the windows. For the mean of N cells it
- * is N (P^(-1/N) - 1); for the rank k it is the alpha that solves P = product over i < k of
- * (N - i)/(N - i + alpha). */
+/* The factor for which noise passes with the probability P = false_alarm, if its power is
+ * exponential and independent in all cells. For the mean of N cells it is N (P^(-1/N) - 1); for the
+ * rank k it solves P = product over i < k of (N - i)/(N - i + factor). */
 double cfar_factor(enum cfar_kind kind, size_t cells, size_t rank, double false_alarm);
 
 /* Cells from the first of one window to the last of the other, the cell under test included. */
 size_t cfar_extent(const struct cfar *cfar);
 
-/* The power that cell number at must reach, of count cells that form a ring: cell i is power[i *
- * stride]. count is at least cfar_extent. */
+/* The power that the cell `at` must reach. The count cells form a ring, cell i is power[i *
+ * stride], and count is at least cfar_extent. */
 double cfar_threshold(const struct cfar *cfar, const double *power, size_t count, size_t stride,
                       size_t at);

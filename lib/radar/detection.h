@@ -1,14 +1,13 @@
 /* Swerling's fluctuation of echoes, and the probability of their detection.
  *
- * From scan to scan an echo fluctuates by a factor f on its amplitude, the square of which is a
- * random power of mean 1, by the laws of MODEL 14.14: Swerling 1 for many equal scatterers,
- * Swerling 3 for one that dominates many, and a log-normal law that is cut (3GPP TR 38.901), which
- * lowers its mean to 0.997 for 3.41 dB. Swerling's cases 2 and 4 change from look to look; here a
- * scan is one look, so that they are the same as 1 and 3.
+ * From scan to scan the amplitude of an echo varies by a random factor f, where f^2 has the mean 1
+ * (MODEL 14.14): Swerling 1 for many equal scatterers, Swerling 3 for one that dominates many, and
+ * a log-normal law cut at 3 standard deviations (3GPP TR 38.901), whose mean is 0.997 for 3.41 dB.
+ * A scan is one look, so that Swerling's cases 2 and 4 are the same as 1 and 3.
  *
- * An echo of the mean amplitude A is detected if A f meets one threshold and |A f + n| another, n
- * being complex Gaussian noise. A steady echo passes the second with Marcum's
- * Q(sqrt 2 A/noise, sqrt 2 T/noise). */
+ * An echo of the mean amplitude A is detected if A f meets one threshold and |A f + n| another,
+ * with complex Gaussian noise n. A steady echo passes the second threshold T with the probability
+ * Q(sqrt 2 A/noise, sqrt 2 T/noise), Marcum's function. */
 #pragma once
 
 enum fluctuation_law {

@@ -1,7 +1,6 @@
 /* Ambiguous readings of range and range rate (MODEL 14.16).
  *
- * Values outside of the unambiguous intervals fold into these. Folding is exact: nothing is
- * rounded, and a value inside comes back unchanged. */
+ * Values outside of the unambiguous interval fold into it. Folding is exact; values inside stay. */
 #pragma once
 
 /* The range rate as read, in [-unambiguous_mps, unambiguous_mps). unambiguous_mps > 0; infinity

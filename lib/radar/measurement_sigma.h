@@ -9,8 +9,7 @@ enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE, SIGMA_BY_SNR };
 /* How one quantity is measured. Members have its unit unless they say otherwise. */
 struct measurement_sigma {
     enum sigma_law law;
-    double
-        sigma; /* fixed; by amplitude: at the threshold; by SNR: the floor, at an infinite ratio */
+    double sigma;     /* fixed; by amplitude: at the threshold; by SNR: at an infinite ratio */
     double cell;      /* c/(2B), lambda/(2T) or lambda/(N d) */
     double factor;    /* 0.39 for the Cramer-Rao bound sqrt(6)/(2 pi), 0.68 for a Hann window */
     double threshold; /* linear amplitude */

@@ -7,10 +7,9 @@
 
 enum monopulse_estimator {
     /* The paper's rule, equation (7): the size from |delta| and |sum|, the sign from the phase
-     * between them. The azimuth jumps to the other side where the phase does not decide, which
-     * sign_undecided tells. Under PHASE_ELEMENT the last bit of a pointer may decide without that
-     * flag, if nearly equal echoes lie within about 1 degree to both sides of boresight: the
-     * azimuth is then below 7e-4 rad (hard case 11). */
+     * between them. Where the phase does not decide, sign_undecided is set. Under PHASE_ELEMENT the
+     * last bit of a pointer may decide without that flag, if nearly equal echoes lie within about 1
+     * degree to both sides of boresight; the azimuth is then below 7e-4 rad (hard case 11). */
     MONOPULSE_MAGNITUDE,
     /* The signed ratio -Im(delta conj(sum)) / |sum|^2: for one echo the same azimuth, for several
      * continuous. */

@@ -71,8 +71,8 @@ double point_response_vertex(double before, double peak, double after)
     return (left - right) / (2 * (left - 2 * elementary_log(peak) + right));
 }
 
-/* A ratio that is 1 at rest and goes with the number of cells far off; for Gaussian windows b and c
- * are 0. The coefficients were fitted to the integral. */
+/* A ratio that is 1 at rest and proportional to the number of cells if that is large. Coefficients
+ * were fitted to the integral; b and c are 0 for a Gaussian window. */
 struct walk_law {
     double a, b, c;
 };

@@ -1,11 +1,10 @@
 /* Response of range or Doppler processing to a single echo.
  *
- * The response is the echo's amplitude along one axis of the spectrum, over the distance from the
- * echo in bins; it is 1 at the echo (MODEL 6.1, 11.3). POINT_RESPONSE_HANN and
- * POINT_RESPONSE_RECTANGULAR are those of a Fourier transform of as many samples as there are bins,
- * weighted by that window; if phases are counted from the middle sample, responses are real and
- * change sign from bin to bin. POINT_RESPONSE_PULSE is that of a Gaussian pulse, sampled as it is
- * received: its amplitude is 1/2 two bins to either side. */
+ * The response is the amplitude along one axis of the spectrum, over the distance from the echo in
+ * bins; it is 1 at the echo (MODEL 6.1, 11.3). HANN and RECTANGULAR are the Fourier transforms of
+ * as many samples as there are bins, weighted by that window. With phases counted from the middle
+ * sample they are real and change sign from bin to bin. PULSE is a Gaussian pulse, sampled as it is
+ * received, with the amplitude 1/2 two bins to either side. */
 #pragma once
 
 #include <stddef.h>
@@ -17,20 +16,19 @@ struct phasor {
     double re, im;
 };
 
-/* The window's weight of sample n of count, periodic; the weights sum to 1. Not for
- * POINT_RESPONSE_PULSE, which has no window. */
+/* The window's weight of sample n of count, periodic; the weights sum to 1. Not for PULSE. */
 double point_response_weight(enum point_response response, size_t n, size_t count);
 
-/* The RMS of a bin if all samples have independent noise of RMS 1: sqrt(ENBW / count), where the
- * equivalent noise bandwidth ENBW is 1.5 for Hann's window and 1 without. */
+/* The RMS of a bin if all samples have independent noise of RMS 1: sqrt(ENBW / count), with the
+ * equivalent noise bandwidth ENBW = 1.5 for HANN, else 1. */
 double point_response_noise(enum point_response response, size_t count);
 
 /* The response at any distance d = bins: sinc d for RECTANGULAR, sinc d / (1 - d^2) for HANN,
  * 2^-(d/2)^2 for PULSE. */
 double point_response_value(enum point_response response, double bins);
 
-/* Distance from the peak to the first null, in bins: nothing nearer is a side lobe. 2 for HANN, 1
- * for RECTANGULAR, infinite for PULSE, which has no side lobes. */
+/* Distance from the peak to the first null, in bins: 2 for HANN, 1 for RECTANGULAR, infinite for
+ * PULSE, which has no side lobes. */
 double point_response_main_lobe(enum point_response response);
 
 /* An upper bound on the size of point_response_value that does not rise with |bins|; 1 within the
@@ -43,11 +41,10 @@ double point_response_envelope(enum point_response response, double bins);
  * 4 ulp. */
 double point_response_hann(double bins);
 
-/* The place of an echo relative to the bin of its peak, in bins, in [-1/2, 1/2] (Grandke 1983).
- * With Hann's window, from the magnitudes of the peak and its neighbours, before <= peak >= after,
- * peak > 0: with a the larger neighbour over the peak it is (2 a - 1)/(a + 1) towards that
- * neighbour. For one echo it is exact but for rounding. It is 0 if both neighbours are equal, or if
- * both are below half of the peak, which takes several echoes. */
+/* The place of an echo relative to the bin of its peak with Hann's window, in bins, in [-1/2, 1/2]
+ * (Grandke 1983). From the magnitudes before <= peak >= after, peak > 0: (2 a - 1)/(a + 1) towards
+ * the larger neighbour, which is a times the peak. For one echo it is exact but for rounding. It is
+ * 0 if both neighbours are equal, or both below half of the peak, as several echoes can be. */
 double point_response_hann_offset(double before, double peak, double after);
 
 /* The place of an echo relative to the cell of its peak, in cells, in [-1/2, 1/2]: the vertex of
@@ -58,20 +55,18 @@ double point_response_hann_offset(double before, double peak, double after);
  * the nearer the wider the response is. */
 double point_response_vertex(double before, double peak, double after);
 
-/* Level of the strongest point, 1 at rest, and width at half that level, 1 + widening times that at
- * rest, of an echo that walks while it is measured. */
+/* An echo that walks while it is measured: the level of its strongest point, 1 at rest, and its
+ * width at half that level, 1 + widening times the width at rest. */
 struct point_response_walk {
     double level, widening;
 };
 
-/* The response to an echo that walks so many cells of range in a dwell, in either direction. Over
- * both axes of the samples its phase is bilinear, so that the transform of both, with a window w of
- * integral 1 on either,
+/* The response to an echo that walks so many cells of range in a dwell, in either direction. The
+ * phase is bilinear over both axes of the samples. With a window w of integral 1 on each axis,
  *
  *     response(a, b) = integral of w(x) w(y) exp 2 pi j (K x y + a x + b y) over [-1/2, 1/2]^2,
  *
  * is lower and wider than at rest, in range and range rate alike (MODEL 14.20). For HANN the answer
- * is within 0.02 dB and 0.03 cells of the integral; for RECTANGULAR, whose strongest point moves
- * among ripples, within 0.3 dB and 0.2 cells up to 10 cells. Below 1e-8 cells it is exactly that at
- * rest. Not for PULSE. */
+ * is within 0.02 dB and 0.03 cells of the integral; for RECTANGULAR, up to 10 cells, within 0.3 dB
+ * and 0.2 cells. Below 1e-8 cells there is no change. Not for PULSE. */
 struct point_response_walk point_response_of_walk(enum point_response response, double cells);

@@ -33,9 +33,9 @@ double radar_amplitude(const struct radar_equation *equation, const struct anten
                        double range_m, double azimuth_rad, double ercs);
 
 /* The range up to which A_ref · gain · ercs meets the threshold (MODEL 4.1): by the power law
- * calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent), by a table where its amplitude
- * falls below the threshold for good: 0 if it is so everywhere, infinity if the table does not fall
- * in the end. Both leave range_floor_m aside. gain and ercs > 0. */
+ * calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent), by a table the last range at
+ * which its amplitude falls below the threshold; 0 if there is none, infinity if the table does not
+ * fall at its end. range_floor_m does not count. gain and ercs > 0. */
 double radar_detection_range_m(const struct radar_equation *equation, double gain, double ercs);
 
 /* The equivalent radar cross section of the paper, a factor on amplitude: sqrt(sigma / 10 m^2)

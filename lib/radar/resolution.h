@@ -1,7 +1,7 @@
 /* Groups of echoes that share a resolution cell (MODEL 6).
  *
- * A cell's range and range rate are amplitude-weighted means, equations (4) and (5). Two echoes
- * share a cell by the larger one of theirs. */
+ * A cell's range and range rate are amplitude-weighted means, equations (4) and (5). Whether two
+ * echoes share a cell is decided by the size of the wider echo's cell. */
 #pragma once
 
 #include <stdbool.h>
@@ -33,8 +33,8 @@ size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, do
 bool resolution_close(const struct resolution_echo *echoes, size_t count, double half_range_m,
                       double half_range_rate_mps, struct arena *arena);
 
-/* Echoes in a row, by range or by range rate, whichever spreads them over more cells: few of them
- * then lie within a cell's reach of each other, also where many are at one range. */
+/* Echoes sorted by range or by range rate, along the axis on which they spread over more cells, so
+ * that few of them are within reach of each other. */
 struct resolution_place {
     double place;
     size_t echo;
@@ -43,7 +43,7 @@ struct resolution_row {
     struct resolution_place *items;
     size_t *rank; /* rank[i] is the position of echo i in items */
     size_t count;
-    double reach; /* half the largest echo's cell: echoes farther apart in the row share none */
+    double reach; /* half the largest cell: echoes farther apart share no cell */
 };
 struct resolution_row resolution_row_of(const struct resolution_echo *echoes, size_t count,
                                         double half_range_m, double half_range_rate_mps,

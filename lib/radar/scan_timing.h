@@ -1,15 +1,13 @@
 /* Instants of a sensor's scans, and the dwell of each.
  *
  * A sensor with a cycle has a scan at every whole multiple of cycle_s since time 0. A scan belongs
- * to the frame whose interval (time_s - interval_s, time_s] holds its instant, so that no stage has
- * to remember the scan before. Instants within 1e-9 of a cycle from a border of the interval count
- * as on it, so that times written as i/rate and cycles written as decimals agree; rounding stays
- * below that for some 3e6 cycles, 33 hours at 25 Hz. An instant at a frame's own time is exactly
- * that time. */
+ * to the frame whose interval (time_s - interval_s, time_s] contains its instant. An instant within
+ * 1e-9 of a cycle from a border of the interval is on it, so that times written as i/rate and
+ * cycles written as decimals agree; rounding stays below that for some 3e6 cycles, 33 hours at 25
+ * Hz. An instant at a frame's own time is exactly that time. */
 #pragma once
 
-/* The time that the signal of a scan takes to part range rates by a cell of that width,
- * wavelength/(2 cell). */
+/* The duration of a scan's signal that resolves range rates to a cell, wavelength/(2 cell). */
 double scan_timing_dwell_s(double carrier_hz, double cell_mps);
 
 enum scan_timing_answer { SCAN_TIMING_NONE, SCAN_TIMING_ONE, SCAN_TIMING_SEVERAL };
