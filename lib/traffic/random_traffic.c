@@ -143,7 +143,7 @@ static struct box box_of(const struct random_traffic *traffic, const struct obje
     };
 }
 
-/* How an object overlaps others: 0 not at all, 1 other objects, 2 the ego, which comes first. */
+/* 0 if an object overlaps nothing, 1 if it overlaps another object, 2 for the ego. */
 static int worst_overlap(const struct random_traffic *traffic, const struct frame *frame,
                          const struct object *object)
 {
@@ -169,7 +169,7 @@ static void place(struct random_sequence *sequence, const struct density *densit
         units_wrap_rad(ego->yaw_rad + draw_yaw_rad(sequence, local.y, profile->roadside));
 }
 
-/* Appends an object unless no place off the ego is found for it. */
+/* Appends an object, if a place is found for it that does not overlap the ego. */
 static void add_object(const struct random_traffic *traffic, int64_t index,
                        struct random_address address, struct frame *frame)
 {
@@ -255,7 +255,7 @@ static struct interferer draw_interferer(struct random_sequence *sequence,
     };
 }
 
-/* Every further interferer is one of the others after the last, in cyclic order. */
+/* Draws interferers in the cyclic order of the objects, so that none is drawn twice. */
 static void draw_interferers(struct random_sequence *sequence, const struct condition_draw *draw,
                              struct frame *frame)
 {

@@ -1,22 +1,20 @@
 /* Random snapshots of traffic: an ego and its surroundings.
  *
- * The ego's heading is the direction of the road. Most other objects keep to lanes 3.5 m wide,
- * those on the left oncoming; some cross, and some stand anywhere at any angle. Posts, walls and
- * guardrails stand beside the road. Some objects stand still, some turn, a few crab. Objects never
- * overlap the ego, and rarely each other. Sizes vary around those of the class; some are left to it
- * (0). Every snapshot is drawn by its number alone, and in it every object by its own number. */
+ * The ego's heading is the direction of the road. Most objects are on lanes 3.5 m wide, oncoming on
+ * the left; some cross, and some have any place and yaw. Posts, walls and guardrails stand beside
+ * the road. Some objects stand still, some turn, a few crab. Objects never overlap the ego, and
+ * rarely each other. Sizes vary around those of the class, or are left to it (0). A snapshot
+ * depends on its number alone, and each of its objects on the object's number. */
 #pragma once
 
 #include "base/random.h"
 #include "frame/frame.h"
 
-/* Number of objects beside the ego, and the radius around it: 0 to 3 in 120 m, 0 to 8 in 60 m, 4 to
- * 15 in 25 m, and 0 to 3 in 60 m around the cases of
- * tests/soundness/adversarial_traffic.h. */
+/* Objects beside the ego and the radius around it: 0 to 3 in 120 m, 0 to 8 in 60 m, 4 to 15 in 25
+ * m; 0 to 3 in 60 m around the cases of tests/soundness/adversarial_traffic.h. */
 enum random_traffic_density { TRAFFIC_SPARSE, TRAFFIC_MEDIUM, TRAFFIC_DENSE, TRAFFIC_ADVERSARIAL };
 
-extern const char *const random_traffic_densities[]; /* the names of the densities, ending with
-                                                      * NULL */
+extern const char *const random_traffic_densities[]; /* names; the last is NULL */
 
 /* The classes of objects: all of data/vehicles/. */
 enum random_traffic_class {
@@ -47,8 +45,7 @@ struct random_traffic {
     struct random_traffic_model models[TRAFFIC_CLASSES];
 };
 
-/* The address of the draws for one snapshot, with the frame's seed; each density has other
- * draws. */
+/* The address of the draws for one snapshot; each density has other draws. */
 struct random_address random_traffic_address(const struct random_traffic *traffic, uint64_t seed,
                                              int64_t number);
 
@@ -57,8 +54,8 @@ struct random_address random_traffic_address(const struct random_traffic *traffi
  * the origin along x, so that places can be exact. */
 void random_traffic_fill(const struct random_traffic *traffic, int64_t number, struct frame *frame);
 
-/* Draws road, weather and the objects with a radar at the address of a snapshot or of a moving
- * scene, as the rows of frame/conditions.def say. Interferers are fewer where there are not that
- * many objects beside the ego; each has 0 to 40 dBm, chirps of 1 to 50 MHz/us up or down, and hits
- * up to 30 % of the chirps. */
+/* Draws road, weather and the objects with a radar (interferers) at the address of a snapshot or a
+ * moving scene, by the laws in frame/conditions.def. There are at most as many interferers as
+ * objects beside the ego; each has 0 to 40 dBm and chirps of 1 to 50 MHz/us up or down, and hits up
+ * to 30 % of the chirps. */
 void random_traffic_conditions(struct random_address address, struct frame *frame);

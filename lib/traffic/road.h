@@ -17,7 +17,7 @@ struct road_signal {
     double green_s, red_s, offset_s;
 };
 
-/* Vehicles of a class that come independently of each other (Poisson). */
+/* Vehicles of a class that arrive independently of each other (Poisson). */
 struct road_arrivals {
     const char *class;
     double flow_per_h;
@@ -44,8 +44,8 @@ struct roadway {
 
 extern const struct record roadway_record;
 
-/* Refuses what field tables cannot: fewer than two points, equal points, no lane, what cannot be a
- * class. egos counts the arrivals that say ego_m. */
+/* Refuses fewer than two points, equal neighbouring points, no lane, and names that cannot be a
+ * class. Adds to egos the number of arrivals with ego_m. */
 int road_check(const struct roadway *road, int *egos, struct diag *diag);
 
 /* Multiplies every flow. */
@@ -68,10 +68,9 @@ struct road_path {
     double radius_m; /* of its narrowest arc; INFINITY if it has none */
 };
 
-/* The way of a lane of the road, in the arena. Refuses arcs of less than 3 m. */
+/* The path of a lane, in the arena. Refuses arcs with a radius below 3 m. */
 int road_path_make(struct road_path *path, const struct roadway *road, const struct road_lane *lane,
                    struct arena *arena, struct diag *diag);
 
-/* A body at place_m along the lane; the first and the last piece go on beyond the ends. The yaw is
- * in (-pi, pi]. */
+/* A body at place_m along the lane, which goes on beyond its ends. The yaw is in (-pi, pi]. */
 struct motion road_path_motion(const struct road_path *path, double place_m, double speed_mps);

@@ -86,7 +86,7 @@ static bool is_red(const struct road_signal *signal, double time_s)
     return cycle_s > 0 && since_s - floor(since_s / cycle_s) * cycle_s >= signal->green_s;
 }
 
-/* What a vehicle does behind a leader, or NULL, and before the lane's signals. */
+/* Acceleration of a vehicle behind a leader (or NULL) and before the lane's signals. */
 static double acceleration_mps2(const struct road_traffic *traffic, const struct road_queue *queue,
                                 const struct road_vehicle *vehicle,
                                 const struct road_vehicle *leader)
@@ -108,8 +108,8 @@ static double acceleration_mps2(const struct road_traffic *traffic, const struct
     return least_mps2;
 }
 
-/* Lets the next arrival in if it has come and, at the speed that it wants or at the last vehicle's,
- * need not brake harder than is comfortable. */
+/* Lets the next arrival in if its time has come and it need not brake harder than is comfortable,
+ * at its wanted speed or at that of the last vehicle. */
 static void enter(const struct road_traffic *traffic, struct road_queue *queue)
 {
     const struct road_vehicle *last =
@@ -171,7 +171,7 @@ static void step(struct road_traffic *traffic)
 
 /* ---- the beginning ---- */
 
-/* Finds the sizes that arrivals leave to their class, and sums the flows. */
+/* Sets the sizes that arrivals leave to their class, and sums the flows. */
 static int find_arrivals(struct road_queue *queue, struct arena *arena, struct diag *diag)
 {
     for (size_t i = 0; i < queue->lane->arrivals.count; i++) {
@@ -188,8 +188,8 @@ static int find_arrivals(struct road_queue *queue, struct arena *arena, struct d
     return 0;
 }
 
-/* How far vehicles reach from the lane's middle: a box of length L and width w that follows an arc
- * of radius r, to sqrt((r + w/2)^2 + (L/2)^2) - r. */
+/* Greatest distance of a vehicle's corner from the lane's middle: sqrt((r + w/2)^2 + (L/2)^2) - r
+ * for a box of length L and width w on an arc of radius r. */
 static double reach_m(const struct road_queue *queue)
 {
     double reach_m = 0;

@@ -83,7 +83,7 @@ static int check_waypoints(const struct actor *actor, struct diag *diag)
     return 0;
 }
 
-/* Notes the ids in names, so that an id's number is that of its object. */
+/* Adds the ids to names; the number of an id is then that of its object. */
 static int check_ids(const struct scenario *scenario, struct intern *names, struct arena *arena,
                      struct diag *diag)
 {
@@ -221,9 +221,9 @@ static struct vec2 span_mean_mps(const struct actor *actor, size_t span)
     return vec2_scale(1 / span_duration_s(actor, span), way_m);
 }
 
-/* The velocity at a waypoint by finite differences. At the ends it takes two points, because the
- * three-point formula can start a body backwards. Next to two equal places the body must rest, or
- * it would swing around the place where it stands. */
+/* The velocity at a waypoint by finite differences: of two points at the ends, where the
+ * three-point formula can start a body backwards. Next to two equal places it is 0, or the body
+ * would swing. */
 static struct vec2 waypoint_velocity_mps(const struct actor *actor, size_t waypoint)
 {
     size_t spans = actor->waypoints.count - 1;
@@ -261,8 +261,7 @@ static bool is_moving(struct vec2 velocity_mps)
 }
 
 /* Finds the yaw at the first place where the body moves, from one fraction of a span towards
- * another; false if it moves nowhere. The search begins with tiny steps that double, so that the
- * yaw is that of the departure. */
+ * another; false if it does not move. The steps begin tiny and double. */
 static bool find_yaw(const struct actor *actor, size_t span, double from, double to,
                      double *yaw_rad)
 {
@@ -346,7 +345,7 @@ struct motion scenario_motion(const struct actor *actor, double time_s, double *
     return body;
 }
 
-/* The factor makes up for a duration meant to be n / rate_hz that is a few ulp short of it. */
+/* The factor covers durations that are meant to be n / rate_hz but are a few ulp shorter. */
 int64_t scenario_frames(const struct scenario *scenario)
 {
     return (int64_t)floor(scenario->duration_s * scenario->rate_hz * (1 + 1e-15)) + 1;
@@ -377,7 +376,7 @@ int scenario_read(const char *name, struct scenario_document *document, struct a
     return document->line != NULL ? 0 : -1;
 }
 
-/* The centre of a body whose front is at the bound of places lies beyond it. */
+/* The nearest whole metre within the bounds of places, which the centre of a body may exceed. */
 static double origin_near(double place_m)
 {
     const double most_m = 1e9;

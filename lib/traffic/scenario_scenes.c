@@ -8,7 +8,7 @@
 
 enum { SCENES = 1000000000 };
 
-/* Reads the whole number of a scene, which is below SCENES or is SCENES. */
+/* Reads the number of a scene, a whole number from 0 to SCENES. */
 static bool read_number(const char *text, size_t length, int64_t *number)
 {
     double value;
@@ -35,7 +35,7 @@ int scenario_scenes_choose(struct scenario_scenes *scenes, const char *range, st
     return 0;
 }
 
-/* What the scenes change of the document. */
+/* Sets rate, duration and flow that the scenes replace. */
 static void change_scenario(const struct scenario_scenes *scenes)
 {
     struct scenario *scenario = scenes->scenario;
@@ -47,7 +47,7 @@ static void change_scenario(const struct scenario_scenes *scenes)
         road_scale_flow(&scenario->roads.items[i], scenes->flow);
 }
 
-/* Fills the roads of the scene, and looks for its ego. */
+/* Fills the roads of the scene, and checks that its ego is there. */
 static int begin_roads(struct scenario_scenes *scenes, struct diag *diag)
 {
     const struct scenario *scenario = scenes->scenario;
@@ -83,7 +83,7 @@ static int begin_scene(struct scenario_scenes *scenes, uint64_t seed, struct dia
     return 0;
 }
 
-/* Is the next frame's ego still there? The roads go on to that frame. */
+/* Advances the roads to the next frame. False if there is none, or if the ego has left. */
 static bool goes_on(struct scenario_scenes *scenes)
 {
     const struct scenario *scenario = scenes->scenario;

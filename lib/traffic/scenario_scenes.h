@@ -1,9 +1,8 @@
 /* Scenes of a scenario: each one is drawn and played.
  *
- * A scene is determined by the source's name, its number and the seed, so any split of the numbers
- * gives the same frames, and two sources share no draw. Within a scene frames come one after
- * another, and the last is that where the ego leaves its road, or that at the end of the scenario.
- */
+ * A scene depends on the source's name, its own number and the seed. So any split of the numbers
+ * gives the same frames, and two sources share no draw. A scene ends where the ego leaves its road,
+ * or with the scenario. */
 #pragma once
 
 #include "traffic/road_traffic.h"
@@ -11,21 +10,21 @@
 
 struct scenario_scenes {
     struct scenario_document document;
-    const char *ego;             /* of all scenes; NULL: each one's own */
+    const char *ego;             /* of all scenes; NULL: that of the scenario */
     const char *name;            /* of the source; part of the address of all draws */
-    const char *title;           /* of scenes; NULL: the source's name and the ego's */
-    double radius_m;             /* objects farther from the ego are left out; below 0: none are */
-    double flow;                 /* factor of all arrivals */
-    double rate_hz, duration_s;  /* in place of the scenario's own, unless the rate is 0 */
-    bool numbered;               /* does the number follow in a scene's name? */
+    const char *title;           /* of scenes; NULL: the names of source and ego */
+    double radius_m;             /* objects farther from the ego are left out; < 0: none are */
+    double flow;                 /* factor on all arrivals */
+    double rate_hz, duration_s;  /* replace those of the scenario, unless the rate is 0 */
+    bool numbered;               /* names of scenes end with their numbers */
     int64_t first, end;          /* numbers of the scenes, end not included */
-    int64_t number;              /* of the scene that plays, or else of the next */
-    struct random_address draws; /* address of the scene that plays */
-    struct scenario *scenario;   /* the scene that plays; NULL: none */
+    int64_t number;              /* of the present scene, else of the next */
+    struct random_address draws; /* address of the present scene */
+    struct scenario *scenario;   /* the present scene; NULL: none */
     const char *scene;           /* its name */
-    int64_t frame, frames;       /* its next frame, and how many it has */
+    int64_t frame, frames;       /* number of its next frame; number of its frames */
     struct road_traffic roads;
-    bool on_road;       /* is the ego one of their vehicles? */
+    bool on_road;       /* the ego is a vehicle of the roads */
     struct arena arena; /* of the scene */
 };
 
