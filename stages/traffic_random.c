@@ -1,5 +1,5 @@
 /* Random traffic: independent snapshots, each a scene of one frame, or moving scenes of some
- * seconds. Its number determines a scene. */
+ * seconds. */
 #include <inttypes.h>
 
 #include "base/elementary.h"
@@ -21,10 +21,10 @@ struct traffic_random {
     struct scenario_scenes moving; /* with --seconds */
 };
 
-/* The tests have one more density, with a stage of its own (tests/soundness). */
+/* One more density is for the tests alone (tests/soundness). */
 static const char *const densities[] = {"sparse", "medium", "dense", NULL};
 
-/* Moving scenes are those of a scenario with roads, whose every value is drawn. */
+/* Moving scenes are scenes of a scenario with roads whose values are all drawn. */
 static int start_moving(struct traffic_random *traffic, const char *name, struct runner *runner)
 {
     static const double flows[] = {
@@ -33,7 +33,7 @@ static int start_moving(struct traffic_random *traffic, const char *name, struct
     struct diag *diag = runner_diag(runner);
     if (traffic->frames >= 0 || traffic->first >= 0)
         return diag_fail(diag, DIAG_USAGE,
-                         "--%s: with --seconds, --scenes A:B says which scenes to make",
+                         "--%s: is for snapshots; with --seconds, choose scenes by --scenes A:B",
                          traffic->frames >= 0 ? "frames" : "first");
     *moving = (struct scenario_scenes){
         .name = name,
@@ -59,8 +59,8 @@ static int traffic_random_start(void *state, struct runner *runner)
         return start_moving(traffic, name, runner);
     if (traffic->scenes != NULL)
         return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--scenes: for moving scenes, of --seconds; --first and --frames say "
-                         "which snapshots to make");
+                         "--scenes: is for moving scenes (--seconds); choose snapshots by --first "
+                         "and --frames");
     traffic->frames = traffic->frames >= 0 ? traffic->frames : 100;
     traffic->first = traffic->first >= 0 ? traffic->first : 0;
     struct random_traffic *snapshot = &traffic->snapshot;
@@ -158,9 +158,9 @@ const struct stage stage_traffic_random = {
         "of one frame, depends on seed, density and its number alone, so --first and --frames\n"
         "may cut a set anywhere.\n"
         "\n"
-        "With --seconds vehicles come and go on roads (scenarios/random-roads.json), as many as\n"
-        "its flows say, 0.3 times (sparse) or twice (dense) as many, and nobody collides. A scene\n"
-        "has what is within 250 m of the ego, and ends earlier where the ego leaves its road.",
+        "With --seconds vehicles come and go on roads (scenarios/random-roads.json) without\n"
+        "collisions: with its flows (medium), 0.3 times (sparse) or twice the flows (dense). A\n"
+        "scene has the objects within 250 m of the ego. It ends early if the ego leaves its road.",
     .options = STAGE_OPTIONS(struct traffic_random, traffic_random_options),
     .writes = SECTION_OBJECTS,
     .start = traffic_random_start,

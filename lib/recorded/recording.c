@@ -27,7 +27,7 @@ static const struct field recording_fields[] = {
                    "what words of the source mean: WORD=CLASS,WORD=CLASS,..."),
      .word = "MAP", .high = 1e6},
     {OPTIONAL_NAME(struct recording_options, class_default,
-                   "the class of all words that nothing knows; absent: they are refused"),
+                   "the class of all unknown words; absent: they are refused"),
      .word = "CLASS"},
     {OPTIONAL_NAME(struct recording_options, conditions,
                    "road and weather, in place of the source's own: '{\"rain_mmph\": 20}'; "

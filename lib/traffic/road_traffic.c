@@ -251,7 +251,7 @@ int road_traffic_begin(struct road_traffic *traffic, const struct roadway *roads
     return traffic->awaited == NULL
                ? 0
                : diag_fail(diag, DIAG_CONFIG,
-                           "roads: nobody comes by the ego_m of arrivals within six hours");
+                           "roads: no vehicle passes the ego_m of its arrivals within six hours");
 }
 
 /* ---- the present ---- */

@@ -118,7 +118,7 @@ static int check_names(const struct scenario *scenario, struct arena *arena, str
     bool scripted = intern_word(&names, scenario->ego, arena) < count;
     if (scripted && scenario->arriving_ego != NULL)
         return diag_fail(diag, DIAG_CONFIG,
-                         "ego: \"%s\" is an object; expected another id, as arrivals say ego_m",
+                         "ego: \"%s\" is an object; expected another id, as arrivals have ego_m",
                          scenario->ego);
     return scripted || scenario->roads.count > 0
                ? 0
@@ -138,9 +138,10 @@ static int check_road_id(const struct scenario *scenario, size_t number, struct 
     for (size_t i = 0; i < scenario->objects.count; i++)
         if (strncmp(scenario->objects.items[i].id, id, length) == 0 &&
             scenario->objects.items[i].id[length] == '.')
-            return diag_fail(diag, DIAG_CONFIG,
-                             "id: objects[%zu].id, \"%s\", is like those of this road's vehicles",
-                             i, scenario->objects.items[i].id);
+            return diag_fail(
+                diag, DIAG_CONFIG,
+                "id: objects[%zu].id, \"%s\", begins like the ids of this road's vehicles", i,
+                scenario->objects.items[i].id);
     return 0;
 }
 
@@ -154,7 +155,7 @@ static int check_roads(struct scenario *scenario, struct diag *diag)
     scenario->arriving_ego = egos > 0 ? scenario->ego : NULL;
     return egos <= 1 ? 0
                      : diag_fail(diag, DIAG_CONFIG,
-                                 "roads: %d arrivals say ego_m; expected one or none", egos);
+                                 "roads: %d arrivals have ego_m; expected one or none", egos);
 }
 
 int scenario_check(struct scenario *scenario, struct diag *diag)

@@ -442,7 +442,7 @@ static void what_cannot_be_driven_is_refused(void **state)
         {"{\"x_m\":0,\"y_m\":0},{\"x_m\":9,\"y_m\":0}",
          "{\"offset_m\":0,\"limit_mps\":9,\"arrivals\":[{\"class\":\"car\",\"flow_per_h\":0,"
          "\"ego_m\":3}]}",
-         "roads: nobody comes by "},
+         "roads: no vehicle passes "},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         char text[1024];
