@@ -128,7 +128,7 @@ registry = for n in $(1); do echo "extern const struct stage stage_$$n;"; done; 
     echo "const struct stage *const stages[] = {"; \
     for n in $(1); do echo "    &stage_$$n,"; done; echo "    NULL,"; echo "};"
 # Several make may run at a time.
-write_registry = mkdir -p $(@D); { echo '\#include "run/fused.h"'; $(call registry,$(1)); } >$@.$$$$; \
+write_registry = mkdir -p $(@D); { echo '\#include "run/stage.h"'; $(call registry,$(1)); } >$@.$$$$; \
     cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@
 $(BUILD)/registry.c: FORCE
 	@$(call write_registry,$(names))

@@ -3,7 +3,6 @@
 
 #include "frame/frame_labels.h"
 #include "frame/frame_sequence.h"
-#include "run/fused.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
 #include "text/output.h"
@@ -34,7 +33,7 @@ static void begin_ideal(struct check *own, const struct frame *frame)
                                   arena_text(arena, effects, strlen(effects))};
     own->key = arena_text(arena, key, strlen(key));
     own->ideal =
-        suite == NULL ? NULL : runner_trial(own->runner, fused_stage("ideal"), &choice, NULL);
+        suite == NULL ? NULL : runner_trial(own->runner, stage_by_name("ideal"), &choice, NULL);
 }
 
 /* Makes the echoes of the frame's objects again. False without the documents that made them. */
@@ -94,7 +93,7 @@ static int check_run(void *state, struct runner *runner)
 {
     struct check *own = state;
     own->runner = runner;
-    const struct stage *extract = fused_stage(own->extract != NULL ? own->extract : "extract");
+    const struct stage *extract = stage_by_name(own->extract != NULL ? own->extract : "extract");
     if (extract == NULL)
         return diag_fail(
             runner_diag(runner), DIAG_USAGE,

@@ -14,8 +14,8 @@ struct cost_state {
     bool brief, json;
     struct plan plan; /* what the frames of the sample call for */
     struct cost cost;
-    double bound;                      /* of the error, or in microseconds */
-    const struct ladder_chain *chosen; /* that holds it; NULL: no bound was given */
+    double bound;                     /* of the error, or in microseconds */
+    const struct tried_chain *chosen; /* that holds it; NULL: no bound was given */
 };
 
 /* Reads "10%" as 0.1 and "100us" as 100, a number with this unit. */
@@ -69,10 +69,10 @@ static int plan_sample(struct cost_state *own, struct diag *diag)
 {
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    const struct ladder_sample *sample = &own->cost.sample;
+    const struct frame_sample *sample = &own->cost.sample;
     int result = 0;
     for (size_t i = 0; result == 0 && i < sample->list.count; i++)
-        if (ladder_sample_read(&sample->list.items[i], &frame, diag) != 0 ||
+        if (chain_trials_read(&sample->list.items[i], &frame, diag) != 0 ||
             plan_try(&own->plan, &frame) != 0)
             result = diag_prefix(diag, "scene \"%s\", frame %lld: ", frame.scene,
                                  (long long)frame.frame);
@@ -85,7 +85,7 @@ static int plan_sample(struct cost_state *own, struct diag *diag)
 static int measure(struct cost_state *own, struct diag *diag)
 {
     struct cost *cost = &own->cost;
-    ladder_sample_divide(&cost->sample);
+    chain_trials_divide(&cost->sample);
     if (cost->sample.list.count == 0)
         return 0;
     if (plan_sample(own, diag) != 0 || cost_measure(cost) != 0)
@@ -122,7 +122,7 @@ static int cost_run(void *state, struct runner *runner)
     struct frame *frame;
     int more;
     while ((more = runner_frame(runner, &frame)) > 0)
-        if (ladder_sample_add(&own->cost.sample, frame, diag) != 0)
+        if (chain_trials_sample(&own->cost.sample, frame, diag) != 0)
             return -1;
     return more < 0 || measure(own, diag) != 0 ? -1 : print(own, output, runner);
 }

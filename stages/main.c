@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "run/chain.h"
-#include "run/fused.h"
+#include "run/pipeline_process.h"
 
 /* The name of the file that runs, or else the name that it was called by: a file keeps its meaning
  * behind a link of another name. NULL: neither begins with glint-. */
@@ -12,8 +12,8 @@ static const char *own_name(char *path, size_t size, const char *called)
 {
     ssize_t length = readlink("/proc/self/exe", path, size - 1);
     path[length > 0 ? length : 0] = '\0';
-    const char *name = fused_name(path);
-    return name != NULL || called == NULL ? name : fused_name(called);
+    const char *name = stage_name_in_path(path);
+    return name != NULL || called == NULL ? name : stage_name_in_path(called);
 }
 
 int main(int count, char **words)
@@ -21,8 +21,8 @@ int main(int count, char **words)
     char path[4096];
     const char *name = own_name(path, sizeof path, words[0]);
     if (name == NULL)
-        return fused_main(count, words);
-    const struct stage *stage = fused_stage(name);
+        return pipeline_process_main(count, words);
+    const struct stage *stage = stage_by_name(name);
     if (stage != NULL)
         return chain_main(stage, count, words);
     fprintf(stderr, "glint-%s: this file's name is that of no stage or tool in it\n", name);

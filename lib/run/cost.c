@@ -5,7 +5,6 @@
 #include "base/elementary.h"
 #include "base/sort.h"
 #include "effects/effect.h"
-#include "run/fused.h"
 #include "run/plan.h"
 
 enum { FRAMES = 250, FEWEST_FRAMES = 16, SIGNAL_SAMPLES = 32000000 };
@@ -40,24 +39,24 @@ static const struct record interval_record = {FIELD_TABLE(
     struct relative_error, interval_fields, "interval", "A figure with its 95 % interval.")};
 
 static const struct field chain_fields[] = {
-    {FIELD_NAME_OF(struct ladder_chain, chain, "its name in the table")},
-    {FIELD_NAME_OF(struct ladder_chain, effects, "for glint-ideal --effects")},
-    {FIELD_NAMES_OF(struct ladder_chain, programs, "those after glint-ideal")},
-    {FIELD_REAL_IN(struct ladder_chain, us_per_frame, 0, 1e300,
+    {FIELD_NAME_OF(struct tried_chain, chain, "its name in the table")},
+    {FIELD_NAME_OF(struct tried_chain, effects, "for glint-ideal --effects")},
+    {FIELD_NAMES_OF(struct tried_chain, programs, "those after glint-ideal")},
+    {FIELD_REAL_IN(struct tried_chain, us_per_frame, 0, 1e300,
                    "CPU time of a frame here, with reading and writing its line")},
-    {FIELD_REAL_IN(struct ladder_chain, targets_per_scan, 0, 1e300, "mean number in a list")},
-    {OPTIONAL_RECORD(struct ladder_chain, energy, &interval_record,
+    {FIELD_REAL_IN(struct tried_chain, targets_per_scan, 0, 1e300, "mean number in a list")},
+    {OPTIONAL_RECORD(struct tried_chain, energy, &interval_record,
                      "energy distance from the reference, absent for itself"),
-     .section = LADDER_ENERGY},
-    {OPTIONAL_RECORD(struct ladder_chain, error, &interval_record,
+     .section = CHAIN_TRIALS_ENERGY},
+    {OPTIONAL_RECORD(struct tried_chain, error, &interval_record,
                      "energy over that of ideal echoes, absent where that may be 0"),
-     .section = LADDER_ERROR},
+     .section = CHAIN_TRIALS_ERROR},
     {0},
 };
 
 static const struct record chain_record = {
-    FIELD_TABLE(struct ladder_chain, chain_fields, "cost_chain", "A chain, as it was measured."),
-    .present_offset = offsetof(struct ladder_chain, present)};
+    FIELD_TABLE(struct tried_chain, chain_fields, "cost_chain", "A chain, as it was measured."),
+    .present_offset = offsetof(struct tried_chain, present)};
 
 static const struct field cost_fields[] = {
     {FIELD_NAME_OF(struct cost, suite, "as --sensors names it")},
@@ -96,7 +95,7 @@ int cost_begin(struct cost *cost, int64_t frames)
     if (suite == NULL)
         return -1;
     int64_t samples = signal_samples(suite), most = FRAMES;
-    bool built = fused_stage(fused_name(SIGNAL)) != NULL;
+    bool built = stage_by_name(stage_name_in_path(SIGNAL)) != NULL;
     cost->no_signal = cost->reference == COST_ALL ? "it was not asked for"
                       : samples == 0              ? "the suite has no waveform"
                       : !built                    ? "it is not installed beside this program"
@@ -105,27 +104,27 @@ int cost_begin(struct cost *cost, int64_t frames)
         cost->reference = COST_ALL;
     else if (SIGNAL_SAMPLES / samples < most)
         most = SIGNAL_SAMPLES / samples > FEWEST_FRAMES ? SIGNAL_SAMPLES / samples : FEWEST_FRAMES;
-    cost->sample = (struct ladder_sample){.arena = arena, .most = frames > 0 ? frames : most};
+    cost->sample = (struct frame_sample){.arena = arena, .most = frames > 0 ? frames : most};
     return 0;
 }
 
-static const struct ladder_chain *ideal(const struct cost *cost)
+static const struct tried_chain *ideal(const struct cost *cost)
 {
     return &cost->chains.items[0];
 }
 
 /* The chain with all effects that were asked for: the third. */
-static const struct ladder_chain *whole(const struct cost *cost)
+static const struct tried_chain *whole(const struct cost *cost)
 {
     return &cost->chains.items[2];
 }
 
 /* A chain that ends with these programs; other is NULL where the first stands in for both. */
-static struct ladder_chain chain_of(const struct cost *cost, const char *name, const char *effects,
-                                    const char *program, const char *other)
+static struct tried_chain chain_of(const struct cost *cost, const char *name, const char *effects,
+                                   const char *program, const char *other)
 {
     struct arena *arena = runner_arena(cost->runner);
-    struct ladder_chain chain = {.chain = name, .effects = effects};
+    struct tried_chain chain = {.chain = name, .effects = effects};
     *list_add(&chain.programs, arena) = program;
     if (other != NULL)
         *list_add(&chain.programs, arena) = other;
@@ -133,25 +132,25 @@ static struct ladder_chain chain_of(const struct cost *cost, const char *name, c
 }
 
 /* Measures one more chain, which leaves out these effects; NULL after a message. */
-static struct ladder_chain *climb(struct cost *cost, struct ladder_chain chain, uint64_t left_out)
+static struct tried_chain *try_chain(struct cost *cost, struct tried_chain chain, uint64_t left_out)
 {
     struct arena *arena = runner_arena(cost->runner);
-    if (ladder_climb(&cost->ladder, &chain) != 0)
+    if (chain_trials_run(&cost->trials, &chain) != 0)
         return NULL;
-    struct ladder_chain *added = list_add(&cost->chains, arena);
+    struct tried_chain *added = list_add(&cost->chains, arena);
     *added = chain;
     added->left_out = left_out;
     added->energy = relative_error_of(&added->blocks, NULL, arena);
-    added->present = LADDER_ENERGY;
+    added->present = CHAIN_TRIALS_ENERGY;
     if (ideal(cost)->energy.low > 0) {
         added->error = relative_error_of(&added->blocks, &ideal(cost)->blocks, arena);
-        added->present |= LADDER_ERROR;
+        added->present |= CHAIN_TRIALS_ERROR;
     }
     return added;
 }
 
 /* The whole chain but for these effects, measured unless it already is. NULL after a message. */
-static const struct ladder_chain *climb_without(struct cost *cost, uint64_t left_out)
+static const struct tried_chain *try_without(struct cost *cost, uint64_t left_out)
 {
     for (size_t i = 0; i < cost->chains.count; i++)
         if (cost->chains.items[i].automatic && cost->chains.items[i].left_out == left_out)
@@ -161,9 +160,9 @@ static const struct ladder_chain *climb_without(struct cost *cost, uint64_t left
         left_out == 0 ? cost->whole
                       : arena_format(arena, "%s, no %s", cost->whole, plan_names(left_out, arena));
     const char *effects = plan_request(cost->allowed & ~left_out, arena);
-    struct ladder_chain chain = chain_of(cost, name, effects, SENSOR, NOISE);
+    struct tried_chain chain = chain_of(cost, name, effects, SENSOR, NOISE);
     chain.automatic = true;
-    return climb(cost, chain, left_out);
+    return try_chain(cost, chain, left_out);
 }
 
 /* The effects at home in ideal, the only ones of which ideal echoes know. */
@@ -176,24 +175,27 @@ static uint64_t of_ideal(void)
     return effects;
 }
 
-/* The chains that every ladder has, and those that leave out one effect. */
-static int climb_all(struct cost *cost)
+/* Runs the chains that every table has, and those that leave out one effect. */
+static int try_all(struct cost *cost)
 {
     struct arena *arena = runner_arena(cost->runner);
     const char *paper = plan_request(PAPER, arena), *all = plan_request(cost->allowed, arena);
-    if (climb(cost, chain_of(cost, "perfect", paper, "glint-sensor-perfect", "glint-noise-none"),
-              cost->needed & ~(PAPER & of_ideal())) == NULL ||
-        climb(cost, chain_of(cost, "paper", paper, SENSOR, NOISE), cost->needed & ~PAPER) == NULL ||
-        climb_without(cost, 0) == NULL)
+    if (try_chain(cost,
+                  chain_of(cost, "perfect", paper, "glint-sensor-perfect", "glint-noise-none"),
+                  cost->needed & ~(PAPER & of_ideal())) == NULL ||
+        try_chain(cost, chain_of(cost, "paper", paper, SENSOR, NOISE), cost->needed & ~PAPER) ==
+            NULL ||
+        try_without(cost, 0) == NULL)
         return -1;
     for (int i = 0; i < EFFECT_COUNT && !cost->brief; i++)
-        if ((cost->needed & EFFECT_BIT(i)) != 0 && climb_without(cost, EFFECT_BIT(i)) == NULL)
+        if ((cost->needed & EFFECT_BIT(i)) != 0 && try_without(cost, EFFECT_BIT(i)) == NULL)
             return -1;
-    return climb(cost, chain_of(cost, "smear", all, "glint-sensor-smear", NOISE), 0) != NULL ? 0
-                                                                                             : -1;
+    return try_chain(cost, chain_of(cost, "smear", all, "glint-sensor-smear", NOISE), 0) != NULL
+               ? 0
+               : -1;
 }
 
-/* The reference, those that every ladder has, and those that leave out one effect. */
+/* Counts the reference, the chains that every table has, and those that leave out one effect. */
 static size_t expected_chains(const struct cost *cost)
 {
     size_t count = 5;
@@ -205,24 +207,24 @@ static size_t expected_chains(const struct cost *cost)
 int cost_measure(struct cost *cost)
 {
     bool signal = cost->reference == COST_SIGNAL;
-    struct ladder_chain reference =
+    struct tried_chain reference =
         chain_of(cost, "signal", REFERENCE, signal ? SIGNAL : SENSOR, signal ? NULL : NOISE);
-    cost->ladder = (struct ladder){.runner = cost->runner,
-                                   .sample = &cost->sample,
-                                   .sensors = cost->suite,
-                                   .expected = expected_chains(cost)};
-    if (ladder_begin(&cost->ladder, &reference) != 0 || climb_all(cost) != 0)
+    cost->trials = (struct chain_trials){.runner = cost->runner,
+                                         .sample = &cost->sample,
+                                         .sensors = cost->suite,
+                                         .expected = expected_chains(cost)};
+    if (chain_trials_begin(&cost->trials, &reference) != 0 || try_all(cost) != 0)
         return -1;
     if (signal)
         *list_add(&cost->chains, runner_arena(cost->runner)) = reference;
     cost->frames = (int64_t)cost->sample.list.count;
     cost->seen_frames = cost->sample.seen;
     cost->scenes = (int64_t)cost->sample.scenes;
-    cost->blocks = (int64_t)cost->ladder.blocks;
+    cost->blocks = (int64_t)cost->trials.blocks;
     return 0;
 }
 
-struct relative_error cost_added(const struct cost *cost, const struct ladder_chain *chain)
+struct relative_error cost_added(const struct cost *cost, const struct tried_chain *chain)
 {
     return relative_error_added(&chain->blocks, &whole(cost)->blocks, &ideal(cost)->blocks,
                                 runner_arena(cost->runner));
@@ -250,7 +252,7 @@ static struct savings savings_of(const struct cost *cost)
     struct arena *arena = runner_arena(cost->runner);
     struct savings savings = {0};
     for (size_t i = 0; i < cost->chains.count; i++) {
-        const struct ladder_chain *chain = &cost->chains.items[i];
+        const struct tried_chain *chain = &cost->chains.items[i];
         double saved_us = whole(cost)->us_per_frame - chain->us_per_frame;
         if (chain->automatic && saved_us > SCATTER * whole(cost)->us_per_frame)
             *list_add(&savings.list, arena) = (struct saving){
@@ -261,22 +263,21 @@ static struct savings savings_of(const struct cost *cost)
 }
 
 /* Draws its lists from the law of the reference. */
-static bool is_reference(const struct cost *cost, const struct ladder_chain *chain)
+static bool is_reference(const struct cost *cost, const struct tried_chain *chain)
 {
     if (cost->reference == COST_SIGNAL)
-        return (chain->present & LADDER_ENERGY) == 0;
+        return (chain->present & CHAIN_TRIALS_ENERGY) == 0;
     return chain == whole(cost) && strcmp(chain->effects, REFERENCE) == 0;
 }
 
 /* What the bound is on, and what is to be least among the chains that hold it. Estimates of errors
  * may be negative, and yet no chain is more accurate than the reference. */
-static double bounded(const struct ladder_chain *chain, enum cost_bound bound)
+static double bounded(const struct tried_chain *chain, enum cost_bound bound)
 {
     return bound == COST_BOUND_US ? chain->us_per_frame : chain->error.high;
 }
 
-static double rival(const struct cost *cost, const struct ladder_chain *chain,
-                    enum cost_bound bound)
+static double rival(const struct cost *cost, const struct tried_chain *chain, enum cost_bound bound)
 {
     if (bound == COST_BOUND_ERROR)
         return chain->us_per_frame;
@@ -285,14 +286,14 @@ static double rival(const struct cost *cost, const struct ladder_chain *chain,
 
 /* Measures chains without more and more effects. For a time they stay out, until the chain is fast
  * enough; for an error each stays out only if the bound still holds. */
-static int climb_down(struct cost *cost, enum cost_bound bound, double most)
+static int try_fewer_effects(struct cost *cost, enum cost_bound bound, double most)
 {
     struct savings savings = savings_of(cost);
     uint64_t left_out = 0;
-    cost->ladder.expected += savings.list.count;
+    cost->trials.expected += savings.list.count;
     for (size_t i = 0; i < savings.list.count; i++) {
-        const struct ladder_chain *chain =
-            climb_without(cost, left_out | savings.list.items[i].effect);
+        const struct tried_chain *chain =
+            try_without(cost, left_out | savings.list.items[i].effect);
         if (chain == NULL)
             return -1;
         bool holds = bounded(chain, bound) <= most;
@@ -304,10 +305,10 @@ static int climb_down(struct cost *cost, enum cost_bound bound, double most)
     return 0;
 }
 
-const struct ladder_chain *cost_find(struct cost *cost, enum cost_bound bound, double most)
+const struct tried_chain *cost_find(struct cost *cost, enum cost_bound bound, double most)
 {
     struct diag *diag = runner_diag(cost->runner);
-    if ((ideal(cost)->present & LADDER_ERROR) == 0) {
+    if ((ideal(cost)->present & CHAIN_TRIALS_ERROR) == 0) {
         diag_fail(diag, DIAG_DATA,
                   "ideal echoes are not told from the reference in these frames (D %.3g, 95 %% "
                   "interval %.3g to %.3g), so chains have no errors",
@@ -315,11 +316,11 @@ const struct ladder_chain *cost_find(struct cost *cost, enum cost_bound bound, d
         return NULL;
     }
     if (bounded(whole(cost), bound) > most || bound == COST_BOUND_ERROR)
-        if (climb_down(cost, bound, most) != 0)
+        if (try_fewer_effects(cost, bound, most) != 0)
             return NULL;
-    const struct ladder_chain *best = NULL, *nearest = ideal(cost);
+    const struct tried_chain *best = NULL, *nearest = ideal(cost);
     for (size_t i = 0; i < cost->chains.count; i++) {
-        const struct ladder_chain *chain = &cost->chains.items[i];
+        const struct tried_chain *chain = &cost->chains.items[i];
         if (bounded(chain, bound) < bounded(nearest, bound))
             nearest = chain;
         if (bounded(chain, bound) <= most &&
@@ -351,7 +352,7 @@ static void write_sample(const struct cost *cost, const char *mark, struct text 
                 "%s%" PRId64 " of %" PRId64 " frames of %" PRId64 " scene%s in %" PRId64
                 " block%s, seen by %s, with %d seeds.\n",
                 mark, cost->frames, cost->seen_frames, cost->scenes, cost->scenes == 1 ? "" : "s",
-                cost->blocks, cost->blocks == 1 ? "" : "s", cost->suite, LADDER_SEEDS);
+                cost->blocks, cost->blocks == 1 ? "" : "s", cost->suite, CHAIN_TRIALS_SEEDS);
 }
 
 /* In per cent with one digit behind the point, and no minus before a 0. */
@@ -366,24 +367,24 @@ static void write_error(struct relative_error error, struct text *text)
                 percent(error.high));
 }
 
-static void write_chain(const struct ladder_chain *chain, int width, struct text *text)
+static void write_chain(const struct tried_chain *chain, int width, struct text *text)
 {
     text_format(text, "%-*s %11.1f", width, chain->chain, chain->us_per_frame);
-    if ((chain->present & LADDER_ERROR) != 0)
+    if ((chain->present & CHAIN_TRIALS_ERROR) != 0)
         text_format(text, " %7.1f %% %8.1f to %5.1f", percent(chain->error.value),
                     percent(chain->error.low), percent(chain->error.high));
     else
-        text_format(text, " %9s %17s", (chain->present & LADDER_ENERGY) != 0 ? "-" : "reference",
-                    "");
+        text_format(text, " %9s %17s",
+                    (chain->present & CHAIN_TRIALS_ENERGY) != 0 ? "-" : "reference", "");
     text_format(text, " %8.2f\n", chain->targets_per_scan);
 }
 
 void cost_write_table(const struct cost *cost, struct text *text)
 {
-    const struct ladder_chain *ideal = &cost->chains.items[0];
+    const struct tried_chain *ideal = &cost->chains.items[0];
     write_sample(cost, "", text);
     write_reference(cost, "", text);
-    if ((ideal->present & LADDER_ERROR) == 0)
+    if ((ideal->present & CHAIN_TRIALS_ERROR) == 0)
         text_format(text,
                     "There are none: ideal echoes are not told from the reference (D %.3g, %.3g to "
                     "%.3g).\n",
@@ -401,7 +402,7 @@ void cost_write_table(const struct cost *cost, struct text *text)
 }
 
 /* The chain that leaves out this effect alone. */
-static const struct ladder_chain *single(const struct cost *cost, uint64_t effect)
+static const struct tried_chain *single(const struct cost *cost, uint64_t effect)
 {
     for (size_t i = 0; i < cost->chains.count; i++)
         if (cost->chains.items[i].automatic && cost->chains.items[i].left_out == effect)
@@ -411,7 +412,7 @@ static const struct ladder_chain *single(const struct cost *cost, uint64_t effec
 
 static void write_left_out(const struct cost *cost, int effect, double whole_us, struct text *text)
 {
-    const struct ladder_chain *chain = single(cost, EFFECT_BIT(effect));
+    const struct tried_chain *chain = single(cost, EFFECT_BIT(effect));
     if (chain == NULL)
         return;
     text_format(text, "# %-17s off: saves %.1f us, adds ", effects_names[effect],
@@ -420,15 +421,15 @@ static void write_left_out(const struct cost *cost, int effect, double whole_us,
     text_add_word(text, "\n");
 }
 
-void cost_write_pipeline(const struct cost *cost, const struct ladder_chain *chain,
+void cost_write_pipeline(const struct cost *cost, const struct tried_chain *chain,
                          struct text *text)
 {
     write_sample(cost, "# ", text);
     write_reference(cost, "# ", text);
-    const struct ladder_chain *whole = single(cost, 0);
+    const struct tried_chain *whole = single(cost, 0);
     text_format(text, "# This takes %.1f us a frame instead of %.1f, with an error of ",
                 chain->us_per_frame, whole->us_per_frame);
-    if ((chain->present & LADDER_ERROR) != 0)
+    if ((chain->present & CHAIN_TRIALS_ERROR) != 0)
         write_error(chain->error, text);
     else
         text_add_word(text, "0 by definition");

@@ -1,12 +1,12 @@
 /* What accuracy costs on a sample of frames. glint-cost prints it.
  *
- * The ladder of chains begins with ideal echoes, the paper's effects and all that the suite
+ * The chains are ideal echoes, the paper's effects and all that the suite
  * describes; leaves out, one at a time, the effects that these frames call for; and ends with finer
  * models. Errors are from a reference: the signal where the suite has a waveform and this build has
  * glint-sensor-signal, else all that the suite describes, with other seeds. */
 #pragma once
 
-#include "run/ladder.h"
+#include "run/chain_trials.h"
 #include "text/field.h"
 
 enum cost_reference { COST_SIGNAL, COST_ALL };
@@ -17,14 +17,14 @@ struct cost {
     enum cost_reference reference;
     const char *no_signal; /* why the reference is another; NULL: it is the signal */
     int64_t frames, seen_frames, scenes, blocks;
-    LIST_OF(struct ladder_chain) chains; /* the first is that of ideal echoes */
-    const char *chosen;                  /* the name of the one that was found; NULL: none was */
-    bool brief;                          /* no chains that leave out an effect */
+    LIST_OF(struct tried_chain) chains; /* the first is that of ideal echoes */
+    const char *chosen;                 /* the name of the one that was found; NULL: none was */
+    bool brief;                         /* no chains that leave out an effect */
     const char *whole;        /* what tables call the chain with all effects that are allowed */
     uint64_t allowed, needed; /* EFFECT_BITs of what was asked for, and of what frames call for */
     struct runner *runner;
-    struct ladder_sample sample;
-    struct ladder ladder;
+    struct frame_sample sample;
+    struct chain_trials trials;
 };
 
 extern const struct record cost_record;
@@ -34,23 +34,23 @@ extern const struct record cost_record;
  * Runner, suite, reference and brief are set. Fails without the suite. */
 int cost_begin(struct cost *cost, int64_t frames);
 
-/* After the last frame: measures the ladder. allowed and needed are set. */
+/* After the last frame: measures the chains. allowed and needed are set. */
 int cost_measure(struct cost *cost);
 
 /* How much more error a chain has than the whole chain; only where ideal echoes have one. */
-struct relative_error cost_added(const struct cost *cost, const struct ladder_chain *chain);
+struct relative_error cost_added(const struct cost *cost, const struct tried_chain *chain);
 
 /* Finds the fastest chain whose error is at most this with its whole interval, or the chain of the
  * least error that takes at most this time. Effects are left out one by one, first those that save
  * the most time for the error that they add, and every chain is measured. NULL after a message: no
  * chain holds the bound (DIAG_DATA). */
 enum cost_bound { COST_BOUND_ERROR, COST_BOUND_US };
-const struct ladder_chain *cost_find(struct cost *cost, enum cost_bound bound, double most);
+const struct tried_chain *cost_find(struct cost *cost, enum cost_bound bound, double most);
 
 /* A table: a line for each chain, under lines that say what was measured. */
 void cost_write_table(const struct cost *cost, struct text *text);
 
 /* A script: as comments the chain's time and error, and for every effect that it leaves out what
  * that saves and adds; then its pipeline. */
-void cost_write_pipeline(const struct cost *cost, const struct ladder_chain *chain,
+void cost_write_pipeline(const struct cost *cost, const struct tried_chain *chain,
                          struct text *text);

@@ -5,8 +5,6 @@
 #include "base/suggestion.h"
 #include "run/stage.h"
 
-const struct record no_options_record = {.name = "stage", .fields = field_none};
-
 static const struct field common_fields[] = {
     {OPTIONAL_NAME(
          struct common_options, output,

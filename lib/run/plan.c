@@ -4,7 +4,6 @@
 
 #include "effects/effect.h"
 #include "frame/frame_text.h"
-#include "run/fused.h"
 #include "run/tool.h"
 #include "text/document.h"
 
@@ -34,7 +33,7 @@ static int64_t no_clock(void)
 static struct runner *trial(const char *program, const struct suite_choice *choice,
                             struct effect_log *log, struct runner *runner)
 {
-    return runner_trial(runner, fused_stage(fused_name(program)), choice, log);
+    return runner_trial(runner, stage_by_name(stage_name_in_path(program)), choice, log);
 }
 
 int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runner *runner)

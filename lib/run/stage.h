@@ -75,12 +75,19 @@ static inline bool stage_takes_files(const struct stage *stage)
     return stage->next == NULL && (stage->run == NULL || stage->reads != 0);
 }
 
+/* Every stage and tool of the build, NULL at the end: the Makefile makes it from the listing of
+ * stages/. */
+extern const struct stage *const stages[];
+
+/* The stage or tool of that name; NULL if this build has none. */
+const struct stage *stage_by_name(const char *name);
+
+/* "plan" for "/usr/bin/glint-plan"; NULL for a path that does not end in glint-NAME. */
+const char *stage_name_in_path(const char *path);
+
 /* The options of a stage: the members of its state that this table of fields lists. */
 #define STAGE_OPTIONS(state, table)                                                                \
     (&(const struct record){.name = "options", .size = sizeof(state), .fields = (table)})
-
-/* For stages without options and without state (options.c). */
-extern const struct record no_options_record;
 
 /* What the runner does for stages (runner.c). Those that return a pointer return NULL after a
  * message, unless they say otherwise. */

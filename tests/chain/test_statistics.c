@@ -806,7 +806,7 @@ int main(void)
         cmocka_unit_test(errors_of_other_sensors_and_leaders_are_independent),
         cmocka_unit_test(errors_of_other_frames_are_independent),
     };
-    const struct CMUnitTest stages[] = {
+    const struct CMUnitTest of_stages[] = {
         cmocka_unit_test(the_list_is_ordered_by_strength_or_range_and_ties_by_the_leader),
         cmocka_unit_test(what_is_beyond_the_list_limit_is_lost),
         cmocka_unit_test(the_final_threshold_takes_what_cancels),
@@ -821,5 +821,5 @@ int main(void)
     };
     return cmocka_run_group_tests(model, draw_noise, free_sample) +
            cmocka_run_group_tests(textbook, draw_noise_gauss, free_sample) +
-           cmocka_run_group_tests(stages, make_scratch, free_scratch);
+           cmocka_run_group_tests(of_stages, make_scratch, free_scratch);
 }

@@ -9,7 +9,7 @@
 
 #include "frame/frame_text.h"
 #include "run/frame_stream.h"
-#include "run/fused.h"
+#include "run/stage.h"
 
 void fuzz_must(bool holds, const char *what)
 {

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "frame/frame_text.h"
-#include "run/fused.h"
 #include "run/runner.h"
+#include "run/stage.h"
 
 enum { CHAIN_STAGES = 5 };
 

@@ -17,8 +17,8 @@
 #include "documents/vehicle.h"
 #include "frame/frame_order.h"
 #include "ideal/direct_echoes.h"
-#include "run/fused.h"
 #include "run/runner.h"
+#include "run/stage.h"
 #include "soundness/adversarial_traffic.h"
 
 enum { SENSORS = 2, SCENES = 6250 };

@@ -16,10 +16,10 @@
 #include "effects/effect.h"
 #include "frame/frame_text.h"
 #include "planted.h"
-#include "run/fused.h"
 #include "run/options.h"
 #include "run/progress.h"
 #include "run/runner.h"
+#include "run/stage.h"
 #include "traffic/random_traffic.h"
 
 enum { STEPS = 3, SHOWN = 5 };

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "check.h"
-#include "run/fused.h"
-#include "run/ladder.h"
+#include "run/chain_trials.h"
 #include "run/runner.h"
+#include "run/stage.h"
 
 /* A stage that is prepared with the words of its command line, NULL after the last, and started. */
 static inline void begin_stage(struct runner *runner, const char *name, const char *const *words)
@@ -15,7 +15,7 @@ static inline void begin_stage(struct runner *runner, const char *name, const ch
     size_t count = 0;
     while (words[count] != NULL)
         count++;
-    if (runner_prepare(runner, fused_stage(name), count, words) != 0 || runner_start(runner) != 0)
+    if (runner_prepare(runner, stage_by_name(name), count, words) != 0 || runner_start(runner) != 0)
         fail_msg("%s: %s", name, runner->diag.text);
 }
 
@@ -23,17 +23,17 @@ static inline void begin_stage(struct runner *runner, const char *name, const ch
 #define NO_WORDS ((const char *[]){NULL})
 
 /* So many snapshots of dense traffic. The sample's arena is the caller's. */
-static inline struct ladder_sample sample_of_traffic(const char *frames, struct arena *arena)
+static inline struct frame_sample sample_of_traffic(const char *frames, struct arena *arena)
 {
-    struct ladder_sample sample = {.arena = arena, .most = 1000};
+    struct frame_sample sample = {.arena = arena, .most = 1000};
     struct arena scratch = {0};
     struct frame frame = {.arena = &scratch};
     struct runner source;
     struct diag diag = {0};
     begin_stage(&source, "traffic-random", WORDS("--density", "dense", "--frames", frames));
     while (runner_next(&source, &frame) == 1)
-        assert_int_equal(ladder_sample_add(&sample, &frame, &diag), 0);
-    ladder_sample_divide(&sample);
+        assert_int_equal(chain_trials_sample(&sample, &frame, &diag), 0);
+    chain_trials_divide(&sample);
     runner_free(&source);
     arena_free(&scratch);
     return sample;

@@ -193,9 +193,9 @@ static int run_explained(const void *with)
 {
     const struct explained *paths = with;
     struct runner runners[2];
-    runner_prepare(&runners[0], fused_stage("sensor"), 3,
+    runner_prepare(&runners[0], stage_by_name("sensor"), 3,
                    WORDS("--explain", paths->told, paths->file));
-    runner_prepare(&runners[1], fused_stage("noise"), 2, WORDS("-o", paths->output));
+    runner_prepare(&runners[1], stage_by_name("noise"), 2, WORDS("-o", paths->output));
     return chain_run(runners, 2, NULL);
 }
 

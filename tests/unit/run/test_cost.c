@@ -16,7 +16,7 @@ static void begin(struct bench *bench, const char *suite, enum cost_reference re
     *bench = (struct bench){.cost = {.suite = suite, .reference = reference, .whole = "auto"}};
     bench->cost.runner = &bench->runner;
     assert_int_equal(
-        runner_prepare(&bench->runner, fused_stage("plan"), 2, WORDS("--sensors", suite)), 0);
+        runner_prepare(&bench->runner, stage_by_name("plan"), 2, WORDS("--sensors", suite)), 0);
 }
 
 static void end(struct bench *bench)
@@ -25,7 +25,7 @@ static void end(struct bench *bench)
     arena_free(&bench->arena);
 }
 
-/* The ladder of 12 frames, which call for these effects. */
+/* The chains on 12 frames, which call for these effects. */
 static void measure(struct bench *bench, uint64_t needed)
 {
     begin(bench, "srr24-pair-every-frame", COST_ALL);
@@ -52,7 +52,7 @@ static void the_reference_is_the_signal_where_there_is_one(void **state)
         struct bench bench;
         begin(&bench, cases[i].suite, cases[i].asked);
         assert_int_equal(cost_begin(&bench.cost, 0), 0);
-        bool built = fused_stage("sensor-signal") != NULL;
+        bool built = stage_by_name("sensor-signal") != NULL;
         if (cases[i].no_signal != NULL)
             assert_string_equal(bench.cost.no_signal, cases[i].no_signal);
         else if (built)
@@ -84,7 +84,7 @@ static void a_sample_has_250_frames_or_fewer_where_the_signal_is_long(void **sta
     end(&bench);
 }
 
-static void a_ladder_leaves_out_each_effect_that_the_frames_call_for(void **state)
+static void chains_leave_out_each_effect_that_the_frames_call_for(void **state)
 {
     (void)state;
     static const char *const names[] = {
@@ -94,9 +94,9 @@ static void a_ladder_leaves_out_each_effect_that_the_frames_call_for(void **stat
     const struct cost *cost = &bench.cost;
     assert_int_equal(cost->chains.count, 6);
     for (size_t i = 0; i < 6; i++) {
-        const struct ladder_chain *chain = &cost->chains.items[i];
+        const struct tried_chain *chain = &cost->chains.items[i];
         assert_string_equal(chain->chain, names[i]);
-        assert_int_equal(chain->present, LADDER_ENERGY | LADDER_ERROR);
+        assert_int_equal(chain->present, CHAIN_TRIALS_ENERGY | CHAIN_TRIALS_ERROR);
         assert_int_equal(chain->automatic, strncmp(names[i], "auto", 4) == 0);
     }
     assert_close(cost->chains.items[0].error.value, 1, 1e-12);
@@ -140,7 +140,7 @@ static void the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found(vo
     set_chain(&bench.cost, 2, 40, 0.01);
     set_chain(&bench.cost, 3, 90, 0.02);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const struct ladder_chain *found = cost_find(&bench.cost, cases[i].bound, cases[i].most);
+        const struct tried_chain *found = cost_find(&bench.cost, cases[i].bound, cases[i].most);
         assert_non_null(found);
         assert_string_equal(found->chain, cases[i].found);
         assert_ptr_equal(bench.cost.chosen, found->chain);
@@ -158,14 +158,14 @@ static void without_an_error_of_ideal_echoes_nothing_is_found(void **state)
     (void)state;
     struct bench bench;
     measure(&bench, 0);
-    bench.cost.chains.items[0].present = LADDER_ENERGY;
+    bench.cost.chains.items[0].present = CHAIN_TRIALS_ENERGY;
     assert_null(cost_find(&bench.cost, COST_BOUND_ERROR, 1));
     assert_int_equal(bench.runner.diag.code, DIAG_DATA);
     assert_memory_equal(bench.runner.diag.text, "ideal echoes are not told from the reference", 44);
     end(&bench);
 }
 
-enum { SEEDS = LADDER_SEEDS, ALL = 2 * SEEDS, MATRIX = ALL * ALL };
+enum { SEEDS = CHAIN_TRIALS_SEEDS, ALL = 2 * SEEDS, MATRIX = ALL * ALL };
 
 /* Distances of one block between lists of which those of one law lie 1 apart, and those of two laws
  * `apart`: D is 2 (apart - 1), without scatter. */
@@ -183,8 +183,8 @@ static void add_chain(struct cost *cost, const char *name, const char *effects, 
                       double apart, struct arena *arena)
 {
     double error = apart - 1; /* ideal echoes lie 2 apart */
-    struct ladder_chain *chain = list_add(&cost->chains, arena);
-    *chain = (struct ladder_chain){
+    struct tried_chain *chain = list_add(&cost->chains, arena);
+    *chain = (struct tried_chain){
         .chain = name,
         .effects = effects,
         .us_per_frame = us,
@@ -192,7 +192,7 @@ static void add_chain(struct cost *cost, const char *name, const char *effects, 
         .blocks = blocks_of(apart, arena),
         .energy = {2 * error, error, 3 * error},
         .error = {error, 0.5 * error, 2 * error},
-        .present = LADDER_ENERGY | LADDER_ERROR,
+        .present = CHAIN_TRIALS_ENERGY | CHAIN_TRIALS_ERROR,
         .automatic = strncmp(name, "auto", 4) == 0,
     };
     *list_add(&chain->programs, arena) = "glint-sensor";
@@ -260,7 +260,7 @@ static void a_table_without_errors_says_why(void **state)
     struct text text = {0};
     struct cost cost = sample_cost(&runner, &arena);
     for (size_t i = 0; i < 4; i++)
-        cost.chains.items[i].present = LADDER_ENERGY;
+        cost.chains.items[i].present = CHAIN_TRIALS_ENERGY;
     cost_write_table(&cost, &text);
     text_add(&text, "", 1);
     assert_non_null(strstr(text.bytes, "There are none: ideal echoes are not told from the "
@@ -321,7 +321,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_reference_is_the_signal_where_there_is_one),
         cmocka_unit_test(a_sample_has_250_frames_or_fewer_where_the_signal_is_long),
-        cmocka_unit_test(a_ladder_leaves_out_each_effect_that_the_frames_call_for),
+        cmocka_unit_test(chains_leave_out_each_effect_that_the_frames_call_for),
         cmocka_unit_test(the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found),
         cmocka_unit_test(without_an_error_of_ideal_echoes_nothing_is_found),
         cmocka_unit_test(a_table_has_a_row_for_each_chain_and_says_what_is_missing),

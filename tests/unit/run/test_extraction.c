@@ -128,7 +128,7 @@ static void a_folder_that_is_not_there_is_refused_at_the_start(void **state)
 {
     (void)state;
     struct runner runner;
-    assert_int_equal(runner_prepare(&runner, fused_stage("extract"), 2,
+    assert_int_equal(runner_prepare(&runner, stage_by_name("extract"), 2,
                                     (const char *[]){"--vehicles", "nowhere"}),
                      0);
     assert_int_equal(extraction_start(runner.state, &runner), -1);

@@ -296,41 +296,6 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
     text_free(&text);
 }
 
-static int next(void *state, struct frame *frame, struct runner *runner)
-{
-    (void)state;
-    (void)frame;
-    (void)runner;
-    return 0;
-}
-
-static void a_stage_is_a_source_a_filter_or_a_sink(void **state)
-{
-    (void)state;
-    static const struct {
-        struct stage stage;
-        enum stage_kind kind;
-        bool takes_files;
-    } cases[] = {
-        {{.name = "source", .next = next, .writes = 1}, STAGE_SOURCE, false},
-        {{.name = "filter", .step = next, .reads = 2, .writes = 4}, STAGE_FILTER, true},
-        {{.name = "sink", .step = next, .reads = 2, .sink = true}, STAGE_SINK, true},
-    };
-    for (size_t i = 0; i < 3; i++) {
-        assert_int_equal(stage_kind(&cases[i].stage), cases[i].kind);
-        assert_int_equal(stage_takes_files(&cases[i].stage), cases[i].takes_files);
-    }
-}
-
-static void a_tool_takes_files_of_frames_only_if_it_reads_any(void **state)
-{
-    (void)state;
-    assert_int_equal(stage_kind(&reader), STAGE_TOOL);
-    assert_int_equal(stage_kind(&maker), STAGE_TOOL);
-    assert_true(stage_takes_files(&reader));
-    assert_false(stage_takes_files(&maker));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -342,8 +307,6 @@ int main(void)
         cmocka_unit_test(a_tools_operand_comes_before_the_files_that_it_reads),
         cmocka_unit_test(a_tool_refuses_options_that_would_do_nothing),
         cmocka_unit_test(help_names_every_option_with_unit_bounds_and_choices),
-        cmocka_unit_test(a_stage_is_a_source_a_filter_or_a_sink),
-        cmocka_unit_test(a_tool_takes_files_of_frames_only_if_it_reads_any),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

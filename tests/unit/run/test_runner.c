@@ -171,7 +171,8 @@ static void a_change_that_is_not_declared_is_found(void **state)
     (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    struct stage stage = {.name = "meddle", .options = &no_options_record, .step = meddle};
+    struct stage stage = {
+        .name = "meddle", .options = STAGE_OPTIONS(int, field_none), .step = meddle};
     struct runner runner;
     begin_frame(&frame);
     begin(&runner, &stage, 0, NULL);
@@ -188,7 +189,7 @@ static void a_stage_that_writes_an_invalid_frame_fails_itself(void **state)
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     const struct stage stage = {.name = "invalid",
-                                .options = &no_options_record,
+                                .options = STAGE_OPTIONS(int, field_none),
                                 .reads = SECTION_OBJECTS,
                                 .writes = SECTION_OBJECTS,
                                 .step = write_negative_length};
@@ -309,7 +310,7 @@ static void a_file_that_cannot_be_written_is_refused(void **state)
     (void)state;
     struct runner runner;
     assert_int_equal(
-        runner_prepare(&runner, fused_stage("noise"), 2, WORDS("--explain", "/nonexistent/told")),
+        runner_prepare(&runner, stage_by_name("noise"), 2, WORDS("--explain", "/nonexistent/told")),
         0);
     assert_int_equal(runner_start(&runner), -1);
     assert_int_equal(runner.diag.code, DIAG_CANNOT_CREATE);

@@ -7,7 +7,7 @@
 #include "documents/vehicle.h"
 #include "frame/frame.h"
 #include "run/chain.h"
-#include "run/fused.h"
+#include "run/stage.h"
 #include "traffic/scenario.h"
 
 /* The files that glint-schema writes; a folder with another one cannot be removed. */
@@ -179,7 +179,7 @@ static int write_schemas(void **state)
     make_scratch(state);
     const struct scratch *scratch = *state;
     char *words[] = {(char[]){"glint-schema"}, (char *)scratch->directory, NULL};
-    return chain_main(fused_stage("schema"), 2, words);
+    return chain_main(stage_by_name("schema"), 2, words);
 }
 
 static int remove_schemas(void **state)

@@ -2,25 +2,25 @@
 
 #include <stdio.h>
 
-#include "run/ladder.h"
+#include "run/chain_trials.h"
 #include "score/energy_distance.h"
 
-enum { SEEDS = LADDER_SEEDS, ALL = 2 * SEEDS, MATRIX = ALL * ALL };
+enum { SEEDS = CHAIN_TRIALS_SEEDS, ALL = 2 * SEEDS, MATRIX = ALL * ALL };
 
 struct bench {
     struct runner runner; /* of a tool */
     struct arena arena;
-    struct ladder_sample sample;
-    struct ladder ladder;
+    struct frame_sample sample;
+    struct chain_trials trials;
 };
 
 static void begin(struct bench *bench, const char *suite)
 {
     *bench = (struct bench){0};
     assert_int_equal(
-        runner_prepare(&bench->runner, fused_stage("plan"), 2, WORDS("--sensors", suite)), 0);
+        runner_prepare(&bench->runner, stage_by_name("plan"), 2, WORDS("--sensors", suite)), 0);
     bench->sample = sample_of_traffic("12", &bench->arena);
-    bench->ladder = (struct ladder){
+    bench->trials = (struct chain_trials){
         .runner = &bench->runner, .sample = &bench->sample, .sensors = suite, .expected = 2};
 }
 
@@ -30,22 +30,22 @@ static void end(struct bench *bench)
     arena_free(&bench->arena);
 }
 
-static struct ladder_chain chain_of(struct bench *bench, const char *effects, const char *sensor,
-                                    const char *noise)
+static struct tried_chain chain_of(struct bench *bench, const char *effects, const char *sensor,
+                                   const char *noise)
 {
-    struct ladder_chain chain = {.chain = effects, .effects = effects};
+    struct tried_chain chain = {.chain = effects, .effects = effects};
     *list_add(&chain.programs, &bench->arena) = sensor;
     *list_add(&chain.programs, &bench->arena) = noise;
     return chain;
 }
 
-static struct ladder_chain usual(struct bench *bench)
+static struct tried_chain usual(struct bench *bench)
 {
     return chain_of(bench, "auto", "glint-sensor", "glint-noise");
 }
 
 /* D of the chain from the reference. */
-static double energy(const struct ladder_chain *chain)
+static double energy(const struct tried_chain *chain)
 {
     double sum[MATRIX] = {0};
     for (size_t block = 0; block < chain->blocks.blocks; block++)
@@ -59,18 +59,18 @@ static void every_scan_counts_in_its_scene_and_the_weights_sum_to_1(void **state
     (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
-    struct ladder_chain reference = usual(&bench);
-    assert_int_equal(ladder_begin(&bench.ladder, &reference), 0);
-    assert_int_equal(bench.ladder.scans.count, 24); /* of two sensors */
-    assert_int_equal(bench.ladder.blocks, 12);
+    struct tried_chain reference = usual(&bench);
+    assert_int_equal(chain_trials_begin(&bench.trials, &reference), 0);
+    assert_int_equal(bench.trials.scans.count, 24); /* of two sensors */
+    assert_int_equal(bench.trials.blocks, 12);
     double sum = 0, targets = 0;
     for (size_t i = 0; i < 12; i++)
-        sum += bench.ladder.block_weight[i];
+        sum += bench.trials.block_weight[i];
     assert_close(sum, 1, 1e-12);
     for (size_t i = 0; i < 24; i++) {
-        assert_close(bench.ladder.scans.items[i].share, 0.5, 0);
+        assert_close(bench.trials.scans.items[i].share, 0.5, 0);
         for (size_t seed = 0; seed < SEEDS; seed++)
-            targets += (double)bench.ladder.reference[seed].scans.items[i].targets.count;
+            targets += (double)bench.trials.reference[seed].scans.items[i].targets.count;
     }
     assert_true(targets > 0);
     assert_close(reference.targets_per_scan, targets / (24 * SEEDS), 1e-12);
@@ -83,10 +83,10 @@ static void distances_are_symmetric_and_the_same_in_every_run(void **state)
     (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
-    struct ladder_chain reference = usual(&bench), one = usual(&bench), other = usual(&bench);
-    assert_int_equal(ladder_begin(&bench.ladder, &reference), 0);
-    assert_int_equal(ladder_climb(&bench.ladder, &one), 0);
-    assert_int_equal(ladder_climb(&bench.ladder, &other), 0);
+    struct tried_chain reference = usual(&bench), one = usual(&bench), other = usual(&bench);
+    assert_int_equal(chain_trials_begin(&bench.trials, &reference), 0);
+    assert_int_equal(chain_trials_run(&bench.trials, &one), 0);
+    assert_int_equal(chain_trials_run(&bench.trials, &other), 0);
     assert_int_equal(one.blocks.blocks, 12);
     assert_memory_equal(one.blocks.distance, other.blocks.distance, 12 * MATRIX * sizeof(double));
     for (size_t block = 0; block < 12; block++)
@@ -105,12 +105,11 @@ static void other_seeds_make_other_lists_of_the_same_law(void **state)
     (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
-    struct ladder_chain reference = usual(&bench), same = usual(&bench);
-    struct ladder_chain ideal =
-        chain_of(&bench, "none", "glint-sensor-perfect", "glint-noise-none");
-    assert_int_equal(ladder_begin(&bench.ladder, &reference), 0);
-    assert_int_equal(ladder_climb(&bench.ladder, &same), 0);
-    assert_int_equal(ladder_climb(&bench.ladder, &ideal), 0);
+    struct tried_chain reference = usual(&bench), same = usual(&bench);
+    struct tried_chain ideal = chain_of(&bench, "none", "glint-sensor-perfect", "glint-noise-none");
+    assert_int_equal(chain_trials_begin(&bench.trials, &reference), 0);
+    assert_int_equal(chain_trials_run(&bench.trials, &same), 0);
+    assert_int_equal(chain_trials_run(&bench.trials, &ideal), 0);
     for (size_t i = 0; i < SEEDS; i++)
         for (size_t j = 0; j < SEEDS; j++) {
             double between = 0, within = 0;
@@ -132,8 +131,8 @@ static void frames_without_a_scan_are_refused(void **state)
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
     bench.sample.list.count = 0;
-    struct ladder_chain reference = usual(&bench);
-    assert_int_equal(ladder_begin(&bench.ladder, &reference), -1);
+    struct tried_chain reference = usual(&bench);
+    assert_int_equal(chain_trials_begin(&bench.trials, &reference), -1);
     assert_int_equal(bench.runner.diag.code, DIAG_DATA);
     assert_string_equal(bench.runner.diag.text, "no sensor of the suite measures in these frames");
     end(&bench);
@@ -144,17 +143,17 @@ static void a_stage_that_fails_names_itself_and_the_frame(void **state)
     (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
-    struct ladder_chain reference = chain_of(&bench, "rian", "glint-sensor", "glint-noise");
-    assert_int_equal(ladder_begin(&bench.ladder, &reference), -1);
+    struct tried_chain reference = chain_of(&bench, "rian", "glint-sensor", "glint-noise");
+    assert_int_equal(chain_trials_begin(&bench.trials, &reference), -1);
     assert_non_null(strstr(bench.runner.diag.text, "glint-ideal: --effects: "));
     assert_memory_equal(bench.runner.diag.text, "scene \"random-dense/", 20);
     end(&bench);
 }
 
 /* A sample of so many frames; scenes follow each other. */
-static struct ladder_sample sample_of(int frames, int scenes, int64_t most, struct arena *arena)
+static struct frame_sample sample_of(int frames, int scenes, int64_t most, struct arena *arena)
 {
-    struct ladder_sample sample = {.arena = arena, .most = most};
+    struct frame_sample sample = {.arena = arena, .most = most};
     struct arena scratch = {0};
     for (int i = 0; i < frames; i++) {
         char name[16];
@@ -163,10 +162,10 @@ static struct ladder_sample sample_of(int frames, int scenes, int64_t most, stru
         struct diag diag = {0};
         frame.arena = &scratch;
         frame.present = SECTION_OBJECTS;
-        assert_int_equal(ladder_sample_add(&sample, &frame, &diag), 0);
+        assert_int_equal(chain_trials_sample(&sample, &frame, &diag), 0);
     }
     arena_free(&scratch);
-    ladder_sample_divide(&sample);
+    chain_trials_divide(&sample);
     return sample;
 }
 
@@ -174,7 +173,7 @@ static void all_frames_are_kept_while_they_are_few(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct ladder_sample sample = sample_of(100, 1, 100, &arena);
+    struct frame_sample sample = sample_of(100, 1, 100, &arena);
     assert_int_equal(sample.list.count, 100);
     for (size_t i = 0; i < 100; i++)
         assert_int_equal(sample.list.items[i].place, i);
@@ -185,7 +184,7 @@ static void of_many_frames_one_of_each_stretch_is_kept(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct ladder_sample sample = sample_of(6400, 1, 100, &arena);
+    struct frame_sample sample = sample_of(6400, 1, 100, &arena);
     assert_int_equal(sample.seen, 6400);
     assert_int_equal(sample.stride, 64);
     assert_int_equal(sample.list.count, 100);
@@ -199,7 +198,7 @@ static void a_sample_is_in_step_with_no_cycle(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct ladder_sample sample = sample_of(6400, 1, 100, &arena);
+    struct frame_sample sample = sample_of(6400, 1, 100, &arena);
     for (int cycle = 2; cycle <= 8; cycle++)
         for (int phase = 0; phase < cycle; phase++) {
             int met = 0;
@@ -214,7 +213,7 @@ static void many_scenes_are_blocks(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct ladder_sample sample = sample_of(60, 12, 100, &arena);
+    struct frame_sample sample = sample_of(60, 12, 100, &arena);
     assert_int_equal(sample.blocks, 12);
     for (size_t i = 0; i < 60; i++)
         assert_int_equal(sample.list.items[i].block, i / 5);
@@ -225,9 +224,9 @@ static void few_scenes_are_cut_into_stretches(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct ladder_sample one = sample_of(50, 1, 100, &arena);
-    struct ladder_sample three = sample_of(60, 3, 100, &arena);
-    struct ladder_sample short_one = sample_of(4, 1, 100, &arena);
+    struct frame_sample one = sample_of(50, 1, 100, &arena);
+    struct frame_sample three = sample_of(60, 3, 100, &arena);
+    struct frame_sample short_one = sample_of(4, 1, 100, &arena);
     assert_int_equal(one.blocks, 10);
     assert_int_equal(three.blocks, 12);
     assert_int_equal(short_one.blocks, 4);

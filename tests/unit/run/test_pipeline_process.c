@@ -5,7 +5,8 @@
 
 #include "captured.h"
 #include "effects/effect.h"
-#include "run/fused.h"
+#include "run/pipeline_process.h"
+#include "run/stage.h"
 
 /* Runs glint with these words, up to NULL. */
 static int run_glint(const void *with)
@@ -15,7 +16,7 @@ static int run_glint(const void *with)
     int count = 1;
     for (; words[count - 1] != NULL; count++)
         copies[count] = strdup(words[count - 1]);
-    return fused_main(count, copies);
+    return pipeline_process_main(count, copies);
 }
 
 static struct captured *glint(const char *option, const char *value)
@@ -31,27 +32,6 @@ static void expect_refused(const char *pipeline, int code, const char *message)
     assert_int_equal(captured->code, code);
     assert_string_equal(captured->err, message);
     assert_string_equal(captured->out, "");
-}
-
-static void a_program_has_the_name_behind_glint(void **state)
-{
-    (void)state;
-    assert_string_equal(fused_name("glint-plan"), "plan");
-    assert_string_equal(fused_name("/usr/bin/glint-sensor-signal"), "sensor-signal");
-    assert_null(fused_name("glint"));
-    assert_null(fused_name("/glint-plan/other"));
-}
-
-static void every_stage_and_every_tool_is_found_by_its_name_alone(void **state)
-{
-    (void)state;
-    for (size_t i = 0; stages[i] != NULL; i++) {
-        assert_ptr_equal(fused_stage(stages[i]->name), stages[i]);
-        for (size_t j = 0; j < i; j++)
-            assert_string_not_equal(stages[i]->name, stages[j]->name);
-    }
-    assert_null(fused_stage("sens"));
-    assert_null(fused_stage(""));
 }
 
 static void a_pipeline_runs_in_one_process(void **state)
@@ -248,8 +228,6 @@ static void an_unknown_kind_is_refused_with_what_was_meant(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_program_has_the_name_behind_glint),
-        cmocka_unit_test(every_stage_and_every_tool_is_found_by_its_name_alone),
         cmocka_unit_test(a_pipeline_runs_in_one_process),
         cmocka_unit_test(programs_out_of_place_are_refused),
         cmocka_unit_test(the_exit_code_is_that_of_the_rightmost_program_that_fails),

@@ -1,4 +1,4 @@
-#include "run/fused.h"
+#include "run/pipeline_process.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -71,20 +71,6 @@ static int complain(const struct diag *diag)
     return (int)diag->code;
 }
 
-const char *fused_name(const char *path)
-{
-    const char *name = path_name(path);
-    return strncmp(name, "glint-", 6) == 0 ? name + 6 : NULL;
-}
-
-const struct stage *fused_stage(const char *name)
-{
-    for (size_t i = 0; stages[i] != NULL; i++)
-        if (strcmp(stages[i]->name, name) == 0)
-            return stages[i];
-    return NULL;
-}
-
 /* A program that is named by a path may be another one of the same name. */
 static bool is_own(const char *program, struct arena *arena)
 {
@@ -99,10 +85,10 @@ static bool is_own(const char *program, struct arena *arena)
  * all the same: it fails when the chain starts, as it would in a pipe. */
 static bool prepare(struct runner *runner, const struct command *command, struct arena *arena)
 {
-    const char *program = command->words.items[0], *name = fused_name(program);
+    const char *program = command->words.items[0], *name = stage_name_in_path(program);
     if (name == NULL || !is_own(program, arena))
         return false;
-    const struct stage *stage = fused_stage(name);
+    const struct stage *stage = stage_by_name(name);
     if (stage != NULL)
         runner_prepare(runner, stage, command->words.count - 1, command->words.items + 1);
     return stage != NULL;
@@ -134,7 +120,7 @@ static int check_place(const struct runner *runner, const struct command *comman
 
 static int unknown_program(const struct command *command, struct diag *diag)
 {
-    const char *program = command->words.items[0], *name = fused_name(program);
+    const char *program = command->words.items[0], *name = stage_name_in_path(program);
     struct suggestion meant =
         suggestion_begin(name != NULL ? name : program, strlen(name != NULL ? name : program));
     for (size_t i = 0; stages[i] != NULL; i++)
@@ -449,7 +435,7 @@ static int run(int count, char **words, struct arena *arena)
     return refuse_options(first);
 }
 
-int fused_main(int count, char **words)
+int pipeline_process_main(int count, char **words)
 {
     document_guard_memory();
     input_guard_descriptors();

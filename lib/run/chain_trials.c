@@ -1,4 +1,4 @@
-#include "run/ladder.h"
+#include "run/chain_trials.h"
 
 #include <inttypes.h>
 
@@ -7,14 +7,13 @@
 #include "frame/frame_text.h"
 #include "run/chain.h"
 #include "run/frame_stream.h"
-#include "run/fused.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
 #include "score/ensemble.h"
 #include "score/target_score.h"
 #include "text/list_cache.h"
 
-enum { SEEDS = LADDER_SEEDS, ALL = 2 * SEEDS, FEWEST_BLOCKS = 10 };
+enum { SEEDS = CHAIN_TRIALS_SEEDS, ALL = 2 * SEEDS, FEWEST_BLOCKS = 10 };
 
 /* Which of two: drawn for a stretch of this length, at this place among those of its length. */
 static int64_t drawn_half(int64_t stretch, int64_t length)
@@ -35,7 +34,7 @@ static bool is_kept(int64_t place, int64_t stride)
     return true;
 }
 
-static void lengthen_stretches(struct ladder_sample *sample)
+static void lengthen_stretches(struct frame_sample *sample)
 {
     sample->stride *= 2;
     size_t kept = 0;
@@ -46,7 +45,7 @@ static void lengthen_stretches(struct ladder_sample *sample)
 }
 
 /* Frames of one name and different seeds are of different scenes. */
-static size_t scene_of(struct ladder_sample *sample, const struct frame *frame)
+static size_t scene_of(struct frame_sample *sample, const struct frame *frame)
 {
     struct text key = {0};
     text_format(&key, "%" PRIu64 " %s", frame->seed, frame->scene);
@@ -55,7 +54,7 @@ static size_t scene_of(struct ladder_sample *sample, const struct frame *frame)
     return number;
 }
 
-int ladder_sample_add(struct ladder_sample *sample, const struct frame *frame, struct diag *diag)
+int chain_trials_sample(struct frame_sample *sample, const struct frame *frame, struct diag *diag)
 {
     if (sample->seen == 0)
         sample->stride = 1;
@@ -68,7 +67,7 @@ int ladder_sample_add(struct ladder_sample *sample, const struct frame *frame, s
     bare.sections = CARRY_BY_DEFAULT;
     int result = frame_text_write(&bare, &line, diag);
     if (result == 0)
-        *list_add(&sample->list, sample->arena) = (struct ladder_frame){
+        *list_add(&sample->list, sample->arena) = (struct sampled_frame){
             .line = arena_text(sample->arena, line.bytes, line.length - 1),
             .length = line.length - 1,
             .seed = frame->seed,
@@ -81,12 +80,12 @@ int ladder_sample_add(struct ladder_sample *sample, const struct frame *frame, s
     return result;
 }
 
-int ladder_sample_read(const struct ladder_frame *sampled, struct frame *frame, struct diag *diag)
+int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag)
 {
     return frame_stream_parse(sampled->line, sampled->length, frame, diag);
 }
 
-void ladder_sample_divide(struct ladder_sample *sample)
+void chain_trials_divide(struct frame_sample *sample)
 {
     size_t count = sample->list.count, scenes = sample->names.list.count;
     size_t *frames = arena_get(sample->arena, (scenes + 1) * sizeof *frames);
@@ -99,7 +98,7 @@ void ladder_sample_divide(struct ladder_sample *sample)
     for (size_t i = 0; i < scenes; i++)
         first[i + 1] = first[i] + (frames[i] + length - 1) / length;
     for (size_t i = 0; i < count; i++) {
-        struct ladder_frame *frame = &sample->list.items[i];
+        struct sampled_frame *frame = &sample->list.items[i];
         size_t blocks = first[frame->scene + 1] - first[frame->scene];
         frame->block = first[frame->scene] + passed[frame->scene]++ * blocks / frames[frame->scene];
     }
@@ -108,7 +107,7 @@ void ladder_sample_divide(struct ladder_sample *sample)
 
 /* One run of a chain over the sample. */
 struct pass {
-    struct ladder *ladder;
+    struct chain_trials *trials;
     LIST_OF(struct runner *) stages;
     uint64_t seed; /* number k of the seed */
     struct frame frame;
@@ -116,18 +115,18 @@ struct pass {
     struct list_cache cache;
     struct text written;
     int64_t spent_ns;
-    struct ladder_lists *lists;
+    struct trial_lists *lists;
     struct arena *kept; /* of the lists */
 };
 
 /* One frame as `glint` runs it, from its line to a line. */
-static int run_frame(struct pass *pass, const struct ladder_frame *sampled)
+static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
 {
-    struct runner *runner = pass->ladder->runner;
+    struct runner *runner = pass->trials->runner;
     struct frame *frame = &pass->frame;
     struct diag *diag = runner_diag(runner);
     int64_t begin_ns = chain_cpu_ns();
-    if (ladder_sample_read(sampled, frame, diag) != 0)
+    if (chain_trials_read(sampled, frame, diag) != 0)
         return -1;
     frame->seed = sampled->seed + (pass->seed << 32);
     for (size_t i = (frame->present & SECTION_REFLECTORS) != 0; i < pass->stages.count; i++)
@@ -142,7 +141,7 @@ static int run_frame(struct pass *pass, const struct ladder_frame *sampled)
 }
 
 /* The first pass of all notes which scans there are. */
-static int keep_lists(struct pass *pass, const struct ladder_frame *sampled)
+static int keep_lists(struct pass *pass, const struct sampled_frame *sampled)
 {
     const struct frame *frame = &pass->frame;
     for (size_t i = 0; i < frame->sensors.list.count; i++) {
@@ -150,29 +149,29 @@ static int keep_lists(struct pass *pass, const struct ladder_frame *sampled)
         if (!view->measured)
             continue;
         if (!target_score_has_cells(view))
-            return diag_fail(runner_diag(pass->ladder->runner), DIAG_DATA,
+            return diag_fail(runner_diag(pass->trials->runner), DIAG_DATA,
                              "sensor \"%s\" has cells of %g m by %g m/s in a view of %g rad; "
                              "distances in cells need more than 0",
                              view->name, view->cell_range_m, view->cell_range_rate_mps,
                              view->field_of_view_rad);
         if (pass->seed == 1)
-            *list_add(&pass->ladder->scans, pass->kept) =
-                (struct ladder_scan){.scene = sampled->scene, .block = sampled->block};
+            *list_add(&pass->trials->scans, pass->kept) =
+                (struct trial_scan){.scene = sampled->scene, .block = sampled->block};
         *list_add(&pass->lists->scans, pass->kept) = ensemble_embed(frame, view, pass->kept);
     }
     return 0;
 }
 
-static void show_progress(struct ladder *ladder)
+static void show_progress(struct chain_trials *trials)
 {
-    size_t frames = ladder->expected * SEEDS * ladder->sample->list.count;
-    if (progress_step(&ladder->progress))
-        progress_show(&ladder->progress, (double)ladder->progress.count / (double)frames);
+    size_t frames = trials->expected * SEEDS * trials->sample->list.count;
+    if (progress_step(&trials->progress))
+        progress_show(&trials->progress, (double)trials->progress.count / (double)frames);
 }
 
 static int run_pass(struct pass *pass)
 {
-    const struct ladder_sample *sample = pass->ladder->sample;
+    const struct frame_sample *sample = pass->trials->sample;
     pass->frame.arena = &pass->arena;
     pass->frame.list_cache = &pass->cache;
     int result = 0;
@@ -180,16 +179,16 @@ static int run_pass(struct pass *pass)
         if (run_frame(pass, &sample->list.items[i]) != 0 ||
             keep_lists(pass, &sample->list.items[i]) != 0)
             result = -1;
-        show_progress(pass->ladder);
+        show_progress(pass->trials);
     }
-    progress_end(&pass->ladder->progress);
+    progress_end(&pass->trials->progress);
     text_free(&pass->written);
     arena_free(&pass->arena);
     arena_free(&pass->cache.arena);
     return result;
 }
 
-static double mean_targets(const struct ladder_lists *lists)
+static double mean_targets(const struct trial_lists *lists)
 {
     double targets = 0, scans = 0;
     for (size_t i = 0; i < SEEDS; i++, scans += (double)lists->scans.count)
@@ -199,25 +198,25 @@ static double mean_targets(const struct ladder_lists *lists)
 }
 
 /* A pass with stages of its own. */
-static struct pass begin_pass(struct ladder *ladder, const struct ladder_chain *chain)
+static struct pass begin_pass(struct chain_trials *trials, const struct tried_chain *chain)
 {
-    struct runner *runner = ladder->runner;
+    struct runner *runner = trials->runner;
     struct arena *arena = runner_arena(runner);
-    const struct suite_choice choice = {ladder->sensors, chain->effects};
-    struct pass pass = {.ladder = ladder};
-    *list_add(&pass.stages, arena) = runner_trial(runner, fused_stage("extract"), NULL, NULL);
-    *list_add(&pass.stages, arena) = runner_trial(runner, fused_stage("ideal"), &choice, NULL);
+    const struct suite_choice choice = {trials->sensors, chain->effects};
+    struct pass pass = {.trials = trials};
+    *list_add(&pass.stages, arena) = runner_trial(runner, stage_by_name("extract"), NULL, NULL);
+    *list_add(&pass.stages, arena) = runner_trial(runner, stage_by_name("ideal"), &choice, NULL);
     for (size_t i = 0; i < chain->programs.count; i++)
-        *list_add(&pass.stages, arena) =
-            runner_trial(runner, fused_stage(fused_name(chain->programs.items[i])), NULL, NULL);
+        *list_add(&pass.stages, arena) = runner_trial(
+            runner, stage_by_name(stage_name_in_path(chain->programs.items[i])), NULL, NULL);
     return pass;
 }
 
 /* Runs the chain with the seeds first, first + 2, ... */
-static int run_chain(struct ladder *ladder, struct ladder_chain *chain, uint64_t first,
-                     struct ladder_lists *lists, struct arena *kept)
+static int run_chain(struct chain_trials *trials, struct tried_chain *chain, uint64_t first,
+                     struct trial_lists *lists, struct arena *kept)
 {
-    struct pass begun = begin_pass(ladder, chain);
+    struct pass begun = begin_pass(trials, chain);
     double us[SEEDS];
     for (size_t i = 0; i < SEEDS; i++) {
         struct pass pass = begun;
@@ -226,75 +225,75 @@ static int run_chain(struct ladder *ladder, struct ladder_chain *chain, uint64_t
         pass.kept = kept;
         if (run_pass(&pass) != 0)
             return -1;
-        us[i] = 1e-3 * (double)pass.spent_ns / (double)ladder->sample->list.count;
+        us[i] = 1e-3 * (double)pass.spent_ns / (double)trials->sample->list.count;
     }
-    sort_numbers(us, SEEDS, runner_arena(ladder->runner));
+    sort_numbers(us, SEEDS, runner_arena(trials->runner));
     chain->us_per_frame = (us[(SEEDS - 1) / 2] + us[SEEDS / 2]) / 2;
     chain->targets_per_scan = mean_targets(lists);
     return 0;
 }
 
 /* Counts the scans of scenes and blocks, numbers the blocks that have any, and weighs them. */
-static void weigh_blocks(struct ladder *ladder)
+static void weigh_blocks(struct chain_trials *trials)
 {
-    const struct ladder_sample *sample = ladder->sample;
-    struct arena *arena = runner_arena(ladder->runner);
-    size_t scenes = 0, names = sample->names.list.count, count = ladder->scans.count;
+    const struct frame_sample *sample = trials->sample;
+    struct arena *arena = runner_arena(trials->runner);
+    size_t scenes = 0, names = sample->names.list.count, count = trials->scans.count;
     double *of_scene = arena_get(arena, names * sizeof *of_scene);
     double *of_block = arena_get(arena, sample->blocks * sizeof *of_block);
     size_t *number = arena_get(arena, sample->blocks * sizeof *number);
     for (size_t i = 0; i < count; i++) {
-        struct ladder_scan *scan = &ladder->scans.items[i];
+        struct trial_scan *scan = &trials->scans.items[i];
         scenes += of_scene[scan->scene]++ == 0;
         if (of_block[scan->block]++ == 0)
-            number[scan->block] = ladder->blocks++;
+            number[scan->block] = trials->blocks++;
     }
-    ladder->block_weight = arena_get(arena, ladder->blocks * sizeof(double));
+    trials->block_weight = arena_get(arena, trials->blocks * sizeof(double));
     for (size_t i = 0; i < count; i++) {
-        struct ladder_scan *scan = &ladder->scans.items[i];
+        struct trial_scan *scan = &trials->scans.items[i];
         scan->share = 1 / of_block[scan->block];
         scan->block = number[scan->block];
-        ladder->block_weight[scan->block] += 1 / (of_scene[scan->scene] * (double)scenes);
+        trials->block_weight[scan->block] += 1 / (of_scene[scan->scene] * (double)scenes);
     }
 }
 
-int ladder_begin(struct ladder *ladder, struct ladder_chain *reference)
+int chain_trials_begin(struct chain_trials *trials, struct tried_chain *reference)
 {
-    progress_begin(&ladder->progress, "frames");
-    if (run_chain(ladder, reference, 1, ladder->reference, runner_arena(ladder->runner)) != 0)
+    progress_begin(&trials->progress, "frames");
+    if (run_chain(trials, reference, 1, trials->reference, runner_arena(trials->runner)) != 0)
         return -1;
-    if (ladder->scans.count == 0)
-        return diag_fail(runner_diag(ladder->runner), DIAG_DATA,
+    if (trials->scans.count == 0)
+        return diag_fail(runner_diag(trials->runner), DIAG_DATA,
                          "no sensor of the suite measures in these frames");
-    weigh_blocks(ladder);
+    weigh_blocks(trials);
     return 0;
 }
 
 /* The distances of all lists from each other, by block. */
-static void compare(const struct ladder *ladder, const struct ladder_lists *lists,
+static void compare(const struct chain_trials *trials, const struct trial_lists *lists,
                     struct energy_blocks *blocks)
 {
-    size_t size = ladder->blocks * ALL * ALL * sizeof(double);
-    double *distance = arena_get(runner_arena(ladder->runner), size);
-    for (size_t at = 0; at < ladder->scans.count; at++) {
-        const struct ladder_scan *scan = &ladder->scans.items[at];
+    size_t size = trials->blocks * ALL * ALL * sizeof(double);
+    double *distance = arena_get(runner_arena(trials->runner), size);
+    for (size_t at = 0; at < trials->scans.count; at++) {
+        const struct trial_scan *scan = &trials->scans.items[at];
         const struct embedded_list *list[ALL];
         for (size_t i = 0; i < SEEDS; i++) {
-            list[i] = &ladder->reference[i].scans.items[at];
+            list[i] = &trials->reference[i].scans.items[at];
             list[SEEDS + i] = &lists[i].scans.items[at];
         }
         energy_distance_add(list, ALL, scan->share, distance + scan->block * ALL * ALL);
     }
-    *blocks = (struct energy_blocks){distance, ladder->block_weight, ladder->blocks, SEEDS, SEEDS};
+    *blocks = (struct energy_blocks){distance, trials->block_weight, trials->blocks, SEEDS, SEEDS};
 }
 
-int ladder_climb(struct ladder *ladder, struct ladder_chain *chain)
+int chain_trials_run(struct chain_trials *trials, struct tried_chain *chain)
 {
-    struct ladder_lists lists[SEEDS] = {0};
+    struct trial_lists lists[SEEDS] = {0};
     struct arena kept = {0};
-    int result = run_chain(ladder, chain, 2, lists, &kept);
+    int result = run_chain(trials, chain, 2, lists, &kept);
     if (result == 0)
-        compare(ladder, lists, &chain->blocks);
+        compare(trials, lists, &chain->blocks);
     arena_free(&kept);
     return result;
 }

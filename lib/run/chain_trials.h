@@ -15,44 +15,44 @@
 #include "score/energy_distance.h"
 #include "score/relative_error.h"
 
-enum { LADDER_SEEDS = 4 };
+enum { CHAIN_TRIALS_SEEDS = 4 };
 
-enum { LADDER_ENERGY = 1 << 0, LADDER_ERROR = 1 << 1 };
+enum { CHAIN_TRIALS_ENERGY = 1 << 0, CHAIN_TRIALS_ERROR = 1 << 1 };
 
-struct ladder_frame {
+struct sampled_frame {
     const char *line; /* without its newline */
     size_t length;
     uint64_t seed;
     int64_t place;       /* in the stream, from 0 */
-    size_t scene, block; /* numbers; the block is set by ladder_sample_divide */
+    size_t scene, block; /* numbers; the block is set by chain_trials_divide */
 };
 
 /* A sample of a stream's frames, spread evenly over it. All frames are kept until there are more
  * than `most`. Then one of each stretch of 2 is kept, of 4, of 8 and so on: drawn by its place in
  * the stream alone, so that no sensor's cycle is in step with the sample. Frames are kept as lines
  * of their objects and reflectors. Zeroed but for arena and most before the first frame. */
-struct ladder_sample {
+struct frame_sample {
     struct arena *arena;
     int64_t most; /* of the frames that are kept; at least 1 */
     int64_t seen, stride;
-    LIST_OF(struct ladder_frame) list;
+    LIST_OF(struct sampled_frame) list;
     struct intern names;   /* of scenes, with their seeds */
-    size_t scenes, blocks; /* of the frames that are kept; set by ladder_sample_divide */
+    size_t scenes, blocks; /* of the frames that are kept; set by chain_trials_divide */
 };
 
-int ladder_sample_add(struct ladder_sample *sample, const struct frame *frame, struct diag *diag);
+int chain_trials_sample(struct frame_sample *sample, const struct frame *frame, struct diag *diag);
 
 /* After the last frame: divides the sample into blocks. A block is a scene if there are 10 or more;
  * else each scene is cut into stretches, 10 in all or a few more, or as many as there are frames.
  */
-void ladder_sample_divide(struct ladder_sample *sample);
+void chain_trials_divide(struct frame_sample *sample);
 
 /* Reads a frame of the sample, in canonical order and checked. */
-int ladder_sample_read(const struct ladder_frame *sampled, struct frame *frame, struct diag *diag);
+int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag);
 
-/* A chain, as it was measured. The first group of members says what it is, ladder_climb measures
- * the second, and cost.h the third. */
-struct ladder_chain {
+/* A chain, as it was measured. The first group of members says what it is, chain_trials_run
+ * measures the second, and cost.h the third. */
+struct tried_chain {
     const char *chain;              /* what tables call it: "auto, no ghosts" */
     const char *effects;            /* for glint-ideal */
     LIST_OF(const char *) programs; /* after glint-ideal: "glint-sensor", "glint-noise" */
@@ -62,39 +62,39 @@ struct ladder_chain {
     struct energy_blocks blocks; /* distances from the reference's lists; not of the reference */
 
     struct relative_error energy, error; /* D from the reference; over that of ideal echoes */
-    unsigned present;                    /* LADDER_ENERGY: it is not the reference itself;
-                                          * LADDER_ERROR: ideal echoes are told from it */
+    unsigned present;                    /* CHAIN_TRIALS_ENERGY: it is not the reference itself;
+                                          * CHAIN_TRIALS_ERROR: ideal echoes are told from it */
     bool automatic;                      /* the whole chain, but for some effects */
     uint64_t left_out; /* EFFECT_BITs of the effects that the frames call for and it leaves out */
 };
 
 /* The lists of one seed, scan by scan. */
-struct ladder_lists {
+struct trial_lists {
     LIST_OF(struct embedded_list) scans;
 };
 
-struct ladder_scan {
+struct trial_scan {
     size_t scene, block;
     double share; /* of its block */
 };
 
 /* The first group of members is the caller's, the rest zeroed. */
-struct ladder {
+struct chain_trials {
     struct runner *runner; /* of the tool; its diag has the messages */
-    const struct ladder_sample *sample;
+    const struct frame_sample *sample;
     const char *sensors; /* the suite */
     size_t expected;     /* chains, for the time left */
 
     struct progress progress; /* in frames of all chains and seeds */
-    struct ladder_lists reference[LADDER_SEEDS];
-    LIST_OF(struct ladder_scan) scans;
+    struct trial_lists reference[CHAIN_TRIALS_SEEDS];
+    LIST_OF(struct trial_scan) scans;
     size_t blocks;        /* that have a scan */
     double *block_weight; /* of each: scans over those of its scene, over scenes */
 };
 
 /* Runs the reference. Refuses (DIAG_DATA) frames in which no sensor measures, and cells without a
  * width. */
-int ladder_begin(struct ladder *ladder, struct ladder_chain *reference);
+int chain_trials_begin(struct chain_trials *trials, struct tried_chain *reference);
 
 /* Runs a chain and compares it with the reference. */
-int ladder_climb(struct ladder *ladder, struct ladder_chain *chain);
+int chain_trials_run(struct chain_trials *trials, struct tried_chain *chain);
