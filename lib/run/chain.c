@@ -18,7 +18,8 @@ struct chain {
     struct arena arena; /* the frame's */
     struct list_cache list_cache;
     struct frame_stream input; /* of the first runner, unless it is a source */
-    struct chain_times *times;
+    bool timed;                /* times are asked for */
+    struct chain_times times;
     bool tool_has_frame;   /* its messages are about this frame */
     int64_t tool_begin_ns; /* when the tool last went to work: at its begin, with its frame */
     struct progress progress;
@@ -42,24 +43,23 @@ int64_t chain_cpu_ns(void)
 /* 0 where no times are asked for. */
 static int64_t clock_ns(const struct chain *chain)
 {
-    return chain->times == NULL ? 0 : chain_cpu_ns();
+    return chain->timed ? chain_cpu_ns() : 0;
 }
 
 static void add_time(const struct chain *chain, int64_t *total, int64_t begin)
 {
-    if (chain->times != NULL)
-        *total += clock_ns(chain) - begin - chain->times->clock_ns;
+    *total += clock_ns(chain) - begin - chain->times.clock_ns;
 }
 
 /* Measures how long one look at the clock takes: it is a system call, and a frame may take no
  * longer than a few of those. */
-static void time_clock(const struct chain *chain)
+static void time_clock(struct chain *chain)
 {
     enum { CALLS = 1000 };
     int64_t begin = clock_ns(chain);
     for (int i = 0; i < CALLS; i++)
         clock_ns(chain);
-    chain->times->clock_ns = (clock_ns(chain) - begin) / CALLS;
+    chain->times.clock_ns = (clock_ns(chain) - begin) / CALLS;
 }
 
 static struct runner *last(struct chain *chain)
@@ -93,8 +93,7 @@ static int write_frame(struct chain *chain)
     size_t begin = text->length;
     if (frame_text_write(&chain->frame, text, &runner->diag) != 0)
         return -1;
-    if (chain->times != NULL)
-        chain->times->bytes_written += (int64_t)(text->length - begin);
+    chain->times.bytes_written += (int64_t)(text->length - begin);
     return output_send(output, &runner->diag);
 }
 
@@ -105,8 +104,7 @@ static int first_frame(struct chain *chain)
     int64_t begin = clock_ns(chain);
     int more = source ? runner_next(first, &chain->frame)
                       : frame_stream_next(&chain->input, &chain->frame, &first->diag);
-    if (chain->times != NULL)
-        add_time(chain, source ? &chain->times->step_ns[0] : &chain->times->read_ns, begin);
+    add_time(chain, source ? &first->spent_ns : &chain->times.read_ns, begin);
     if (more < 0)
         name_place(chain, first);
     return more;
@@ -138,15 +136,12 @@ static int run_frame(struct chain *chain)
             name_place(chain, runner);
             return -1;
         }
-        if (chain->times != NULL)
-            add_time(chain, &chain->times->step_ns[index], begin);
+        add_time(chain, &runner->spent_ns, begin);
     }
     int64_t begin = clock_ns(chain);
     int result = write_frame(chain);
-    if (chain->times != NULL) {
-        add_time(chain, &chain->times->write_ns, begin);
-        chain->times->frames++;
-    }
+    add_time(chain, &chain->times.write_ns, begin);
+    chain->times.frames++;
     if (progress_step(&chain->progress))
         show_progress(chain);
     return result == 0 ? 1 : -1;
@@ -164,8 +159,7 @@ static bool any_failed(const struct chain *chain)
 static int next_frame(void *from, struct frame **frame)
 {
     struct chain *chain = from;
-    if (chain->times != NULL)
-        add_time(chain, &chain->times->step_ns[chain->stages], chain->tool_begin_ns);
+    add_time(chain, &last(chain)->spent_ns, chain->tool_begin_ns);
     *frame = &chain->frame;
     int more = any_failed(chain) ? 0 : run_frame(chain);
     if (more <= 0)
@@ -184,8 +178,7 @@ static void run_tool(struct chain *chain)
     chain->tool_begin_ns = clock_ns(chain);
     if (runner_run_tool(tool) != 0 && chain->tool_has_frame)
         name_place(chain, tool);
-    if (chain->times != NULL)
-        add_time(chain, &chain->times->step_ns[chain->stages], chain->tool_begin_ns);
+    add_time(chain, &tool->spent_ns, chain->tool_begin_ns);
 }
 
 /* Sends on what the chain has made before it waits for a frame, which may depend on it. A failure
@@ -276,7 +269,7 @@ static void finish(struct chain *chain)
 
 int chain_run(struct runner *runners, size_t count, struct chain_times *times)
 {
-    struct chain chain = {.runners = runners, .count = count, .times = times};
+    struct chain chain = {.runners = runners, .count = count, .timed = times != NULL};
     chain.stages = runners[count - 1].stage->run != NULL ? count - 1 : count;
     chain.input.paths = runners[0].common.files.items;
     chain.input.count = runners[0].common.files.count;
@@ -288,13 +281,14 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
         runners[i].before = i > 0 ? &runners[i - 1] : NULL;
         runners[i].input = runners[0].stage->next != NULL ? NULL : &chain.input;
     }
-    if (times != NULL)
+    if (chain.timed)
         time_clock(&chain);
     start(&chain);
     run(&chain);
     finish(&chain);
+    chain.times.bytes_read = chain.input.bytes;
     if (times != NULL)
-        times->bytes_read = chain.input.bytes;
+        *times = chain.times;
     int code = DIAG_OK;
     for (size_t i = 0; i < count; i++) {
         if (runners[i].diag.text[0] != '\0')

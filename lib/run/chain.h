@@ -8,20 +8,20 @@
 
 #include "run/runner.h"
 
-/* Where the time of a chain went: nanoseconds of this thread's CPU time, without those that
- * reading the clock takes. */
+/* CPU time of this thread for reading and writing frames, without the time that reading the clock
+ * takes. Each runner has that of its own steps (spent_ns). */
 struct chain_times {
     int64_t frames, bytes_read, bytes_written;
     int64_t clock_ns; /* of one look at the clock */
     int64_t read_ns, write_ns;
-    int64_t *step_ns; /* one for each runner */
 };
 
 /* CPU time of this thread, in nanoseconds. */
 int64_t chain_cpu_ns(void);
 
 /* Runs prepared runners from the first frame to the last and prints the messages of those that
- * fail to stderr. Returns the exit code. Clocks are read only if times is not NULL. */
+ * fail to stderr. Returns the exit code. times, if not NULL, is filled in: clocks are read only
+ * then. */
 int chain_run(struct runner *runners, size_t count, struct chain_times *times);
 
 /* The main of glint-NAME. */

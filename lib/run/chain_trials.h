@@ -20,7 +20,7 @@ enum { CHAIN_TRIALS_SEEDS = 4 };
 enum { CHAIN_TRIALS_ENERGY = 1 << 0, CHAIN_TRIALS_ERROR = 1 << 1 };
 
 struct sampled_frame {
-    const char *line; /* without its newline */
+    const char *line; /* without its newline, for frame_stream_parse */
     size_t length;
     uint64_t seed;
     int64_t place;       /* in the stream, from 0 */
@@ -46,9 +46,6 @@ int chain_trials_sample(struct frame_sample *sample, const struct frame *frame, 
  * else each scene is cut into stretches, 10 in all or a few more, or as many as there are frames.
  */
 void chain_trials_divide(struct frame_sample *sample);
-
-/* Reads a frame of the sample, in canonical order and checked. */
-int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag);
 
 /* A chain, as it was measured. The first group of members says what it is, chain_trials_run
  * measures the second, and cost.h the third. */

@@ -149,12 +149,21 @@ static struct tried_chain *try_chain(struct cost *cost, struct tried_chain chain
     return added;
 }
 
-/* The whole chain but for these effects, measured unless it already is. NULL after a message. */
-static const struct tried_chain *try_without(struct cost *cost, uint64_t left_out)
+/* The whole chain but for these effects, if it is measured; else NULL. */
+static const struct tried_chain *find_without(const struct cost *cost, uint64_t left_out)
 {
     for (size_t i = 0; i < cost->chains.count; i++)
         if (cost->chains.items[i].automatic && cost->chains.items[i].left_out == left_out)
             return &cost->chains.items[i];
+    return NULL;
+}
+
+/* The same, measured unless it already is. NULL after a message. */
+static const struct tried_chain *try_without(struct cost *cost, uint64_t left_out)
+{
+    const struct tried_chain *known = find_without(cost, left_out);
+    if (known != NULL)
+        return known;
     struct arena *arena = runner_arena(cost->runner);
     const char *name =
         left_out == 0 ? cost->whole
@@ -381,14 +390,13 @@ static void write_chain(const struct tried_chain *chain, int width, struct text 
 
 void cost_write_table(const struct cost *cost, struct text *text)
 {
-    const struct tried_chain *ideal = &cost->chains.items[0];
     write_sample(cost, "", text);
     write_reference(cost, "", text);
-    if ((ideal->present & CHAIN_TRIALS_ERROR) == 0)
+    if ((ideal(cost)->present & CHAIN_TRIALS_ERROR) == 0)
         text_format(text,
                     "There are none: ideal echoes are not told from the reference (D %.3g, %.3g to "
                     "%.3g).\n",
-                    ideal->energy.value, ideal->energy.low, ideal->energy.high);
+                    ideal(cost)->energy.value, ideal(cost)->energy.low, ideal(cost)->energy.high);
     int width = 28;
     for (size_t i = 0; i < cost->chains.count; i++)
         if ((int)strlen(cost->chains.items[i].chain) > width)
@@ -401,22 +409,13 @@ void cost_write_table(const struct cost *cost, struct text *text)
         text_format(text, "%-*s left out: %s\n", width, "signal", cost->no_signal);
 }
 
-/* The chain that leaves out this effect alone. */
-static const struct tried_chain *single(const struct cost *cost, uint64_t effect)
+static void write_left_out(const struct cost *cost, int effect, struct text *text)
 {
-    for (size_t i = 0; i < cost->chains.count; i++)
-        if (cost->chains.items[i].automatic && cost->chains.items[i].left_out == effect)
-            return &cost->chains.items[i];
-    return NULL;
-}
-
-static void write_left_out(const struct cost *cost, int effect, double whole_us, struct text *text)
-{
-    const struct tried_chain *chain = single(cost, EFFECT_BIT(effect));
+    const struct tried_chain *chain = find_without(cost, EFFECT_BIT(effect));
     if (chain == NULL)
         return;
     text_format(text, "# %-17s off: saves %.1f us, adds ", effects_names[effect],
-                whole_us - chain->us_per_frame);
+                whole(cost)->us_per_frame - chain->us_per_frame);
     write_error(cost_added(cost, chain), text);
     text_add_word(text, "\n");
 }
@@ -426,9 +425,8 @@ void cost_write_pipeline(const struct cost *cost, const struct tried_chain *chai
 {
     write_sample(cost, "# ", text);
     write_reference(cost, "# ", text);
-    const struct tried_chain *whole = single(cost, 0);
     text_format(text, "# This takes %.1f us a frame instead of %.1f, with an error of ",
-                chain->us_per_frame, whole->us_per_frame);
+                chain->us_per_frame, whole(cost)->us_per_frame);
     if ((chain->present & CHAIN_TRIALS_ERROR) != 0)
         write_error(chain->error, text);
     else
@@ -436,7 +434,7 @@ void cost_write_pipeline(const struct cost *cost, const struct tried_chain *chai
     text_add_word(text, ".\n");
     for (int i = 0; i < EFFECT_COUNT; i++)
         if ((chain->left_out & EFFECT_BIT(i)) != 0)
-            write_left_out(cost, i, whole->us_per_frame, text);
+            write_left_out(cost, i, text);
     plan_write_pipeline(cost->suite, chain->effects, chain->programs.items, chain->programs.count,
                         text);
 }

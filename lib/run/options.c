@@ -65,10 +65,16 @@ static void use_dashes(char *text)
             *letter = '-';
 }
 
-static void spell(const char *name, char *text, size_t size)
+struct spelling {
+    char text[80];
+};
+
+static struct spelling spell(const char *name)
 {
-    snprintf(text, size, "%s", name);
-    use_dashes(text);
+    struct spelling spelling;
+    snprintf(spelling.text, sizeof spelling.text, "%s", name);
+    use_dashes(spelling.text);
+    return spelling;
 }
 
 /* Does the program understand this one of the options that all share? */
@@ -112,14 +118,13 @@ static struct option find_option(const struct field *fields, const char *word, s
 {
     for (size_t i = 0; fields[i].name != NULL; i++) {
         const struct field *field = &fields[i];
-        char spelling[80];
-        spell(field->name, spelling, sizeof spelling);
+        struct spelling spelling = spell(field->name);
         if (field->kind == FIELD_RECORD) {
             struct option member = find_option(field->record->fields, word, length);
             if (member.field != NULL)
                 return (struct option){member.field, field->offset + member.offset, i};
-        } else if (field->kind != FIELD_LIST && strlen(spelling) == length &&
-                   memcmp(spelling, word, length) == 0) {
+        } else if (field->kind != FIELD_LIST && strlen(spelling.text) == length &&
+                   memcmp(spelling.text, word, length) == 0) {
             return (struct option){field, 0, i};
         }
     }
@@ -172,12 +177,10 @@ static void offer_options(const struct field *fields, const struct stage *stage,
                           struct suggestion *meant)
 {
     for (const struct field *field = fields; field->name != NULL; field++) {
-        char spelling[80];
-        spell(field->name, spelling, sizeof spelling);
         if (field->kind == FIELD_RECORD)
             offer_options(field->record->fields, stage, meant);
         else if (field->kind != FIELD_LIST && (fields != common_fields || applies(stage, field)))
-            suggestion_offer(meant, spelling);
+            suggestion_offer(meant, spell(field->name).text);
     }
 }
 
@@ -249,11 +252,10 @@ static int check_required(const struct command_line *line)
         const struct field *field = &stage->options->fields[i];
         if (field->optional || (line->seen >> i & 1) != 0)
             continue;
-        char spelling[80];
-        spell(field->name, spelling, sizeof spelling);
         bool operand = stage->operand != NULL && i == 0;
         return diag_fail(line->diag, DIAG_USAGE, "missing %s%s: %s; see --help",
-                         operand ? "" : "--", operand ? stage->operand : spelling, field->help);
+                         operand ? "" : "--", operand ? stage->operand : spell(field->name).text,
+                         field->help);
     }
     return 0;
 }
@@ -355,13 +357,12 @@ static void help_option(const struct field *field, struct text *text)
             help_option(member, text);
     if (field->kind == FIELD_RECORD || field->kind == FIELD_LIST)
         return;
-    char left[160], spelling[80], expected[512] = "", words[1024];
-    spell(field->name, spelling, sizeof spelling);
+    char left[160], expected[512] = "", words[1024];
     bool flag = field->kind == FIELD_FLAG;
-    const char *letter = strcmp(spelling, "output") == 0 ? "-o, "
-                         : strcmp(spelling, "help") == 0 ? "-h, "
-                                                         : "    ";
-    snprintf(left, sizeof left, "%s--%s%s%s", letter, spelling, flag ? "" : "=",
+    const char *letter = strcmp(field->name, "output") == 0 ? "-o, "
+                         : strcmp(field->name, "help") == 0 ? "-h, "
+                                                            : "    ";
+    snprintf(left, sizeof left, "%s--%s%s%s", letter, spell(field->name).text, flag ? "" : "=",
              flag ? "" : value_word(field));
     if (field->kind == FIELD_REAL || field->kind == FIELD_INTEGER || field->kind == FIELD_CHOICE)
         field_expectation(field, expected, sizeof expected);

@@ -155,7 +155,7 @@ static void print_times(const struct chain_times *times, const struct runner *ru
     if (times->bytes_read > 0)
         print_time("read", times->read_ns, times->frames);
     for (size_t i = 0; i < count; i++)
-        print_time(runners[i].stage->name, times->step_ns[i], times->frames);
+        print_time(runners[i].stage->name, runners[i].spent_ns, times->frames);
     if (times->bytes_written > 0)
         print_time("write", times->write_ns, times->frames);
     fprintf(stderr, "{\"part\":\"bytes\",\"read\":%" PRId64 ",\"written\":%" PRId64 "}\n",
@@ -174,7 +174,7 @@ static int run_text(const char *name, const char *text, size_t length, bool time
     }
     size_t count = pipeline.commands.count;
     struct runner *runners = arena_get(arena, count * sizeof *runners);
-    struct chain_times times = {.step_ns = arena_get(arena, count * sizeof(int64_t))};
+    struct chain_times times;
     int code = run_commands(&pipeline, runners, timed ? &times : NULL, arena, &diag);
     if (timed && diag.code == DIAG_OK)
         print_times(&times, runners, count);
@@ -292,29 +292,23 @@ static void add_comment(const char *name, const char *path, struct text *text, s
     text_free(&comment);
 }
 
-/* Kinds of things that are files with names, and what a line says of one. */
-static const struct file_kind {
-    const char *name, *ending;
-    void (*describe)(const char *name, const char *path, struct text *text, struct arena *arena);
-} file_kinds[] = {
-    {"sensors", ".json", add_origin},
-    {"scenarios", ".json", add_origin},
-    {"vehicles", ".json", add_size},
-    {"pipelines", ".sh", add_comment},
-};
-
-/* Kinds of things that are built in. */
-static const struct built_kind {
+/* The kinds that --list knows beside the names of effects: either all is built in, or each thing is
+ * a file with this ending, described in a line. */
+static const struct listed_kind {
     const char *name;
-    void (*add)(struct text *text);
-} built_kinds[] = {{"programs", add_programs}, {"effects", add_effects}};
-
-enum {
-    FILE_KINDS = sizeof file_kinds / sizeof file_kinds[0],
-    BUILT_KINDS = sizeof built_kinds / sizeof built_kinds[0],
+    void (*add_built_in)(struct text *text);
+    const char *ending;
+    void (*describe)(const char *name, const char *path, struct text *text, struct arena *arena);
+} kinds[] = {
+    {.name = "programs", .add_built_in = add_programs},
+    {.name = "effects", .add_built_in = add_effects},
+    {.name = "sensors", .ending = ".json", .describe = add_origin},
+    {.name = "scenarios", .ending = ".json", .describe = add_origin},
+    {.name = "vehicles", .ending = ".json", .describe = add_size},
+    {.name = "pipelines", .ending = ".sh", .describe = add_comment},
 };
 
-static int add_files(const struct file_kind *kind, struct text *text, struct arena *arena,
+static int add_files(const struct listed_kind *kind, struct text *text, struct arena *arena,
                      struct diag *diag)
 {
     struct document_names list;
@@ -338,17 +332,14 @@ static int add_files(const struct file_kind *kind, struct text *text, struct are
 static int add_listing(const char *kind, struct text *text, struct arena *arena, struct diag *diag)
 {
     struct suggestion meant = suggestion_begin(kind, strlen(kind));
-    for (size_t i = 0; i < BUILT_KINDS; i++) {
-        suggestion_offer(&meant, built_kinds[i].name);
-        if (strcmp(kind, built_kinds[i].name) == 0) {
-            built_kinds[i].add(text);
-            return 0;
-        }
-    }
-    for (size_t i = 0; i < FILE_KINDS; i++) {
-        suggestion_offer(&meant, file_kinds[i].name);
-        if (strcmp(kind, file_kinds[i].name) == 0)
-            return add_files(&file_kinds[i], text, arena, diag);
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        suggestion_offer(&meant, kinds[i].name);
+        if (strcmp(kind, kinds[i].name) != 0)
+            continue;
+        if (kinds[i].add_built_in == NULL)
+            return add_files(&kinds[i], text, arena, diag);
+        kinds[i].add_built_in(text);
+        return 0;
     }
     for (int i = 0; i < EFFECT_COUNT; i++) {
         suggestion_offer(&meant, effects_names[i]);
@@ -369,25 +360,24 @@ static int print(const char *bytes, size_t length)
     return output_print(bytes, length, &diag) == 0 ? 0 : complain(&diag);
 }
 
-static int list(const char *kind, struct arena *arena)
+static int add_datasheet(const char *name, struct text *text, struct arena *arena,
+                         struct diag *diag)
 {
-    struct diag diag = {0};
-    struct text text = {0};
-    int code = add_listing(kind, &text, arena, &diag) == 0 ? print(text.bytes, text.length)
-                                                           : complain(&diag);
-    text_free(&text);
-    return code;
+    const struct suite *suite = suite_file_load(name, arena, diag);
+    if (suite == NULL)
+        return -1;
+    datasheet_add(suite, text);
+    return 0;
 }
 
-static int print_datasheet(const char *name, struct arena *arena)
+/* Prints what an option asks for: the text that this function adds for its value. */
+static int answer(int (*add)(const char *, struct text *, struct arena *, struct diag *),
+                  const char *value, struct arena *arena)
 {
     struct diag diag = {0};
-    const struct suite *suite = suite_file_load(name, arena, &diag);
-    if (suite == NULL)
-        return complain(&diag);
     struct text text = {0};
-    datasheet_add(suite, &text);
-    int code = print(text.bytes, text.length);
+    int code =
+        add(value, &text, arena, &diag) == 0 ? print(text.bytes, text.length) : complain(&diag);
     text_free(&text);
     return code;
 }
@@ -427,9 +417,9 @@ static int run(int count, char **words, struct arena *arena)
     if (count == 3 && strcmp(first, "--times") == 0)
         return run_file(second, true, arena);
     if (count == 3 && strcmp(first, "--list") == 0)
-        return list(second, arena);
+        return answer(add_listing, second, arena);
     if (count == 3 && strcmp(first, "--datasheet") == 0)
-        return print_datasheet(second, arena);
+        return answer(add_datasheet, second, arena);
     if (count == 2 && (first[0] != '-' || first[1] == '\0'))
         return run_file(first, false, arena);
     return refuse_options(first);

@@ -33,6 +33,7 @@ struct runner {
     LIST_OF(const struct vehicle *) vehicles;
     struct frame_sequence sequence; /* of the frames so far, under --complete */
     int64_t expected_frames;        /* 0 if the source does not say */
+    int64_t spent_ns;               /* CPU time of its steps; 0 where the chain takes no times */
     struct effect_log *log;         /* NULL unless --explain was given */
     LIST_OF(struct runner *) tried; /* of the stages that a tool tries */
     LIST_OF(struct reference_stream *) reference_streams;
