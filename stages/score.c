@@ -40,14 +40,6 @@ static int check_scene(struct score_state *own, const struct frame *frame, struc
     return own->partial ? frame_sequence_one_seed(&own->sequence, runner_diag(runner)) : 0;
 }
 
-static int check_pair(struct score_state *own, const struct frame *truth, const struct frame *frame,
-                      struct diag *diag)
-{
-    return reference_stream_same_seed(own->other, frame, diag) != 0
-               ? -1
-               : target_score_check(truth, frame, diag);
-}
-
 static int score_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct score_state *own = state;
@@ -56,12 +48,9 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
         return ensemble_add(&own->lists, frame, runner_diag(runner));
     if (check_scene(own, frame, runner) != 0)
         return -1;
-    int found = reference_stream_frame(own->other, frame, SECTION_SENSORS | SECTION_TARGETS, &truth,
-                                       runner_diag(runner));
+    int found = reference_stream_frame(own->other, frame, &truth, runner_diag(runner));
     if (found <= 0)
         return found;
-    if (check_pair(own, truth, frame, runner_diag(runner)) != 0)
-        return -1;
     own->frames++;
     struct score_line line = {
         .scene = frame->scene, .frame = frame->frame, .time_s = frame->time_s};
@@ -86,8 +75,7 @@ static int write_ensemble(struct score_state *own, struct runner *runner)
     struct ensemble truth = {.arena = runner_arena(runner)};
     const struct frame *frame;
     int more;
-    while ((more = reference_stream_next(own->other, SECTION_SENSORS | SECTION_TARGETS, &frame,
-                                         runner_diag(runner))) > 0)
+    while ((more = reference_stream_next(own->other, &frame, runner_diag(runner))) > 0)
         if (ensemble_add(&truth, frame, runner_diag(runner)) != 0)
             return reference_stream_prefix(own->other, runner_diag(runner));
     struct ensemble_score score;

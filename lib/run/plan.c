@@ -13,16 +13,25 @@ static const struct plan_position chain[PLAN_POSITIONS] = {
     [PLAN_NOISE] = {"glint-noise", "glint-noise-none", SECTION_TARGETS},
 };
 
+/* The names of the effects behind a first word, with these letters before each name. */
+static const char *list_names(const char *first, const char *before, uint64_t effects,
+                              struct arena *arena)
+{
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if ((effects & EFFECT_BIT(i)) != 0)
+            first = arena_format(arena, "%s%s%s", first, *first != '\0' ? before : "",
+                                 effects_names[i]);
+    return first;
+}
+
 const char *plan_request(uint64_t allowed, struct arena *arena)
 {
-    struct text text = {0};
-    text_add_word(&text, "auto");
-    for (int i = 0; i < EFFECT_COUNT; i++)
-        if ((allowed & EFFECT_BIT(i)) == 0)
-            text_format(&text, ",-%s", effects_names[i]);
-    const char *request = arena_text(arena, text.bytes, text.length);
-    text_free(&text);
-    return request;
+    return list_names("auto", ",-", ~allowed, arena);
+}
+
+const char *plan_names(uint64_t effects, struct arena *arena)
+{
+    return effects == 0 ? "none" : list_names("", ",", effects, arena);
 }
 
 static int64_t no_clock(void)
@@ -142,14 +151,10 @@ uint64_t plan_effects(const struct plan *plan)
 /* The log of the stage where the effect is at home: the others do not note it. */
 static const struct effect_log *log_of(const struct plan *plan, int effect)
 {
-    const struct effect_log *best = &plan->positions[0].log;
-    for (int at = 1; at < PLAN_POSITIONS; at++) {
-        const struct effect_log *log = &plan->positions[at].log;
-        if (log->scans_simulated[effect] + log->scans_left_out[effect] >
-            best->scans_simulated[effect] + best->scans_left_out[effect])
-            best = log;
-    }
-    return best;
+    static const int position[] = {[EFFECT_HOME_IDEAL] = PLAN_IDEAL,
+                                   [EFFECT_HOME_SENSOR] = PLAN_SENSOR,
+                                   [EFFECT_HOME_NOISE] = PLAN_NOISE};
+    return &plan->positions[position[effect_table[effect]->home]].log;
 }
 
 static void write_effect(const struct plan *plan, int effect, bool all, struct text *text)
@@ -203,19 +208,6 @@ static void write_word(const char *word, struct text *text)
     for (; *word != '\0'; word++)
         text_add(text, *word == '\'' ? "'\\''" : word, *word == '\'' ? 4 : 1);
     text_add_word(text, "'");
-}
-
-const char *plan_names(uint64_t effects, struct arena *arena)
-{
-    struct text text = {0};
-    for (int i = 0; i < EFFECT_COUNT; i++)
-        if ((effects & EFFECT_BIT(i)) != 0)
-            text_format(&text, "%s%s", text.length > 0 ? "," : "", effects_names[i]);
-    if (effects == 0)
-        text_add_word(&text, "none");
-    const char *names = arena_text(arena, text.bytes, text.length);
-    text_free(&text);
-    return names;
 }
 
 void plan_write_pipeline(const char *sensors, const char *effects, const char *const *programs,

@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <strings.h>
 #include <time.h>
 #include <unistd.h>
@@ -95,11 +96,9 @@ struct reference_stream *runner_reference_stream(struct runner *runner, const ch
         diag_fail(&runner->diag, DIAG_USAGE,
                   "\"-\" is standard input, where the frames come from; name their file");
     else
-        stream = reference_stream_open(path, partial, &runner->diag);
-    if (stream == NULL)
-        return NULL;
-    *list_add(&runner->reference_streams, &runner->arena) = stream;
-    reference_stream_before_waiting(stream, runner->pause);
+        stream = reference_stream_open(path, partial, runner->pause, &runner->diag);
+    if (stream != NULL)
+        *list_add(&runner->reference_streams, &runner->arena) = stream;
     return stream;
 }
 
@@ -333,16 +332,14 @@ static void write_line(const char *stage, int effect, const struct effect_log *l
                        struct text *text)
 {
     const char *left_out_when = effect_table[effect]->left_out_when;
+    char ns[24] = "null";
+    if (log->spent_ns[effect] > 0)
+        snprintf(ns, sizeof ns, "%" PRId64, log->spent_ns[effect]);
     text_format(text,
                 "{\"stage\":\"%s\",\"effect\":\"%s\",\"scans\":%" PRId64 ",\"simulated\":%" PRId64
-                ",\"left_out\":%" PRId64 ",\"ns\":",
+                ",\"left_out\":%" PRId64 ",\"ns\":%s,\"left_out_when\":",
                 stage, effects_names[effect], log->scans, log->scans_simulated[effect],
-                log->scans_left_out[effect]);
-    if (log->spent_ns[effect] > 0)
-        text_format(text, "%" PRId64, log->spent_ns[effect]);
-    else
-        text_add_word(text, "null");
-    text_add_word(text, ",\"left_out_when\":");
+                log->scans_left_out[effect], ns);
     if (left_out_when != NULL)
         text_add_json(text, left_out_when, strlen(left_out_when));
     else

@@ -54,27 +54,22 @@ static const struct suite *suite_at(struct runner *runner, const char *place,
     return is_suite_of(suite, frame) ? suite : NULL;
 }
 
-static const struct suite *find_suite_of(struct runner *runner, const struct frame *frame)
+const struct suite *suite_choice_of_frame(struct runner *runner, const struct frame *frame)
 {
     const char *name = frame->sensors.suite;
-    const struct suite *suite = suite_at(runner, name, frame);
+    const struct suite *suite = loaded_suite_of(runner, frame);
+    if (suite == NULL)
+        suite = suite_at(runner, name, frame);
     if (suite == NULL)
         suite = suite_at(runner, arena_format(&runner->arena, "./%s.json", name), frame);
     if (suite == NULL)
         diag_fail(
             &runner->diag, DIAG_CONFIG,
             "sensors.suite: no \"%s\" among the documents or in the working folder is the one "
-            "that the frame was seen with, %s; give its path (--sensors PATH), or set GLINT_DATA "
-            "to a "
-            "folder that has it as sensors/%s.json",
+            "that the frame was seen with, %s; give its path (--sensors PATH), or set "
+            "GLINT_DATA to a folder that has it as sensors/%s.json",
             name, frame->sensors.digest, name);
     return suite;
-}
-
-const struct suite *suite_choice_of_frame(struct runner *runner, const struct frame *frame)
-{
-    const struct suite *suite = loaded_suite_of(runner, frame);
-    return suite != NULL ? suite : find_suite_of(runner, frame);
 }
 
 int suite_choice_request(const struct suite_choice *choice, const struct suite *suite,

@@ -16,8 +16,7 @@ struct ensemble_list {
     int64_t frame;
     double time_s;
     struct sensor_view view;
-    const struct embedded_target *targets; /* in m, rad, m/s and dB */
-    size_t count;
+    LIST_OF(struct embedded_target) targets; /* in m, rad, m/s and dB */
 };
 
 struct ensemble_seed {
@@ -86,25 +85,16 @@ static struct ensemble_seed *seed_of(struct ensemble_scene *scene, uint64_t seed
 static struct ensemble_list list_of(const struct frame *frame, const struct sensor_view *view,
                                     struct arena *arena)
 {
-    struct sensor_view kept = *view;
-    kept.name = arena_text(arena, view->name, strlen(view->name));
-    size_t count = 0;
-    for (size_t i = 0; i < frame->targets.count; i++)
-        count += strcmp(frame->targets.items[i].sensor, view->name) == 0;
-    struct embedded_target *targets = arena_get(arena, (count + 1) * sizeof *targets);
-    for (size_t i = 0, k = 0; i < frame->targets.count; i++) {
+    struct ensemble_list list = {.frame = frame->frame, .time_s = frame->time_s, .view = *view};
+    list.view.name = arena_text(arena, view->name, strlen(view->name));
+    for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
         if (strcmp(target->sensor, view->name) == 0)
-            targets[k++] = (struct embedded_target){{target->range_m, target->azimuth_rad,
-                                                     target->range_rate_mps, target->amplitude_db}};
+            *list_add(&list.targets, arena) =
+                (struct embedded_target){{target->range_m, target->azimuth_rad,
+                                          target->range_rate_mps, target->amplitude_db}};
     }
-    return (struct ensemble_list){
-        .frame = frame->frame,
-        .time_s = frame->time_s,
-        .view = kept,
-        .targets = targets,
-        .count = count,
-    };
+    return list;
 }
 
 int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct diag *diag)
@@ -210,10 +200,10 @@ static struct embedded_list embed(const struct ensemble_list *list, const struct
     const double cell[EMBEDDED_AXES] = {unit->range_m, unit->azimuth_rad, unit->range_rate_mps,
                                         LEVEL_DB};
     struct embedded_list embedded = {0};
-    for (size_t i = 0; i < list->count; i++) {
+    for (size_t i = 0; i < list->targets.count; i++) {
         struct embedded_target *target = list_add(&embedded.targets, arena);
         for (int axis = 0; axis < EMBEDDED_AXES; axis++)
-            target->axis[axis] = list->targets[i].axis[axis] / cell[axis];
+            target->axis[axis] = list->targets.items[i].axis[axis] / cell[axis];
     }
     energy_distance_close(&embedded, arena);
     return embedded;
@@ -232,7 +222,7 @@ static double mean_count(const struct ensemble_scene *scene)
     double sum = 0, lists = 0;
     for (size_t i = 0; i < scene->seeds.count; i++)
         for (size_t k = 0; k < scene->seeds.items[i].lists.count; k++, lists++)
-            sum += (double)scene->seeds.items[i].lists.items[k].count;
+            sum += (double)scene->seeds.items[i].lists.items[k].targets.count;
     return lists > 0 ? sum / lists : 0;
 }
 

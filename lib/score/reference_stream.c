@@ -6,6 +6,7 @@
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
+#include "score/target_score.h"
 #include "text/file_format.h"
 #include "text/json_scan.h"
 #include "text/record_read.h"
@@ -35,7 +36,8 @@ struct reference_stream {
     struct arena arena, words;
 };
 
-struct reference_stream *reference_stream_open(const char *path, bool partial, struct diag *diag)
+struct reference_stream *reference_stream_open(const char *path, bool partial,
+                                               struct input_pause pause, struct diag *diag)
 {
     struct input *input = input_open(path, diag);
     if (input == NULL) {
@@ -47,12 +49,8 @@ struct reference_stream *reference_stream_open(const char *path, bool partial, s
         (struct reference_stream){.input = input, .kind = frame_record.name, .partial = partial};
     reference->last = &reference->first;
     reference->frame.arena = &reference->arena;
+    input_before_waiting(input, pause);
     return reference;
-}
-
-void reference_stream_before_waiting(struct reference_stream *reference, struct input_pause pause)
-{
-    input_before_waiting(reference->input, pause);
 }
 
 void reference_stream_close(struct reference_stream *reference)
@@ -270,15 +268,15 @@ static int check_time(const struct frame *frame, double time_s, struct diag *dia
                      time_s, frame->time_s);
 }
 
-/* Reads the line found as a frame that has these sections. */
-static int read_frame(struct reference_stream *reference, unsigned sections,
-                      const struct frame **other, struct diag *diag)
+/* Reads the line found as a frame that has sensors and targets. */
+static int read_frame(struct reference_stream *reference, const struct frame **other,
+                      struct diag *diag)
 {
     struct frame *own = &reference->frame;
     if (frame_text_read(reference->line, reference->length, own, diag) != 0)
         return -1;
     frame_order(own);
-    unsigned missing = sections & ~own->present;
+    unsigned missing = (SECTION_SENSORS | SECTION_TARGETS) & ~own->present;
     if (missing != 0)
         return diag_fail(diag, DIAG_DATA, "%s: missing; expected the section, to compare with",
                          frame_section_name(missing & -missing));
@@ -287,32 +285,26 @@ static int read_frame(struct reference_stream *reference, unsigned sections,
 }
 
 int reference_stream_frame(struct reference_stream *reference, const struct frame *frame,
-                           unsigned sections, const struct frame **other, struct diag *diag)
+                           const struct frame **other, struct diag *diag)
 {
     int found = find(reference, frame, diag);
     if (found <= 0)
         return found;
-    if (read_frame(reference, sections, other, diag) != 0 ||
-        check_time(frame, (*other)->time_s, diag) != 0)
+    if (read_frame(reference, other, diag) == 0 && check_time(frame, (*other)->time_s, diag) == 0 &&
+        (*other)->seed != frame->seed)
+        diag_fail(diag, DIAG_DATA,
+                  "seed: %" PRIu64 "; expected %" PRIu64 ", as in the other stream", (*other)->seed,
+                  frame->seed);
+    if (diag->code != DIAG_OK)
         return reference_stream_prefix(reference, diag);
-    return 1;
+    return target_score_check(*other, frame, diag) == 0 ? 1 : -1;
 }
 
-int reference_stream_same_seed(const struct reference_stream *reference, const struct frame *frame,
-                               struct diag *diag)
-{
-    if (reference->frame.seed == frame->seed)
-        return 0;
-    diag_fail(diag, DIAG_DATA, "seed: %" PRIu64 "; expected %" PRIu64 ", as in the other stream",
-              reference->frame.seed, frame->seed);
-    return reference_stream_prefix(reference, diag);
-}
-
-int reference_stream_next(struct reference_stream *reference, unsigned sections,
-                          const struct frame **other, struct diag *diag)
+int reference_stream_next(struct reference_stream *reference, const struct frame **other,
+                          struct diag *diag)
 {
     int more = read_line(reference, diag);
-    if (more < 0 || (more > 0 && read_frame(reference, sections, other, diag) != 0))
+    if (more < 0 || (more > 0 && read_frame(reference, other, diag) != 0))
         return reference_stream_prefix(reference, diag);
     return more;
 }

@@ -13,25 +13,23 @@
 struct reference_stream;
 
 /* Opens the file, or standard input for "-". With partial true, frames that only one stream has are
- * counted; else they are errors. NULL after a message. */
-struct reference_stream *reference_stream_open(const char *path, bool partial, struct diag *diag);
-void reference_stream_before_waiting(struct reference_stream *reference, struct input_pause pause);
+ * counted; else they are errors. The pause comes before a wait for a line. NULL after a message. */
+struct reference_stream *reference_stream_open(const char *path, bool partial,
+                                               struct input_pause pause, struct diag *diag);
 void reference_stream_close(struct reference_stream *reference);
 
-/* Finds the line for this frame's scene and number and reads it as a frame with these sections and
- * the same time, in canonical order and checked. *other belongs to the stream and stays until the
- * next call. Returns 1, 0 if there is no such line, -1 after a message. */
+/* Finds the line for this frame's scene and number and reads it as a frame with sensors and
+ * targets, in canonical order and checked. Refuses another time, another seed, and sensors that
+ * cannot be compared (target_score_check). *other belongs to the stream and stays until the next
+ * call. Returns 1, 0 if there is no such line, -1 after a message. */
 int reference_stream_frame(struct reference_stream *reference, const struct frame *frame,
-                           unsigned sections, const struct frame **other, struct diag *diag);
+                           const struct frame **other, struct diag *diag);
 
-/* Refuses the frame that was read last if its seed is not that of this frame. */
-int reference_stream_same_seed(const struct reference_stream *reference, const struct frame *frame,
-                               struct diag *diag);
-
-/* Reads the next line as such a frame, whatever its scene: for streams that are read alone, never
- * between calls of the other functions. Returns 1, 0 at the end, -1 after a message. */
-int reference_stream_next(struct reference_stream *reference, unsigned sections,
-                          const struct frame **other, struct diag *diag);
+/* Reads the next line as a frame with sensors and targets, whatever its scene: for streams that are
+ * read alone, never between calls of the other functions. Returns 1, 0 at the end, -1 after a
+ * message. */
+int reference_stream_next(struct reference_stream *reference, const struct frame **other,
+                          struct diag *diag);
 
 /* Puts the place of the line found last in front of a message: for what callers refuse in it. */
 int reference_stream_prefix(const struct reference_stream *reference, struct diag *diag);

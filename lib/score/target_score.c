@@ -99,16 +99,11 @@ static size_t enter_targets(struct entry *entries, const struct frame *frame, co
 
 static double component(const struct target *target, int which)
 {
-    switch (which) {
-    case SCORE_RANGE:
-        return target->range_m;
-    case SCORE_AZIMUTH:
-        return target->azimuth_rad;
-    case SCORE_RANGE_RATE:
-        return target->range_rate_mps;
-    default:
-        return target->amplitude_db;
-    }
+    const double values[COMPONENTS] = {[SCORE_RANGE] = target->range_m,
+                                       [SCORE_AZIMUTH] = target->azimuth_rad,
+                                       [SCORE_RANGE_RATE] = target->range_rate_mps,
+                                       [SCORE_AMPLITUDE] = target->amplitude_db};
+    return values[which];
 }
 
 static void add_values(struct score_values *values, const struct target *target,
@@ -228,6 +223,7 @@ struct target_pairs target_score_pairs(const char *sensor, const struct frame *t
             list_add(&pairs.list, arena)->listed = entries[i].target;
     return pairs;
 }
+
 void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena)

@@ -17,7 +17,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     struct fuzz_file file;
     fuzz_open(&file, bytes, size);
     struct diag diag = {0};
-    struct reference_stream *tracks = reference_stream_open(file.path, true, &diag);
+    struct reference_stream *tracks =
+        reference_stream_open(file.path, true, (struct input_pause){0}, &diag);
     for (int number = 0; diag.code == DIAG_OK && number < 3; number++)
         match(tracks, number, &diag);
     if (diag.code == DIAG_OK)
