@@ -1,7 +1,6 @@
 /* What accuracy costs: chains of stages by time and error, measured on a sample of the frames, and
  * the pipeline that holds a bound on one of the two. */
 #include "run/cost.h"
-#include "run/frame_stream.h"
 #include "run/plan.h"
 #include "run/tool.h"
 #include "text/output.h"
@@ -72,13 +71,11 @@ static int plan_sample(struct cost_state *own, struct diag *diag)
     struct frame frame = {.arena = &arena};
     const struct frame_sample *sample = &own->cost.sample;
     int result = 0;
-    for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
-        const struct sampled_frame *sampled = &sample->list.items[i];
-        if (frame_stream_parse(sampled->line, sampled->length, &frame, diag) != 0 ||
+    for (size_t i = 0; result == 0 && i < sample->list.count; i++)
+        if (chain_trials_read(&sample->list.items[i], &frame, diag) != 0 ||
             plan_try(&own->plan, &frame) != 0)
             result = diag_prefix(diag, "scene \"%s\", frame %lld: ", frame.scene,
                                  (long long)frame.frame);
-    }
     arena_free(&arena);
     own->cost.needed = plan_effects(&own->plan);
     return result;

@@ -54,8 +54,8 @@ const struct stage stage_noise = {
         "Adds complex noise to the sum and delta pointers and estimates the angle from them,\n"
         "adds noise to range and range rate, turns the angle by misalignment and radome,\n"
         "applies the final threshold, adds false alarms, and lists the targets in the sensor's\n"
-        "order up to its limit, rounded to its steps. Each target has a label that says\n"
-        "exactly which reflectors it comes from.",
+        "order up to its limit, rounded to its steps. The label of a target names the\n"
+        "reflectors that it comes from.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,

@@ -55,8 +55,8 @@ const struct stage stage_sensor = {
     .details =
         "Gives every echo its amplitude, adds echoes of wheels, limbs and clutter, puts echoes\n"
         "that the radar cannot resolve into one cell, loses cells whose summed amplitude is\n"
-        "below the detection threshold, and writes what the sum and delta channels would show\n"
-        "of the other cells without noise.",
+        "below the detection threshold, and writes the pointers of the other cells in the sum\n"
+        "and delta channels, without noise.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,

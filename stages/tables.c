@@ -22,7 +22,7 @@ static int make_folder(const char *folder, struct diag *diag)
     return diag_fail(diag, DIAG_CANNOT_CREATE, "DIR: %s: %s", folder, strerror(errno));
 }
 
-/* Beside a table of the other kind none is written, as readers take both. */
+/* Refuses a folder that has a table of the other kind, packed or plain, as readers take both. */
 static int open_outputs(struct tables_state *own, struct runner *runner)
 {
     if (make_folder(own->folder, runner_diag(runner)) != 0)
@@ -69,10 +69,10 @@ static int tables_run(void *state, struct runner *runner)
 
 static const struct field tables_options[] = {
     {FIELD_NAME_OF(struct tables_state, folder,
-                   "the folder that gets the seven tables; made if it is not there")},
+                   "the folder for the seven tables; it is made if it does not exist")},
     {OPTIONAL_FLAG(struct tables_state, plain, "write .csv instead of .csv.gz")},
     {OPTIONAL_INTEGER(struct tables_state, part, 0, 9e6,
-                      "number of this part of a set: its keys begin at so many times 1e9")},
+                      "number of this part of a set; its keys begin at 1e9 times the number")},
     {0},
 };
 
@@ -80,10 +80,11 @@ const struct stage stage_tables = {
     .name = "tables",
     .summary = "Write tables of targets, labels, objects, scans, sightings, losses and frames.",
     .details =
-        "The files are detections.csv.gz and so on. Columns are the members of the frame, with\n"
-        "the same names and units; columns that end in _key are whole numbers that join rows.\n"
-        "Parts of a set have keys of their own with --part. schemas/README.md says more. Beside a\n"
-        "table of the other kind, packed or plain, none is written, as readers take both.",
+        "The files are detections.csv.gz, objects.csv.gz and so on. Columns are the members of the "
+        "frame, with the same names and units. Columns that end in _key are whole numbers that "
+        "join the rows of two tables. The parts of one set need different keys: --part gives each "
+        "part its own. schemas/README.md describes the tables. A folder that has a table of the "
+        "other kind, packed (.csv.gz) or plain (.csv), is refused, as readers take both.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,

@@ -1,5 +1,5 @@
-/* A view for people: an HTML page that plays the stream and tells where every target came from, or
- * one frame as an SVG still. */
+/* An HTML page that plays the stream and shows which echoes made each target, or one frame as an
+ * SVG still. */
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "text/document.h"
@@ -61,7 +61,7 @@ static void take_still(struct view *view, const struct frame *frame, struct aren
     text_free(&text);
 }
 
-/* What lies beside the frames is matched by their names and numbers, in ascending order. */
+/* Frames of --truth and --tracks are matched by scene and number, so they must ascend. */
 static int check_order(struct view *view, const struct frame *frame, struct runner *runner)
 {
     bool beside = view->truth != NULL || view->tracks != NULL;
@@ -88,7 +88,8 @@ static int view_step(void *state, struct frame *frame, struct runner *runner)
     return 0;
 }
 
-/* A stream without frames has a page too; but a scene or frame that was asked for must be there. */
+/* Refuses a stream without the scene or frame that was asked for. A stream without any frame has a
+ * page, too. */
 static int check_found(const struct view *view, struct runner *runner)
 {
     if (view->found || (view->frame < 0 && view->only == NULL))
@@ -118,16 +119,17 @@ static int view_stop(void *state, struct runner *runner)
 
 static const struct field view_fields[] = {
     {OPTIONAL_FLAG(struct view, svg,
-                   "write one frame as an SVG still, as for an --output that ends in .svg")},
+                   "write one frame as an SVG still; so does an --output that ends in .svg")},
     {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53,
-                      "the page opens at this frame, the still shows it"),
+                      "number of the frame at which the page opens, or which the still shows"),
      .absent = -1},
     {OPTIONAL_NAME(struct view, only, "show only this scene"), .word = "SCENE"},
-    {OPTIONAL_NAME(struct view, vehicles, "the folder given to glint-extract, if one was"),
+    {OPTIONAL_NAME(struct view, vehicles, "the folder that was given to glint-extract, if any"),
      .word = "DIR"},
-    {OPTIONAL_NAME(struct view, truth, "frames to compare with: what is missed and false in them"),
+    {OPTIONAL_NAME(struct view, truth,
+                   "frames with the true targets, to show which are missed and which are false"),
      .word = "FILE"},
-    {OPTIONAL_NAME(struct view, tracks, "what a tracker says, as for glint-score-tracks"),
+    {OPTIONAL_NAME(struct view, tracks, "a tracker's tracks, in the format of glint-score-tracks"),
      .word = "FILE"},
     {0},
 };
@@ -136,12 +138,13 @@ const struct stage stage_view = {
     .name = "view",
     .summary = "Write an HTML page that plays the stream, or one frame as an SVG still.",
     .details =
-        "The page is one file without any connection: open it in a browser. With --sections\n"
-        "account given to glint-ideal it also tells why a reflector is in no target. Without\n"
-        "--frame the page opens where most is to be seen, and the still shows the frame with most\n"
-        "targets. Written at the end of the stream. With --truth the page shows the targets of\n"
-        "another stream of the same scenes over those of this one, paired as glint-score pairs\n"
-        "them; with --tracks a tracker's tracks, paired with the objects in view.",
+        "The page is one file that needs no network: open it in a browser. Without --frame the "
+        "page opens where there is most to see, and the still shows the frame with the most "
+        "targets. If glint-ideal was given --sections account, the page also shows why a reflector "
+        "is in no target. With --truth the page shows the targets of another stream of the same "
+        "scenes beside those of this one, in the pairs of glint-score. With --tracks it shows a "
+        "tracker's tracks, in pairs with the objects in view. The output comes at the end of the "
+        "stream.",
     .options = STAGE_OPTIONS(struct view, view_fields),
     .sink = true,
     .reads = SECTION_OBJECTS,

@@ -80,6 +80,11 @@ int chain_trials_sample(struct frame_sample *sample, const struct frame *frame, 
     return result;
 }
 
+int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag)
+{
+    return frame_stream_parse(sampled->line, sampled->length, frame, diag);
+}
+
 void chain_trials_divide(struct frame_sample *sample)
 {
     size_t count = sample->list.count, scenes = sample->names.list.count;
@@ -121,7 +126,7 @@ static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
     struct frame *frame = &pass->frame;
     struct diag *diag = runner_diag(runner);
     int64_t begin_ns = chain_cpu_ns();
-    if (frame_stream_parse(sampled->line, sampled->length, frame, diag) != 0)
+    if (chain_trials_read(sampled, frame, diag) != 0)
         return -1;
     frame->seed = sampled->seed + (pass->seed << 32);
     for (size_t i = (frame->present & SECTION_REFLECTORS) != 0; i < pass->stages.count; i++)

@@ -1,4 +1,4 @@
-/* Chains of stages on a sample of frames: distances, time.
+/* Chains tried on a sample of frames: distances and time.
  *
  * Every chain runs with several seeds. The k-th seed of a frame is its own seed + k 2^32, modulo
  * 2^64. The reference has the odd k, from 1; all other chains share the even k, from 2. So
@@ -20,7 +20,7 @@ enum { CHAIN_TRIALS_SEEDS = 4 };
 enum { CHAIN_TRIALS_ENERGY = 1 << 0, CHAIN_TRIALS_ERROR = 1 << 1 };
 
 struct sampled_frame {
-    const char *line; /* without its newline, for frame_stream_parse */
+    const char *line; /* without its newline */
     size_t length;
     uint64_t seed;
     int64_t place;       /* in the stream, from 0 */
@@ -46,6 +46,9 @@ int chain_trials_sample(struct frame_sample *sample, const struct frame *frame, 
  * else each scene is cut into stretches, 10 in all or a few more, or as many as there are frames.
  */
 void chain_trials_divide(struct frame_sample *sample);
+
+/* Reads a frame of the sample, in canonical order and checked. */
+int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag);
 
 /* A chain, as it was measured. The first group of members says what it is, chain_trials_run
  * measures the second, and cost.h the third. */

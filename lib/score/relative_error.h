@@ -1,8 +1,9 @@
-/* Error of a chain, relative to that of ideal echoes.
+/* A chain's error relative to ideal echoes, and its interval.
  *
  * The lists of a reference, of a chain and of ideal echoes are samples of random lists, over the
- * same scans. The error of the chain is that of MODEL 11.2: 1 for ideal echoes, 0 for a chain that
- * is not told from the reference.
+ * same scans. The error is D of the chain over D of ideal echoes (MODEL 11.2), D being the energy
+ * distance from the reference: 1 for ideal echoes, 0 for a chain with the law of the reference. The
+ * interval covers 95 %.
  *
  * Scans that follow each other are alike, so they are counted in blocks: whole scenes, or stretches
  * of one. The interval takes numerator and denominator together (Hesterberg, The American
