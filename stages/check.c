@@ -1,4 +1,4 @@
-/* Whether a stream is what it claims to be. */
+/* Checks that a stream is whole and that its labels agree with its truth. */
 #include <inttypes.h>
 
 #include "frame/frame_labels.h"

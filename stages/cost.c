@@ -153,7 +153,8 @@ const struct stage stage_cost = {
     .details =
         "Measures chains of stages on a sample of the frames: CPU time, and error. The error is "
         "the energy distance of a chain's lists from those of a reference, in per cent of that of "
-        "ideal echoes. A chain of 0 % is not told from the reference. The reference is the "
+        "ideal echoes. At 0 % a chain's lists cannot be told from those of the reference. The "
+        "reference is the "
         "signal, if the suite has a waveform and glint-sensor-signal lies beside this program, "
         "and else all that the suite describes. Of the frames it reads the objects and, if they "
         "are there, the reflectors. Prints at the end of the stream. pipelines/README.md says how "

@@ -110,8 +110,8 @@ static int first_frame(struct chain *chain)
     return more;
 }
 
-/* A source knows how many frames there will be, and a file has a size; whoever reads a pipe leaves
- * it to the other side. What a terminal already shows of the output tells enough. */
+/* Shows the share of the frames that a source expects, or of the file's size; nothing for a pipe,
+ * or where a terminal shows the output itself. */
 static void show_progress(struct chain *chain)
 {
     const struct runner *first = &chain->runners[0], *end = last(chain);
@@ -190,7 +190,7 @@ static void send_on(void *with)
         output_flush(runner->outputs.items[i], &runner->diag);
 }
 
-/* Is the file one that an option or the operand of the stage names? */
+/* True if an option or the operand of the stage names the file. */
 static bool is_option(const char *path, const struct field *fields, const char *base)
 {
     for (const struct field *field = fields; field->name != NULL; field++) {

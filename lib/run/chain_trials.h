@@ -1,12 +1,12 @@
 /* Chains tried on a sample of frames: distances and time.
  *
  * Every chain runs with several seeds. The k-th seed of a frame is its own seed + k 2^32, modulo
- * 2^64. The reference has the odd k, from 1; all other chains share the even k, from 2. So
- * reference and chains are independent, and chains differ from each other by no draw that both
- * make.
+ * 2^64. The reference has the odd k, from 1; all other chains share the even k, from 2. So the
+ * reference and the chains are independent, and two chains use the same random numbers where both
+ * draw them.
  *
- * Times are CPU time of all that `glint` does with a frame: its line is read and checked, goes
- * through all stages, and is written. */
+ * The time of a frame is the CPU time to read and check its line, to run all stages, and to write
+ * it. */
 #pragma once
 
 #include "base/intern.h"
@@ -28,9 +28,10 @@ struct sampled_frame {
 };
 
 /* A sample of a stream's frames, spread evenly over it. All frames are kept until there are more
- * than `most`. Then one of each stretch of 2 is kept, of 4, of 8 and so on: drawn by its place in
- * the stream alone, so that no sensor's cycle is in step with the sample. Frames are kept as lines
- * of their objects and reflectors. Zeroed but for arena and most before the first frame. */
+ * than `most`. Then one frame is kept of each stretch of 2, later of 4, of 8 and so on. It is drawn
+ * by its place in the stream alone, so that no sensor's cycle is in step with the sample. Frames
+ * are kept as lines of their objects and reflectors. Zeroed but for arena and most before the first
+ * frame. */
 struct frame_sample {
     struct arena *arena;
     int64_t most; /* of the frames that are kept; at least 1 */

@@ -1,9 +1,9 @@
 /* What accuracy costs on a sample of frames. glint-cost prints it.
  *
- * The chains are ideal echoes, the paper's effects and all that the suite
- * describes; leaves out, one at a time, the effects that these frames call for; and ends with finer
- * models. Errors are from a reference: the signal where the suite has a waveform and this build has
- * glint-sensor-signal, else all that the suite describes, with other seeds. */
+ * The chains are: ideal echoes; the paper's effects; all effects that the suite describes; the same
+ * without one effect, for each effect that these frames call for; and finer models. Errors are
+ * measured from a reference: the signal, if the suite has a waveform and this build has
+ * glint-sensor-signal, or else all effects with other seeds. */
 #pragma once
 
 #include "run/chain_trials.h"

@@ -17,7 +17,7 @@
 #include "text/output.h"
 #include "text/path.h"
 
-/* What somebody reads who types glint and nothing else. */
+/* The text of `glint` without arguments. */
 static const char first_hour[] =
     "glint simulates the target lists that automotive radars report, with labels.\n"
     "\n"
@@ -94,7 +94,7 @@ static bool prepare(struct runner *runner, const struct command *command, struct
     return stage != NULL;
 }
 
-/* Refuses what a pipe of processes would do in another way than one process. */
+/* Refuses a program at a place where it would behave differently in a pipe of processes. */
 static int check_place(const struct runner *runner, const struct command *command, size_t index,
                        size_t count, struct diag *diag)
 {
@@ -233,7 +233,7 @@ static void add_effect(const struct effect *effect, struct text *text)
                 leaves ? effect->left_out_when : "", effect->cost);
 }
 
-/* What a suite or a scenario says of its origin, without "Made for glint ...: " at its begin. */
+/* The origin of a suite or a scenario, without "Made for glint ...: " at its beginning. */
 static void add_origin(const char *name, const char *path, struct text *text, struct arena *arena)
 {
     (void)name;

@@ -50,8 +50,8 @@ struct stage {
      * calls it for every sensor of the suite. */
     void (*visit)(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection);
-    /* Called on a stage whose frame is refused. Returns -1 after a message that names the place in
-     * what the stage read, or 0 if that is not to blame. NULL: it never is. */
+    /* Called on a stage whose frame is refused. Returns -1 after a message that names the faulty
+     * place in the stage's input, or 0 if the input is not the cause. NULL: it never is. */
     int (*locate_fault)(void *state, const struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
     int (*run)(void *state, struct runner *runner);  /* the whole work of a tool */

@@ -1,6 +1,6 @@
 /* Energy distance of two random target lists, from their samples (MODEL 11.2).
  *
- * Two lists, of any lengths, are as far apart as their sums of Gaussian kernels are: |m(X) - m(Y)|.
+ * The distance of two lists, of any lengths, is |m(X) - m(Y)|, m being a sum of Gaussian kernels.
  * The kernel is characteristic, so m tells all lists apart (Sriperumbudur et al., JMLR 11, 2010),
  * and the length is of strong negative type (Lyons, Annals of Probability 41, 2013), as the energy
  * distance needs it. Differences of coordinates are not wrapped. */

@@ -6,9 +6,9 @@
  * interval covers 95 %.
  *
  * Scans that follow each other are alike, so they are counted in blocks: whole scenes, or stretches
- * of one. The interval takes numerator and denominator together (Hesterberg, The American
- * Statistician 69, 2015, has the factor of its bootstrap). Both its parts have the scatter of
- * single draws in them, so where nothing else scatters the interval is too wide. */
+ * of one. The bootstrap resamples numerator and denominator together (Hesterberg, The American
+ * Statistician 69, 2015, has the factor), and a jackknife adds the scatter over seeds. Both parts
+ * contain the scatter of single draws, so the interval is too wide where nothing else scatters. */
 #pragma once
 
 #include "base/arena.h"

@@ -253,6 +253,11 @@ static void draw_scale(struct drawing *drawing)
                 step);
 }
 
+static void add_note(struct text *text, double y, const char *words)
+{
+    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">%s</text>\n", y, words);
+}
+
 static void draw_legend(struct drawing *drawing)
 {
     const struct frame *frame = drawing->frame;
@@ -271,19 +276,15 @@ static void draw_legend(struct drawing *drawing)
         text_add_word(text, "; its line: radial speed, 0.5 s long</text>\n");
     }
     add_symbol(text, 0, true, (struct vec2){29, y + 16});
-    text_format(text,
-                "<text class=\"note\" x=\"46\" y=\"%.0f\">ghost, clutter or false alarm</text>\n",
-                y + 20);
+    add_note(text, y + 20, "ghost, clutter or false alarm");
     text_format(text, "<circle class=\"lit\" cx=\"29\" cy=\"%.0f\" r=\"3\"/>\n", y + 36);
-    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">echo in a target</text>\n", y + 40);
+    add_note(text, y + 40, "echo in a target");
     if (!frame_carries(frame, CARRY_ACCOUNT))
         return;
     text_format(text, "<path class=\"lost\" d=\"M24.5 %.0fl9 9m0 -9l-9 9\"/>\n", y + 51);
-    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">echo in no target</text>\n",
-                y + 60);
+    add_note(text, y + 60, "echo in no target");
     text_format(text, "<circle class=\"centre\" cx=\"29\" cy=\"%.0f\" r=\"2\"/>\n", y + 76);
-    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">reflector without an echo</text>\n",
-                y + 80);
+    add_note(text, y + 80, "reflector without an echo");
 }
 
 static void begin_drawing(struct text *text)
