@@ -43,7 +43,8 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
         measurements[count++] = effect_measurement_of(NULL, &alarms.items[i]);
     struct detection_source source = detection_quality_source(sensor, cells, &context);
     if (frame_carries(frame, CARRY_QUALITY))
-        detection_quality_estimate(&source, measurements, count);
+        detection_quality_estimate(&source, effects_enabled(selection, EFFECT_THRESHOLD),
+                                   measurements, count);
     target_list_make(frame, "noise", &source, measurements, count);
 }
 

@@ -3,7 +3,20 @@
 #include "base/elementary.h"
 #include "base/units.h"
 #include "geometry/kinematics.h"
+#include "radar/detection.h"
 #include "radar/monopulse.h"
+
+/* The probability that an echo of which this power is left with noise has passed the first
+ * threshold, which acts before the noise. Its amplitude without the noise is complex Gaussian,
+ * given the one with it. */
+static double passed_first(const struct existence *existence, double power)
+{
+    double mean = existence->rise + existence->snr, part = existence->snr / mean;
+    if (existence->first_threshold == 0)
+        return 1;
+    return detection_in_noise(sqrt(power) * part, sqrt(existence->first_threshold),
+                              sqrt(part * existence->rise));
+}
 
 double detection_quality_existence(const struct existence *existence, double power)
 {
@@ -12,8 +25,11 @@ double detection_quality_existence(const struct existence *existence, double pow
         return 1;
     if (power < existence->least_echo)
         return 0;
+    double passed = passed_first(existence, power);
+    if (passed == 0)
+        return 0;
     /* ln(f0/f1), as both densities may be below the least double. */
-    double log_odds = elementary_log(existence->false_alarms * mean / existence->echoes) -
+    double log_odds = elementary_log(existence->false_alarms * mean / existence->echoes / passed) -
                       (power - least) + power / mean;
     return 1 / (1 + elementary_exp(log_odds));
 }
@@ -70,7 +86,7 @@ static void estimate_azimuth(const struct detection_source *source,
                            sensor->field_of_view_rad / sqrt(12));
 }
 
-void detection_quality_estimate(struct detection_source *source,
+void detection_quality_estimate(struct detection_source *source, bool first_threshold,
                                 struct effect_measurement *measurements, size_t count)
 {
     struct existence *existence = &source->existence;
@@ -78,6 +94,8 @@ void detection_quality_estimate(struct detection_source *source,
     existence->least_false_alarm = least * least;
     if (effect_simulates(source->scan, EFFECT_FALSE_ALARMS))
         existence->false_alarms = source->sensor->false_alarms;
+    if (first_threshold)
+        existence->first_threshold = existence->least_false_alarm * existence->rise;
     if (effect_simulates(source->scan, EFFECT_FINAL_THRESHOLD))
         existence->least_echo = existence->least_false_alarm * existence->rise;
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))

@@ -3,13 +3,15 @@
 
 #include "effects/effect.h"
 
-/* Parameters of the probability of existence. Powers of echoes and of noise alone are exponentially
- * distributed from least_echo and least_false_alarm on. All powers are in units of the power of a
- * channel's own noise. */
+/* Parameters of the probability of existence. Powers of echoes are exponentially distributed; an
+ * echo below first_threshold is lost before noise is added to it, one below least_echo after it.
+ * Powers of noise alone are exponentially distributed from least_false_alarm on. All powers are in
+ * units of the power of a channel's own noise. */
 struct existence {
     double echoes;                        /* mean number in a scan, detected or not; > 0 */
     double snr;                           /* mean power of an echo; > 0 */
     double false_alarms;                  /* mean number in a scan */
+    double first_threshold;               /* least power without noise; 0: all pass */
     double least_false_alarm, least_echo; /* least powers that pass the thresholds; 0: all pass */
     double rise;                          /* power of the noise with other radars, >= 1 */
 };
@@ -34,8 +36,9 @@ struct detection_source detection_quality_source(const struct sensor *sensor,
                                                  const struct effect_scan *scan);
 
 /* For glint-noise: sets false alarms and thresholds of the source, and the standard deviations of
- * the measurements as the sensor estimates them: from the measured amplitude, not the exact one. */
-void detection_quality_estimate(struct detection_source *source,
+ * the measurements as the sensor estimates them: from the measured amplitude, not the exact one.
+ * first_threshold: did the sensor test its cells before the noise? */
+void detection_quality_estimate(struct detection_source *source, bool first_threshold,
                                 struct effect_measurement *measurements, size_t count);
 
 /* The quality of a target that the measurement became. Its standard deviations combine those of the

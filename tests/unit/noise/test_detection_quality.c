@@ -148,7 +148,7 @@ static struct effect_measurement estimated(struct effect_bench *bench,
     struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_NOISE);
     *source = (struct detection_source){
         .sensor = &bench->sensor, .scan = &scan, .noise = 1, .existence.rise = 1};
-    detection_quality_estimate(source, &measurement, 1);
+    detection_quality_estimate(source, true, &measurement, 1);
     measurement.cell = NULL;
     source->scan = NULL;
     return measurement;
@@ -211,6 +211,7 @@ static void false_alarms_are_expected_where_they_are_made(void **state)
     assert_close(source.existence.false_alarms, 0.5, 0);
     assert_close(source.existence.least_false_alarm, 9, 1e-12);
     assert_close(source.existence.least_echo, 9, 1e-12);
+    assert_close(source.existence.first_threshold, 9, 1e-12);
     estimated(bench, &source, 30, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_FALSE_ALARMS));
     assert_close(source.existence.false_alarms, 0, 0);
 }

@@ -56,6 +56,33 @@ static void densities_below_the_least_double_still_compare(void **state)
     assert_near(detection_quality_existence(&existence, 2000), 1 / (1 + exp(log_odds)), 1e-12);
 }
 
+/* Marcum's Q1(sqrt(2 z) S/(s w), sqrt(2 z_T)/w), integrated numerically (MODEL 14.21): the share of
+ * the echoes of power z that met z_T before the noise. */
+static void echoes_that_fail_the_first_threshold_are_taken_out_of_the_expected_ones(void **state)
+{
+    (void)state;
+    static const struct {
+        double snr, rise, power, first, share;
+    } rows[] = {{10, 1, 4, 5, 0.326459988433},
+                {10, 1, 6, 5, 0.555573903194},
+                {10, 3, 15, 16, 0.213966075743},
+                {10, 3, 30, 16, 0.629640724351},
+                {100, 1, 64, 63.7, 0.483412128171}};
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        const struct existence existence = {.echoes = 2,
+                                            .snr = rows[i].snr,
+                                            .false_alarms = 0.5,
+                                            .least_false_alarm = rows[i].power - 1,
+                                            .first_threshold = rows[i].first,
+                                            .rise = rows[i].rise};
+        double mean = rows[i].rise + rows[i].snr;
+        double echo = 2 * rows[i].share * exp(-rows[i].power / mean) / mean;
+        double noise = 0.5 * exp(-1);
+        double probability = detection_quality_existence(&existence, rows[i].power);
+        assert_near(probability, echo / (echo + noise), 1e-6);
+    }
+}
+
 struct bin {
     double expected, variance, echoes;
 };
@@ -98,6 +125,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probabilities_are_those_of_bayes_rule),
         cmocka_unit_test(powers_that_one_cause_alone_can_have_are_certain),
+        cmocka_unit_test(echoes_that_fail_the_first_threshold_are_taken_out_of_the_expected_ones),
         cmocka_unit_test(densities_below_the_least_double_still_compare),
         cmocka_unit_test(of_detections_with_a_probability_so_many_are_echoes),
     };
