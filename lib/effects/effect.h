@@ -72,7 +72,8 @@ struct effect_measurement {
     double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
     double amplitude; /* linear */
     bool sign_undecided;
-    uint64_t effects; /* the effects that changed one of the values */
+    bool looks_merged; /* do the pointers differ from those of a single echo by more than noise? */
+    uint64_t effects;  /* the effects that changed one of the values */
     struct margins margins;
 };
 

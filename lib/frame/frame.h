@@ -156,10 +156,11 @@ enum quality_group {
     QUALITY_ERRORS = 1 << 2, /* standard deviations */
     QUALITY_FOLDS = 1 << 3,  /* interval and ambiguity_number */
     QUALITY_MERGED = 1 << 4,
-    QUALITY_MOUNT = 1 << 5, /* places from the sensor and the centre */
-    QUALITY_EGO = 1 << 6,   /* places and rate that need to know the ego */
+    QUALITY_MOUNT = 1 << 5,    /* places from the sensor and the centre */
+    QUALITY_EGO = 1 << 6,      /* places and rate that need to know the ego */
+    QUALITY_POINTERS = 1 << 7, /* looks_merged */
 };
-_Static_assert(QUALITY_EGO < 1U << 31, "a set of groups is an unsigned");
+_Static_assert(QUALITY_POINTERS < 1U << 31, "a set of groups is an unsigned");
 
 /* Quality of a detection by its report and the sensor's document (MODEL 14.21), and exact labels.
  */
@@ -169,6 +170,7 @@ struct quality {
     double existence;                                     /* probability of an echo */
     double range_rate_interval_mps;                       /* rates this far apart read alike */
     int64_t ambiguity_number; /* label: true rate less reported one, in such intervals */
+    bool looks_merged;        /* do the pointers show several echoes? */
     bool merged_objects, merged_reflectors; /* labels: are contributors of several? */
     double range_rate_over_ground_mps;      /* without the sensor's own motion */
     double x_sensor_m, y_sensor_m, x_centre_m, y_centre_m;

@@ -71,15 +71,25 @@ static void estimate_range(const struct detection_source *source,
     measurement->range_rate_sigma_mps = noisy ? rate_mps : 0;
 }
 
+/* The quadrature of a single echo is beyond 3 standard deviations with 0.27 %. The angle of several
+ * echoes is off by as much in phase as in quadrature, on average over their phases (MODEL 14.21).
+ */
+static const double SINGLE = 3, WIDER = 1;
+
 /* The standard deviation is at most that of an azimuth anywhere in the field of view. */
 static void estimate_azimuth(const struct detection_source *source,
                              struct effect_measurement *measurement, double noise)
 {
     const struct sensor *sensor = source->sensor;
     double ratio = measurement->amplitude / noise, sigma_rad = 0;
-    if (noise > 0)
+    if (noise > 0) {
+        double quadrature = monopulse_quadrature(measurement->pointers, noise);
         sigma_rad = monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
                                         measurement->azimuth_rad, ratio * ratio);
+        measurement->looks_merged = fabs(quadrature) > SINGLE;
+        if (measurement->looks_merged)
+            sigma_rad *= elementary_hypot(1, WIDER * quadrature);
+    }
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         measurement->azimuth_sigma_rad =
             elementary_min(elementary_hypot(sigma_rad, sensor->azimuth_floor_rad),
@@ -100,6 +110,7 @@ void detection_quality_estimate(struct detection_source *source, bool first_thre
         existence->least_echo = existence->least_false_alarm * existence->rise;
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         noise = source->noise * sqrt(existence->rise);
+    source->channels = noise > 0;
     for (size_t i = 0; i < count; i++) {
         estimate_range(source, &measurements[i], noise);
         estimate_azimuth(source, &measurements[i], noise);
@@ -129,6 +140,9 @@ static void add_errors(const struct detection_source *source,
     quality->azimuth_sd_rad =
         rounded_sigma(source, measurement->azimuth_sigma_rad, sensor->azimuth_step_rad);
     quality->present |= QUALITY_ERRORS;
+    quality->looks_merged = measurement->looks_merged;
+    if (source->channels)
+        quality->present |= QUALITY_POINTERS;
 }
 
 static void add_strength(const struct detection_source *source,

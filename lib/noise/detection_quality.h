@@ -26,6 +26,7 @@ struct detection_source {
     const struct effect_scan *scan; /* NULL: nothing is rounded */
     double noise;                   /* RMS of a channel's own noise; 0: none */
     struct existence existence;     /* echoes and snr are not set */
+    bool channels; /* do measurements have noisy pointers of the sum and delta channels? */
     double range_rate_interval_mps; /* range rates this far apart are ambiguous; 0: none are */
 };
 

@@ -80,6 +80,17 @@ double monopulse_sigma_rad(const struct antenna *antenna, enum monopulse_estimat
     return elementary_cos(ratio_angle_rad(antenna, azimuth_rad)) * sqrt(power / snr) / slope;
 }
 
+double monopulse_quadrature(struct antenna_pointers pointers, double noise)
+{
+    struct scaled_pointer sum = scale_pointer(pointers.sum);
+    struct scaled_pointer delta = scale_pointer(pointers.delta);
+    double along = delta.real * sum.real + delta.imag * sum.imag;
+    double size = sum.size == 0 ? 0 : elementary_scaled(along / sum.size, delta.exponent);
+    double ratio =
+        sum.size == 0 ? 0 : elementary_scaled(delta.size / sum.size, delta.exponent - sum.exponent);
+    return size / (noise * sqrt((1 + ratio * ratio) / 2));
+}
+
 double monopulse_sign_margin(struct antenna_pointers pointers)
 {
     struct scaled_pointer sum = scale_pointer(pointers.sum);

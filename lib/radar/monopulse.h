@@ -35,6 +35,11 @@ struct monopulse_angle monopulse_angle(const struct antenna *antenna,
 double monopulse_sigma_rad(const struct antenna *antenna, enum monopulse_estimator estimator,
                            double azimuth_rad, double snr);
 
+/* The part of delta/sum that a single echo does not have, Re(delta conj(sum))/|sum|^2, over its
+ * standard deviation by noise of this RMS > 0 on each channel, sqrt((1 + |delta/sum|^2)/2)
+ * noise/|sum|: for one echo a standard Gaussian number, to first order. 0 without a sum. */
+double monopulse_quadrature(struct antenna_pointers pointers, double noise);
+
 /* The margin of the sign under MONOPULSE_MAGNITUDE: |Im(delta conj(sum))| / (|delta| |sum|), from
  * 0, undecided, to 1. NaN if a pointer is zero. */
 double monopulse_sign_margin(struct antenna_pointers pointers);
