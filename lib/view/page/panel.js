@@ -336,6 +336,7 @@ function qualityRows(target) {
         ['exists with', number('existence', 1, ' %', 100)],
         ['rate less the sensor’s own', number('range_rate_over_ground_mps', 3, ' m/s')],
         ...folds,
+        ['channels show several echoes', Number.isNaN(value('looks_merged')) ? 'not known' : value('looks_merged') ? 'yes' : 'no'],
         ['label: merged', merged],
         ['from the sensor', place('x_sensor_m', 'y_sensor_m')],
         ['from the ego’s centre', place('x_centre_m', 'y_centre_m')],

@@ -180,6 +180,26 @@ static void standard_deviations_follow_the_amplitude_that_was_measured(void **st
     assert_near(known.azimuth_sigma_rad, PI / 2 / sqrt(12), 1e-12);
 }
 
+/* A real delta/sum of 0.1 is 0.1 · 100/sqrt(1.01/2) standard deviations from that of one echo. */
+static void an_azimuth_of_several_echoes_has_a_wider_deviation(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct cell cell = {0};
+    struct effect_measurement alone = measurement_of(bench, &cell), several;
+    alone.amplitude = 100;
+    alone.pointers.sum = 100;
+    several = alone;
+    several.pointers.delta = 10;
+    struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
+    struct detection_source source = {
+        .sensor = &bench->sensor, .scan = &scan, .noise = 1, .existence.rise = 1};
+    detection_quality_estimate(&source, true, &alone, 1);
+    detection_quality_estimate(&source, true, &several, 1);
+    assert_true(!alone.looks_merged && several.looks_merged);
+    assert_near(several.azimuth_sigma_rad / alone.azimuth_sigma_rad,
+                sqrt(1 + 100 * 100 / (1.01 / 2) * 0.01), 1e-9);
+}
+
 static void noise_that_is_not_simulated_has_no_deviation(void **state)
 {
     struct effect_bench *bench = *state;
@@ -242,6 +262,7 @@ int main(void)
         EFFECT_TEST(places_are_those_of_the_instant_that_the_scan_shows),
         EFFECT_TEST(the_label_tells_folds_and_merged_echoes),
         EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured),
+        EFFECT_TEST(an_azimuth_of_several_echoes_has_a_wider_deviation),
         EFFECT_TEST(noise_that_is_not_simulated_has_no_deviation),
         EFFECT_TEST(false_alarms_are_expected_where_they_are_made),
         EFFECT_TEST(rounding_adds_its_own_deviation),

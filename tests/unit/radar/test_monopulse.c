@@ -446,6 +446,41 @@ static void the_predicted_spread_is_that_of_noise(void **state)
     assert_near(monopulse_sigma_rad(&TABLE, MONOPULSE_RATIO, 0.35, 10000), sqrt(squares), 0.015);
 }
 
+/* Equal echoes at both sides, one ahead of the other by theta, have delta/sum = -tan u
+ * tan(theta/2), which is real, and a single echo has an imaginary one (MODEL 8.2). */
+static void several_echoes_have_a_quadrature_that_one_has_not(void **state)
+{
+    (void)state;
+    static const struct antenna centred = {.phase = PHASE_CENTRE};
+    const double u = PI / 2 * sin(0.1), theta = 0.5, noise = 0.01;
+    assert_close(monopulse_quadrature(antenna_pointers(&centred, 0.3), noise), 0, 1e-9);
+    struct antenna_pointers both = superpose(&centred, 0.1, 1, -0.1, phasor(theta));
+    double ratio = tan(u) * tan(theta / 2);
+    double sigma = noise / cabs(both.sum) * sqrt((1 + ratio * ratio) / 2);
+    assert_near(fabs(monopulse_quadrature(both, noise)), ratio / sigma, 1e-12);
+    both.delta *= 1e-200;
+    both.sum *= 1e-200;
+    assert_near(fabs(monopulse_quadrature(both, 1e-200 * noise)), ratio / sigma, 1e-12);
+    assert_close(monopulse_quadrature((struct antenna_pointers){0, 1}, noise), 0, 0);
+}
+
+/* Of a standard Gaussian number 0.27 % lie beyond 3. */
+static void noise_makes_a_quadrature_beyond_3_with_its_probability(void **state)
+{
+    (void)state;
+    int beyond = 0;
+    struct random_address address = {.seed = 6};
+    for (address.frame = 0; address.frame < DRAWS; address.frame++) {
+        double draw[4], noise = 0.85 / sqrt(2 * 100.0);
+        random_gaussian(&address, RANDOM_POINTERS, 0, draw);
+        struct antenna_pointers pointers = antenna_pointers(&TABLE, 0.35);
+        pointers.sum += noise * (draw[0] + draw[1] * (double _Complex)I);
+        pointers.delta += noise * (draw[2] + draw[3] * (double _Complex)I);
+        beyond += fabs(monopulse_quadrature(pointers, sqrt(2) * noise)) > 3;
+    }
+    assert_close((double)beyond / DRAWS, 0.0027, 4 * sqrt(0.0027 / DRAWS));
+}
+
 static void the_magnitude_angle_folds_at_boresight(void **state)
 {
     (void)state;
@@ -496,6 +531,8 @@ int main(void)
         cmocka_unit_test(noise_spreads_the_magnitude_angle_as_published),
         cmocka_unit_test(noise_spreads_the_ratio_angle_as_published),
         cmocka_unit_test(the_predicted_spread_is_that_of_noise),
+        cmocka_unit_test(several_echoes_have_a_quadrature_that_one_has_not),
+        cmocka_unit_test(noise_makes_a_quadrature_beyond_3_with_its_probability),
         cmocka_unit_test(the_magnitude_angle_folds_at_boresight),
         cmocka_unit_test(the_sign_margin_is_the_sine_between_the_channels),
     };
