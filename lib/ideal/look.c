@@ -1,5 +1,7 @@
 #include "ideal/look.h"
 
+#include <stdlib.h>
+
 #include "base/elementary.h"
 #include "base/hash.h"
 #include "base/number.h"
@@ -34,17 +36,9 @@ static struct box box_at(const struct object *object, double age_s)
     return (struct box){motion, vec2_heading(motion.yaw_rad), object->length_m, object->width_m};
 }
 
-static struct look_body *body_of_id(const struct look *look, const char *id)
+static int compare_id(const void *id, const void *body)
 {
-    size_t low = 0, high = look->body_count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        int order = frame_order_names(&id, &look->bodies[middle].object->id);
-        if (order == 0)
-            return &look->bodies[middle];
-        *(order < 0 ? &high : &low) = order < 0 ? middle : middle + 1;
-    }
-    return NULL;
+    return frame_order_names(id, &((const struct look_body *)body)->object->id);
 }
 
 static bool has_moved(const struct object *object, const struct motion *motion)
@@ -86,7 +80,8 @@ static int attach_reflectors(struct look *look, struct diag *diag)
             .bodies = arena_get(frame->arena, set->objects.count * sizeof(struct look_body *)),
         };
         for (size_t j = 0; j < set->objects.count; j++) {
-            struct look_body *body = body_of_id(look, set->objects.items[j]);
+            struct look_body *body = bsearch(&set->objects.items[j], look->bodies, look->body_count,
+                                             sizeof *body, compare_id);
             if (body == NULL)
                 return diag_fail(
                     diag, DIAG_DATA,
@@ -139,12 +134,6 @@ static void find_spare_bodies(struct look *look)
     }
 }
 
-/* With diffraction a wave loses power at each edge, so no body stands for another. */
-static bool is_indexed(const struct look *look, const struct look_body *body)
-{
-    return body->blocks && (!body->spare || look->wavelength_m > 0);
-}
-
 static void index_blockers(struct look *look)
 {
     struct arena *arena = look->frame->arena;
@@ -153,7 +142,8 @@ static void index_blockers(struct look *look)
     for (size_t i = 0; i < look->body_count; i++) {
         struct look_body *body = &look->bodies[i];
         body->shadow = extent_around(body, 1, look->rim_m);
-        if (is_indexed(look, body))
+        /* With diffraction a wave loses power at each edge, so no body stands for another. */
+        if (body->blocks && (!body->spare || look->wavelength_m > 0))
             look->indexed[look->indexed_count++] = body;
     }
     look->blocker_index = silhouette_index_begin(look->indexed_count, arena);

@@ -19,17 +19,12 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
     margins_note_sign(margins, sensor->angle_estimator, pointers);
 }
 
-static int compare_leaders(const struct effect_measurement *a, const struct effect_measurement *b)
-{
-    return frame_order_tied(a->cell->members.items, b->cell->members.items);
-}
-
 static int compare_strength(const void *left, const void *right)
 {
     const struct effect_measurement *a = left, *b = right;
     if (a->amplitude != b->amplitude)
         return a->amplitude > b->amplitude ? -1 : 1;
-    return compare_leaders(a, b);
+    return frame_order_tied(a->cell->members.items, b->cell->members.items);
 }
 
 static int compare_range(const void *left, const void *right)

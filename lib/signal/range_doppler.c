@@ -6,10 +6,6 @@
 /* Noise and other echoes may raise a side lobe by this factor. */
 #define SIDE_LOBE_MARGIN 2
 
-struct peak_list {
-    LIST_OF(struct range_doppler_peak) list;
-};
-
 /* True if a cell is a peak; of neighbours with equal power the first one is. */
 static bool is_peak(const struct range_doppler *spectrum, size_t rate_cell, size_t range_cell)
 {
@@ -159,7 +155,7 @@ size_t range_doppler_peaks(const struct range_doppler *spectrum, const struct cf
                            double least, struct arena *arena, struct range_doppler_peak **peaks)
 {
     size_t edge = spectrum->range_ring ? 0 : 1;
-    struct peak_list found = {{NULL, 0, 0}};
+    LIST_OF(struct range_doppler_peak) found = {0};
     for (size_t row = 0; row < spectrum->rate_cells; row++)
         for (size_t column = edge; column + edge < spectrum->range_cells; column++) {
             if (!is_peak(spectrum, row, column))
@@ -169,11 +165,11 @@ size_t range_doppler_peaks(const struct range_doppler *spectrum, const struct cf
                 continue;
             interpolate(spectrum, &peak);
             if (peak.amplitude >= least)
-                *list_add(&found.list, arena) = peak;
+                *list_add(&found, arena) = peak;
         }
-    sort_items(found.list.items, found.list.count, sizeof *found.list.items, compare_peaks, arena);
-    *peaks = found.list.items;
-    return drop_side_lobes(spectrum, found.list.items, found.list.count);
+    sort_list(&found, compare_peaks, arena);
+    *peaks = found.items;
+    return drop_side_lobes(spectrum, found.items, found.count);
 }
 
 struct range_doppler_peak range_doppler_at(const struct range_doppler *spectrum,
