@@ -56,12 +56,6 @@ static double reduced_distance_m(double sensor_side_m, double reflector_side_m)
     return near / (near / far + 1);
 }
 
-/* The argument of the logarithm in J. */
-static double steepness(double parameter)
-{
-    return elementary_hypot(parameter - 0.1, 1) + (parameter - 0.1);
-}
-
 double obstruction_edge_parameter(double depth_m, double sensor_side_m, double reflector_side_m,
                                   double wavelength_m)
 {
@@ -72,7 +66,8 @@ double obstruction_edge_amplitude_factor(double parameter)
 {
     if (!(parameter > LIT))
         return 1;
-    return TEN_TO_MINUS_069 / steepness(parameter) / steepness(parameter);
+    double steepness = elementary_hypot(parameter - 0.1, 1) + (parameter - 0.1);
+    return TEN_TO_MINUS_069 / steepness / steepness;
 }
 
 /* d1 d2/(d1 + d2) is largest half way, and each distance may have grown by 0.1 m. */

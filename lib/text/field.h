@@ -85,38 +85,31 @@ extern const struct field field_none[];
 #define FIELD_NAMED(member)                                                                        \
     .name = #member, .key = ",\"" #member "\":", .key_length = sizeof ",\"" #member "\":" - 1
 
+/* A member of any type, and a member of the C type that its kind stands for. */
+#define FIELD_OF(kind_, owner, member, help_)                                                      \
+    FIELD_NAMED(member), .kind = (kind_), .offset = offsetof(owner, member), .help = (help_)
+#define FIELD_TYPED(kind_, type, owner, member, help_)                                             \
+    FIELD_NAMED(member), .kind = (kind_), .offset = FIELD_AT(type, owner, member), .help = (help_)
+
 #define FIELD_REAL_IN(owner, member, low_, high_, help_)                                           \
-    FIELD_NAMED(member), .kind = FIELD_REAL, .offset = FIELD_AT(double, owner, member),            \
-                         .low = (low_), .high = (high_), .help = (help_)
+    FIELD_TYPED(FIELD_REAL, double, owner, member, help_), .low = (low_), .high = (high_)
 #define FIELD_INTEGER_IN(owner, member, low_, high_, help_)                                        \
-    FIELD_NAMED(member), .kind = FIELD_INTEGER, .offset = FIELD_AT(int64_t, owner, member),        \
-                         .low = (low_), .high = (high_), .help = (help_)
-#define FIELD_FLAG_OF(owner, member, help_)                                                        \
-    FIELD_NAMED(member), .kind = FIELD_FLAG, .offset = FIELD_AT(bool, owner, member),              \
-                         .help = (help_)
+    FIELD_TYPED(FIELD_INTEGER, int64_t, owner, member, help_), .low = (low_), .high = (high_)
+#define FIELD_FLAG_OF(owner, member, help_) FIELD_TYPED(FIELD_FLAG, bool, owner, member, help_)
 #define FIELD_NAME_OF(owner, member, help_)                                                        \
-    FIELD_NAMED(member), .kind = FIELD_NAME, .offset = FIELD_AT(const char *, owner, member),      \
-                         .help = (help_)
+    FIELD_TYPED(FIELD_NAME, const char *, owner, member, help_)
 #define FIELD_CHOICE_OF(owner, member, choices_, help_)                                            \
-    FIELD_NAMED(member), .kind = FIELD_CHOICE, .offset = offsetof(owner, member),                  \
-                         .choices = (choices_), .help = (help_)
-#define FIELD_SEED_OF(owner, member, help_)                                                        \
-    FIELD_NAMED(member), .kind = FIELD_SEED, .offset = FIELD_AT(uint64_t, owner, member),          \
-                         .help = (help_)
+    FIELD_OF(FIELD_CHOICE, owner, member, help_), .choices = (choices_)
+#define FIELD_SEED_OF(owner, member, help_) FIELD_TYPED(FIELD_SEED, uint64_t, owner, member, help_)
 #define FIELD_SET_OF(owner, member, choices_, help_)                                               \
-    FIELD_NAMED(member), .kind = FIELD_SET, .offset = FIELD_AT(uint64_t, owner, member),           \
-                         .choices = (choices_), .help = (help_)
-#define FIELD_NAMES_OF(owner, member, help_)                                                       \
-    FIELD_NAMED(member), .kind = FIELD_NAMES, .offset = offsetof(owner, member), .help = (help_)
+    FIELD_TYPED(FIELD_SET, uint64_t, owner, member, help_), .choices = (choices_)
+#define FIELD_NAMES_OF(owner, member, help_) FIELD_OF(FIELD_NAMES, owner, member, help_)
 #define FIELD_RECORD_OF(owner, member, record_, help_)                                             \
-    FIELD_NAMED(member), .kind = FIELD_RECORD, .offset = offsetof(owner, member),                  \
-                         .record = (record_), .help = (help_)
+    FIELD_OF(FIELD_RECORD, owner, member, help_), .record = (record_)
 #define FIELD_LIST_OF(owner, member, record_, help_)                                               \
-    FIELD_NAMED(member), .kind = FIELD_LIST, .offset = offsetof(owner, member),                    \
-                         .record = (record_), .help = (help_)
+    FIELD_OF(FIELD_LIST, owner, member, help_), .record = (record_)
 #define FIELD_RAW_OF(owner, member, help_)                                                         \
-    FIELD_NAMED(member), .kind = FIELD_RAW, .offset = FIELD_AT(const char *, owner, member),       \
-                         .optional = true, .help = (help_)
+    FIELD_TYPED(FIELD_RAW, const char *, owner, member, help_), FIELD_OPTIONAL
 #define FIELD_OPTIONAL .optional = true
 #define OPTIONAL_REAL(owner, member, low, high, help)                                              \
     FIELD_REAL_IN(owner, member, low, high, help), FIELD_OPTIONAL
