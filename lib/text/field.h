@@ -78,18 +78,16 @@ enum { FIELD_MOST = 127, FIELD_SEEN_WORDS = (FIELD_MOST + 64) / 64 };
 /* The table of a record without members. */
 extern const struct field field_none[];
 
-/* The offset of a member; a member of another type does not compile. */
-#define FIELD_AT(type, owner, member)                                                              \
-    (offsetof(owner, member) + 0 * sizeof((type *[]){&((owner *)0)->member}))
-
 #define FIELD_NAMED(member)                                                                        \
     .name = #member, .key = ",\"" #member "\":", .key_length = sizeof ",\"" #member "\":" - 1
 
-/* A member of any type, and a member of the C type that its kind stands for. */
+/* A member of any type, and a member of this type: one of another type does not compile. */
 #define FIELD_OF(kind_, owner, member, help_)                                                      \
     FIELD_NAMED(member), .kind = (kind_), .offset = offsetof(owner, member), .help = (help_)
 #define FIELD_TYPED(kind_, type, owner, member, help_)                                             \
-    FIELD_NAMED(member), .kind = (kind_), .offset = FIELD_AT(type, owner, member), .help = (help_)
+    FIELD_NAMED(member),                                                                           \
+        .kind = (kind_), .help = (help_),                                                          \
+        .offset = offsetof(owner, member) + 0 * sizeof((type *[]){&((owner *)0)->member})
 
 #define FIELD_REAL_IN(owner, member, low_, high_, help_)                                           \
     FIELD_TYPED(FIELD_REAL, double, owner, member, help_), .low = (low_), .high = (high_)
