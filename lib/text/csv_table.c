@@ -391,9 +391,12 @@ int csv_table_number(const struct csv_table *table, size_t row, size_t column, d
 
 size_t csv_table_quote(const char *text, char *cell, size_t room)
 {
-    size_t length = strlen(text);
-    if (text[strcspn(text, ",\"\r\n")] != '\0')
-        return csv_write(cell, room, text, length);
-    memcpy(cell, text, length);
+    size_t length = 0; /* strcspn and memcpy take more instructions for short cells */
+    for (; text[length] != '\0'; length++) {
+        if (text[length] == ',' || text[length] == '"' || text[length] == '\r' ||
+            text[length] == '\n')
+            return csv_write(cell, room, text, strlen(text));
+        cell[length] = text[length];
+    }
     return length;
 }
