@@ -9,8 +9,12 @@
 
 static const struct plan_position chain[PLAN_POSITIONS] = {
     [PLAN_IDEAL] = {.program = "glint-ideal", .section = SECTION_ECHOES},
-    [PLAN_SENSOR] = {"glint-sensor", "glint-sensor-perfect", SECTION_CELLS},
-    [PLAN_NOISE] = {"glint-noise", "glint-noise-none", SECTION_TARGETS},
+    [PLAN_SENSOR] = {.program = "glint-sensor",
+                     .stand_in = "glint-sensor-perfect",
+                     .section = SECTION_CELLS},
+    [PLAN_NOISE] = {.program = "glint-noise",
+                    .stand_in = "glint-noise-none",
+                    .section = SECTION_TARGETS},
 };
 
 /* The names of the effects behind a first word, with these letters before each name. */
