@@ -59,6 +59,28 @@ static bool is_sorted(const char *items, size_t count, size_t size,
     return true;
 }
 
+/* Moves each item to its place, along the cycles of the permutation, so that each moves once. On
+ * entry from[i] is the address of the item that belongs at place i; on return it is that of place
+ * i. */
+static void move_items(char *items, size_t count, size_t size, const char **from,
+                       struct arena *arena)
+{
+    char *first = arena_room(arena, size);
+    for (size_t i = 0; i < count; i++) {
+        char *place = items + i * size;
+        if (from[i] == place)
+            continue;
+        memcpy(first, place, size);
+        size_t to = i;
+        while (from[to] != place) {
+            const char *next = from[to];
+            from[to] = memcpy(items + to * size, next, size);
+            to = (size_t)(next - items) / size;
+        }
+        from[to] = memcpy(items + to * size, first, size);
+    }
+}
+
 void sort_items(void *items, size_t count, size_t size, int (*compare)(const void *, const void *),
                 struct arena *arena)
 {
@@ -73,10 +95,7 @@ void sort_items(void *items, size_t count, size_t size, int (*compare)(const voi
     find_runs(&sorting, items, count, size);
     while (sorting.runs > 1)
         merge_neighbours(&sorting);
-    char *sorted = arena_room(arena, count * size);
-    for (size_t i = 0; i < count; i++)
-        memcpy(sorted + i * size, sorting.from[i], size);
-    memcpy(items, sorted, count * size);
+    move_items(items, count, size, sorting.from, arena);
 }
 
 static int ascending(const void *left, const void *right)

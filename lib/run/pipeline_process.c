@@ -174,7 +174,7 @@ static int run_text(const char *name, const char *text, size_t length, bool time
     }
     size_t count = pipeline.commands.count;
     struct runner *runners = arena_get(arena, count * sizeof *runners);
-    struct chain_times times;
+    struct chain_times times = {0};
     int code = run_commands(&pipeline, runners, timed ? &times : NULL, arena, &diag);
     if (timed && diag.code == DIAG_OK)
         print_times(&times, runners, count);
