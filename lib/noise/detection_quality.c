@@ -74,7 +74,7 @@ static void estimate_range(const struct detection_source *source,
 /* The quadrature of a single echo is beyond 3 standard deviations with 0.27 %. The angle of several
  * echoes is off by as much in phase as in quadrature, on average over their phases (MODEL 14.21).
  */
-static const double SINGLE = 3, WIDER = 1;
+static const double SINGLE = 3;
 
 /* The standard deviation is at most that of an azimuth anywhere in the field of view. */
 static void estimate_azimuth(const struct detection_source *source,
@@ -88,7 +88,7 @@ static void estimate_azimuth(const struct detection_source *source,
                                         measurement->azimuth_rad, ratio * ratio);
         measurement->looks_merged = fabs(quadrature) > SINGLE;
         if (measurement->looks_merged)
-            sigma_rad *= elementary_hypot(1, WIDER * quadrature);
+            sigma_rad *= elementary_hypot(1, quadrature);
     }
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         measurement->azimuth_sigma_rad =

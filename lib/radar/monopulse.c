@@ -84,10 +84,11 @@ double monopulse_quadrature(struct antenna_pointers pointers, double noise)
 {
     struct scaled_pointer sum = scale_pointer(pointers.sum);
     struct scaled_pointer delta = scale_pointer(pointers.delta);
+    if (sum.size == 0)
+        return 0;
     double along = delta.real * sum.real + delta.imag * sum.imag;
-    double size = sum.size == 0 ? 0 : elementary_scaled(along / sum.size, delta.exponent);
-    double ratio =
-        sum.size == 0 ? 0 : elementary_scaled(delta.size / sum.size, delta.exponent - sum.exponent);
+    double size = elementary_scaled(along / sum.size, delta.exponent);
+    double ratio = elementary_scaled(delta.size / sum.size, delta.exponent - sum.exponent);
     return size / (noise * sqrt((1 + ratio * ratio) / 2));
 }
 
