@@ -159,27 +159,14 @@ static const struct {
     [TABLE_FRAMES] = {{&frame_row_record, all}, {&of_frame_record, all}},
 };
 
-#define PRIMARY(columns) ",\n   \"primaryKey\": " columns
-#define FOREIGN(joins) ",\n   \"foreignKeys\": [\n    " joins "]"
-#define JOIN(key, table)                                                                           \
-    "{\"fields\": \"" key "\", \"reference\": {\"resource\": \"" table "\", \"fields\": \"" key    \
-    "\"}}"
-#define OF_OBJECT JOIN("object_key", "objects")
-#define OF_FRAME JOIN("frame_key", "frames")
-#define OF_SCAN_AND_OBJECT FOREIGN(JOIN("scan_key", "scans") ",\n    " OF_OBJECT)
-#define OF_ALL FOREIGN(JOIN("scan_key", "scans") ",\n    " OF_OBJECT ",\n    " OF_FRAME)
-#define OF_DETECTION_AND_OBJECT FOREIGN(JOIN("detection_key", "detections") ",\n    " OF_OBJECT)
-
-/* The columns that tell a table's rows apart, and those that join others, as members of its schema.
- * Lost echoes may be alike. */
-static const char *const keys[] = {
-    [TABLE_DETECTIONS] = PRIMARY("\"detection_key\"") OF_ALL,
-    [TABLE_OBJECTS] = PRIMARY("\"object_key\"") FOREIGN(OF_FRAME),
-    [TABLE_SCANS] = PRIMARY("\"scan_key\"") FOREIGN(OF_FRAME),
-    [TABLE_CONTRIBUTORS] = PRIMARY("[\"detection_key\", \"contributor\"]") OF_DETECTION_AND_OBJECT,
-    [TABLE_SIGHTINGS] = PRIMARY("[\"scan_key\", \"object\"]") OF_SCAN_AND_OBJECT,
-    [TABLE_LOST] = OF_SCAN_AND_OBJECT,
-    [TABLE_FRAMES] = PRIMARY("\"frame_key\""),
+const char *const detection_tables_primary[][2] = {
+    [TABLE_DETECTIONS] = {"detection_key"},
+    [TABLE_OBJECTS] = {"object_key"},
+    [TABLE_SCANS] = {"scan_key"},
+    [TABLE_CONTRIBUTORS] = {"detection_key", "contributor"},
+    [TABLE_SIGHTINGS] = {"scan_key", "object"},
+    [TABLE_LOST] = {NULL},
+    [TABLE_FRAMES] = {"frame_key"},
 };
 
 void detection_tables_begin(struct detection_tables *tables, int64_t first_key, struct arena *arena)
@@ -199,43 +186,6 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key, 
         if (rows != NULL)
             csv_columns_end_row(rows);
     }
-}
-
-static void write_json_column(const struct csv_column *column, struct text *text)
-{
-    static const char *const types[] = {
-        [FIELD_REAL] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
-        [FIELD_NAME] = "string", [FIELD_CHOICE] = "string",   [FIELD_SEED] = "integer",
-        [FIELD_SET] = "string"};
-    const struct field *field = column->field;
-    text_format(text, "%s\n    {\"name\": \"%s\", \"type\": \"%s\"",
-                text->bytes[text->length - 1] == '[' ? "" : ",", column->name, types[field->kind]);
-    if (*field_unit(field->name) != '\0')
-        text_format(text, ", \"unit\": \"%s\"", field_unit(field->name));
-    text_add_word(text, ", \"description\": ");
-    text_add_json(text, field->help, strlen(field->help));
-    bool is_choice = field->kind == FIELD_CHOICE;
-    for (int i = 0; is_choice && field->choices[i] != NULL; i++)
-        text_format(text, "%s\"%s\"", i == 0 ? ", \"constraints\": {\"enum\": [" : ", ",
-                    field->choices[i]);
-    text_add_word(text, is_choice ? "]}}" : "}");
-}
-
-void detection_tables_write_schema(struct text *text)
-{
-    struct arena arena = {0};
-    struct detection_tables tables = {0};
-    detection_tables_begin(&tables, 0, &arena);
-    for (int table = 0; table < TABLE_COUNT; table++) {
-        text_format(text, "%s  \"%s\": {\"fields\": [", table == 0 ? "{\n" : ",\n",
-                    detection_tables_names[table]);
-        for (int i = 0; i < DETECTION_TABLES_STRUCTS; i++)
-            for (size_t j = 0; j < tables.columns[table][i].list.count; j++)
-                write_json_column(&tables.columns[table][i].list.items[j], text);
-        text_format(text, "]%s}", keys[table]);
-    }
-    text_add_word(text, "\n}\n");
-    arena_free(&arena);
 }
 
 /* A frame whose rows are being written. */

@@ -32,7 +32,9 @@ enum table {
     TABLE_COUNT,
 };
 
-extern const char *const detection_tables_names[]; /* by enum table */
+/* By enum table: its name, and the columns that tell its rows apart. Lost echoes may be alike. */
+extern const char *const detection_tables_names[];
+extern const char *const detection_tables_primary[][2];
 
 /* The rows that a part of a set has at most. */
 #define DETECTION_TABLES_KEYS INT64_C(1000000000)
@@ -55,7 +57,3 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key,
 /* Appends the rows of a frame in canonical order, which must have sensors and targets. Fails with
  * DIAG_DATA where there are no keys left. */
 int detection_tables_add(struct detection_tables *tables, struct frame *frame, struct diag *diag);
-
-/* Appends a JSON object with a Frictionless Table Schema for each table: names, types, units and
- * what the columns mean, the keys that tell rows apart, and those that join tables. */
-void detection_tables_write_schema(struct text *text);

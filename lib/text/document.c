@@ -10,12 +10,10 @@
 #include <jansson.h>
 
 #include "base/hash.h"
-#include "base/number.h"
 #include "base/sort.h"
 #include "base/suggestion.h"
 #include "text/file_format.h"
 #include "text/input.h"
-#include "text/json_scan.h"
 #include "text/path.h"
 #include "text/record_read.h"
 
@@ -183,6 +181,16 @@ const char *document_find_file(const char *own, const char *kind, const char *na
     return NULL;
 }
 
+/* The tree as a line, in place of the tree; NULL for NULL. */
+static const char *print(json_t *tree, struct arena *arena)
+{
+    char *printed = json_dumps(tree, JSON_COMPACT | JSON_ENCODE_ANY);
+    const char *line = printed != NULL ? arena_text(arena, printed, strlen(printed)) : NULL;
+    free(printed);
+    json_decref(tree);
+    return line;
+}
+
 const char *document_line(const char *path, const struct text *bytes, const char *kind,
                           struct arena *arena, struct diag *diag)
 {
@@ -194,11 +202,7 @@ const char *document_line(const char *path, const struct text *bytes, const char
         diag_prefix(diag, named ? "%s: " : "%s:", path);
         return NULL;
     }
-    char *printed = json_dumps(tree, JSON_COMPACT);
-    const char *line = arena_text(arena, printed, strlen(printed));
-    free(printed);
-    json_decref(tree);
-    return line;
+    return print(tree, arena);
 }
 
 int document_take(const char *path, const char *line, const struct record *record, void *base,
@@ -231,193 +235,140 @@ int document_bytes(const char *path, struct text *text, struct diag *diag)
 
 #define LAW(names, laws)                                                                           \
     "{\"description\": \"" names "\", \"type\": \"object\", \"minProperties\": 1, "                \
-    "\"maxProperties\": 1, \"additionalProperties\": false, \"properties\": {\n      "             \
-    "\"choice\": {\"type\": \"array\", \"minItems\": 1}" laws "}}"
+    "\"maxProperties\": 1, \"additionalProperties\": false, "                                      \
+    "\"properties\": {\"choice\": {\"type\": \"array\", \"minItems\": 1}" laws "}}"
 #define PAIR                                                                                       \
     "{\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": 2, \"maxItems\": 2}"
-const char document_drawn_schema[] =
-    ",\n  \"$defs\": {\n    \"drawn\": " LAW("choice", "") ",\n    \"drawn_number\": " LAW(
-        "uniform, normal or choice", ", \"uniform\": " PAIR ", \"normal\": " PAIR) "\n  }";
+const char document_drawn_schema[] = "{\"drawn\": " LAW("choice", "") ", \"drawn_number\": " LAW(
+    "uniform, normal or choice", ", \"uniform\": " PAIR ", \"normal\": " PAIR) "}";
 
 struct variation {
-    struct json_scan scan;
     struct random_address address;
-    struct text path;  /* of the value that is being read */
-    struct text drawn; /* the line so far */
+    struct text path; /* of the value that is drawn */
+    struct diag *diag;
 };
 
-static int draw_value(struct variation *variation);
-
-/* Draws a value, and then cuts the path to its length outside of this value. */
-static int draw_part(struct variation *variation, size_t outside)
-{
-    int result = draw_value(variation);
-    variation->path.length = outside;
-    return result;
-}
-
-/* Reads the key of a member, copies it, and adds it to the path. */
-static int copy_key(struct variation *variation)
-{
-    struct json_string key;
-    if (json_scan_string(&variation->scan, &key) != 0)
-        return -1;
-    text_add_json(&variation->drawn, key.text, key.length);
-    text_add(&variation->drawn, ":", 1);
-    json_scan_take(&variation->scan, ':');
-    text_format(&variation->path, "%s%.*s", variation->path.length > 0 ? "." : "", (int)key.length,
-                key.text);
-    return 0;
-}
-
-/* Draws the values within an array or an object, which ends with this character. */
-static int draw_within(struct variation *variation, char end)
-{
-    struct json_scan *scan = &variation->scan;
-    size_t outside = variation->path.length;
-    text_add(&variation->drawn, scan->at++, 1);
-    for (size_t i = 0; !json_scan_take(scan, end); i++) {
-        if (json_scan_take(scan, ','))
-            text_add(&variation->drawn, ",", 1);
-        if (end == ']')
-            text_format(&variation->path, "[%zu]", i);
-        else if (copy_key(variation) != 0)
-            return -1;
-        if (draw_part(variation, outside) != 0)
-            return -1;
-    }
-    text_add(&variation->drawn, &end, 1);
-    return 0;
-}
+static json_t *draw_value(struct variation *variation, json_t *value);
 
 /* Reads an array of two numbers; false if it is something else. */
-static bool read_pair(struct json_scan values, double pair[2])
+static bool read_pair(const json_t *values, double pair[2])
 {
-    struct diag unread = {0};
-    values.diag = &unread;
-    return json_scan_take(&values, '[') && json_scan_number(&values, &pair[0]) == 0 &&
-           json_scan_take(&values, ',') && json_scan_number(&values, &pair[1]) == 0 &&
-           json_scan_take(&values, ']') && fabs(pair[0]) < 1e300 && fabs(pair[1]) < 1e300;
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *value = json_array_get(values, i);
+        pair[i] = json_number_value(value);
+        if (!json_is_number(value) || fabs(pair[i]) >= 1e300)
+            return false;
+    }
+    return json_array_size(values) == 2;
 }
 
-static void add_number(struct variation *variation, double value)
-{
-    struct text *drawn = &variation->drawn;
-    drawn->length += number_write(value, text_room(drawn, NUMBER_SIZE));
-}
-
-/* Each law draws one value: returns 1, or 0 if its values are not as expected, or -1 after a
- * message. */
-static int draw_uniform(struct variation *variation, struct json_scan values)
+/* Each law draws one value: NULL if its values are not as expected, or after a message. */
+static json_t *draw_uniform(struct variation *variation, const json_t *values)
 {
     double pair[2];
     if (!read_pair(values, pair) || pair[0] > pair[1])
-        return 0;
+        return NULL;
     struct random_sequence sequence = random_sequence_at(variation->address, RANDOM_VARIATION);
-    add_number(variation, random_sequence_between(&sequence, pair[0], pair[1]));
-    return 1;
+    return json_real(random_sequence_between(&sequence, pair[0], pair[1]));
 }
 
-static int draw_normal(struct variation *variation, struct json_scan values)
+static json_t *draw_normal(struct variation *variation, const json_t *values)
 {
     double pair[2], gaussian[2];
     if (!read_pair(values, pair) || pair[1] < 0)
-        return 0;
+        return NULL;
     random_gaussian_pair(&variation->address, RANDOM_VARIATION, 0, gaussian);
-    add_number(variation, pair[0] + pair[1] * gaussian[0]);
-    return 1;
+    return json_real(pair[0] + pair[1] * gaussian[0]);
 }
 
-static int draw_choice(struct variation *variation, struct json_scan values)
+static json_t *draw_choice(struct variation *variation, const json_t *values)
 {
-    struct json_scan begin = values;
-    struct json_string item;
-    int64_t count = 0;
-    if (!json_scan_take(&values, '[') || json_scan_peek(&values) == ']')
-        return 0;
-    do {
-        json_scan_value(&values, &item);
-        count++;
-    } while (json_scan_take(&values, ','));
+    int64_t count = (int64_t)json_array_size(values);
+    if (count == 0)
+        return NULL;
     struct random_sequence sequence = random_sequence_at(variation->address, RANDOM_VARIATION);
     int64_t chosen = random_sequence_whole(&sequence, 0, count - 1);
-    json_scan_take(&begin, '[');
-    for (int64_t i = 0; i < chosen; i++) {
-        json_scan_value(&begin, &item);
-        json_scan_take(&begin, ',');
-    }
-    struct json_scan behind = variation->scan;
-    variation->scan = begin;
-    size_t outside = variation->path.length;
     text_format(&variation->path, ".choice[%d]", (int)chosen);
-    int result = draw_part(variation, outside);
-    variation->scan = behind;
-    return result == 0 ? 1 : -1;
+    return draw_value(variation, json_array_get(values, (size_t)chosen));
 }
 
 static const struct law {
     const char *name, *expected;
-    int (*draw)(struct variation *variation, struct json_scan values);
+    json_t *(*draw)(struct variation *variation, const json_t *values);
 } laws[] = {
     {"uniform", "[low, high], numbers, low not above high", draw_uniform},
     {"normal", "[mean, sd], numbers, sd not below 0", draw_normal},
     {"choice", "an array of one value or more", draw_choice},
 };
 
-/* The law that an object names by its first member; NULL if it is no distribution. The cursor of
- * the scan, a copy, is then at the values of the law. */
-static const struct law *find_law(struct json_scan *scan)
+/* The law that an object names by its first member; NULL if it is no distribution. */
+static const struct law *find_law(json_t *value)
 {
-    struct json_string key;
-    if (!json_scan_take(scan, '{') || json_scan_peek(scan) != '"' ||
-        json_scan_string(scan, &key) != 0 || !json_scan_take(scan, ':'))
-        return NULL;
-    for (size_t i = 0; i < sizeof laws / sizeof laws[0]; i++)
-        if (text_is(key.text, key.length, laws[i].name))
+    const char *key = json_object_iter_key(json_object_iter(value));
+    for (size_t i = 0; key != NULL && i < sizeof laws / sizeof laws[0]; i++)
+        if (strcmp(key, laws[i].name) == 0)
             return &laws[i];
     return NULL;
 }
 
-static int draw_law(struct variation *variation, const struct law *law, struct json_scan values)
+static json_t *draw_law(struct variation *variation, const struct law *law, const json_t *value)
 {
-    struct json_scan *scan = &variation->scan;
-    struct json_string whole, bytes;
-    json_scan_value(scan, &whole);
-    variation->address.item = hash_bytes(HASH_START, variation->path.bytes, variation->path.length);
-    struct json_scan behind = values;
-    json_scan_value(&behind, &bytes);
-    int result = json_scan_take(&behind, '}') ? law->draw(variation, values) : 0;
-    if (result != 0)
-        return result > 0 ? 0 : -1;
-    return diag_fail(scan->diag, DIAG_CONFIG, "%.*s: %.*s; expected {\"%s\": %s}",
-                     (int)variation->path.length, variation->path.bytes,
-                     whole.length < 200 ? (int)whole.length : 200, whole.text, law->name,
-                     law->expected);
+    const struct text *path = &variation->path;
+    variation->address.item = hash_bytes(HASH_START, path->bytes, path->length);
+    json_t *drawn = NULL;
+    if (json_object_size(value) == 1)
+        drawn = law->draw(variation, json_object_get(value, law->name));
+    if (drawn != NULL)
+        return drawn;
+    char *whole = json_dumps(value, JSON_COMPACT);
+    diag_fail(variation->diag, DIAG_CONFIG, "%.*s: %.200s; expected {\"%s\": %s}",
+              (int)path->length, path->bytes, whole, law->name, law->expected);
+    free(whole);
+    return NULL;
 }
 
-static int draw_value(struct variation *variation)
+/* The value with a draw in the place of every distribution; without a part that was refused. The
+ * path keeps what it had before. */
+static json_t *draw_value(struct variation *variation, json_t *value)
 {
-    struct json_scan *scan = &variation->scan, values = *scan;
-    struct json_string bytes;
-    const struct law *law = find_law(&values);
-    if (law != NULL)
-        return draw_law(variation, law, values);
-    if (json_scan_peek(scan) == '{' || *scan->at == '[')
-        return draw_within(variation, *scan->at == '{' ? '}' : ']');
-    if (json_scan_value(scan, &bytes) != 0)
-        return -1;
-    text_add(&variation->drawn, bytes.text, bytes.length);
-    return 0;
+    struct text *path = &variation->path;
+    const struct law *law = find_law(value);
+    const size_t outside = path->length;
+    json_t *drawn = NULL, *part;
+    const char *key;
+    size_t i;
+    if (law != NULL) {
+        drawn = draw_law(variation, law, value);
+    } else if (json_is_array(value)) {
+        drawn = json_array();
+        json_array_foreach(value, i, part)
+        {
+            text_format(path, "[%zu]", i);
+            json_array_append_new(drawn, draw_value(variation, part));
+            path->length = outside;
+        }
+    } else if (json_is_object(value)) {
+        drawn = json_object();
+        json_object_foreach(value, key, part)
+        {
+            text_format(path, "%s%s", outside > 0 ? "." : "", key);
+            json_object_set_new(drawn, key, draw_value(variation, part));
+            path->length = outside;
+        }
+    } else {
+        drawn = json_incref(value);
+    }
+    path->length = outside;
+    return drawn;
 }
 
 const char *document_draw(const char *line, struct random_address address, struct arena *arena,
                           struct diag *diag)
 {
-    struct variation variation = {{line, line + strlen(line), arena, diag}, .address = address};
-    int result = draw_value(&variation);
-    const char *drawn =
-        result == 0 ? arena_text(arena, variation.drawn.bytes, variation.drawn.length) : NULL;
+    struct variation variation = {.address = address, .diag = diag};
+    json_t *tree = json_loads(line, 0, NULL);
+    const char *drawn = print(draw_value(&variation, tree), arena);
+    json_decref(tree);
     text_free(&variation.path);
-    text_free(&variation.drawn);
-    return drawn;
+    return diag->code == DIAG_OK ? drawn : NULL;
 }

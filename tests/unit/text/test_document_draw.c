@@ -47,7 +47,7 @@ static double number_of(struct bench *bench, const char *line, int64_t scene)
 static void a_document_without_distributions_stays_as_it_is(void **state)
 {
     static const char line[] =
-        "{\"a\":[1,-2.5e-3,[],{}],\"b\":{\"c\":\"x\\\"\\u0001y\",\"d\":[true,null]},\"e\":\"\"}";
+        "{\"a\":[1,-2.5,[],{}],\"b\":{\"c\":\"x\\\"\\u0001y\",\"d\":[true,null]},\"e\":\"\"}";
     assert_string_equal(drawn(*state, line, 3), line);
 }
 
