@@ -1,7 +1,6 @@
 #include "frame/frame_check.h"
 
 #include "base/hash.h"
-#include "base/intern.h"
 #include "frame/frame_order.h"
 #include "text/document.h"
 #include "text/record_write.h"
@@ -218,180 +217,101 @@ int frame_check_extremes(const struct frame *frame, struct diag *diag)
 #define LOST SIZE_MAX
 
 /* One entry of an echo: in the target, cell or list of echoes of this number, or LOST. */
-struct outcome {
+struct entry {
     const char *sensor;
-    struct echo_id id;
+    const struct echo_id *id;
     size_t place;
 };
 
-/* A hash table finds the entries of an echo, so that the time of the check is linear in the size of
- * the frame. */
-struct account_check {
-    const struct frame *frame;
-    struct outcome *outcomes; /* of each echo the entry that was noted last */
-    uint32_t count;
-    struct hash_table numbers;     /* of outcomes */
-    const struct outcome *doubled; /* of the echoes with two entries the first in canonical order */
-    struct {
-        const char *text;
-        uint64_t hash;
-    } object;              /* cache of the last hash, as echoes of one object stand together */
-    struct intern sensors; /* those with counts first, in their order */
-    /* By path, of each sensor with counts; the last numbers are those of the others. */
-    int64_t (*entries)[PATH_COUNT];
-    struct {
-        const char *text;
-        uint32_t number;
-    } sensor; /* cache of the last number */
+struct account {
+    LIST_OF(struct entry) entries;
 };
 
-static bool is_echo(const void *outcomes, uint32_t number, const void *wanted)
+static void add_members(struct account *account, const char *sensor, size_t place,
+                        const struct contributor *members, size_t count, struct arena *arena)
 {
-    const struct outcome *a = (const struct outcome *)outcomes + number, *b = wanted;
-    return frame_same_name(a->sensor, b->sensor) && frame_order_echo_ids(a->id, b->id) == 0;
+    for (size_t i = 0; i < count; i++)
+        *list_add(&account->entries, arena) = (struct entry){sensor, &members[i].id, place};
 }
 
-static bool stands_before(const struct outcome *a, const struct outcome *b)
+/* Targets tell which echoes are not lost; where there are none cells do, or else the echoes. */
+static struct account account_of(const struct frame *frame)
 {
-    int order = strcmp(a->sensor, b->sensor);
-    return order != 0 ? order < 0 : frame_order_echo_ids(a->id, b->id) < 0;
+    struct account account = {0};
+    const struct target *target = frame->targets.items;
+    const struct cell *cell = frame->cells.items;
+    const struct echo *echo = frame->echoes.items;
+    if ((frame->present & SECTION_TARGETS) != 0)
+        for (size_t i = 0; i < frame->targets.count; i++)
+            add_members(&account, target[i].sensor, i, target[i].contributors.items,
+                        target[i].contributors.count, frame->arena);
+    else if ((frame->present & SECTION_CELLS) != 0)
+        for (size_t i = 0; i < frame->cells.count; i++)
+            add_members(&account, cell[i].sensor, i, cell[i].members.items, cell[i].members.count,
+                        frame->arena);
+    else
+        for (size_t i = 0; i < frame->echoes.count; i++)
+            *list_add(&account.entries, frame->arena) =
+                (struct entry){echo[i].sensor, &echo[i].id, 0};
+    for (size_t i = 0; i < frame->lost.count; i++) {
+        const struct lost_group *group = &frame->lost.items[i];
+        for (size_t j = 0; j < group->echoes.count; j++)
+            *list_add(&account.entries, frame->arena) =
+                (struct entry){group->sensor, &group->echoes.items[j].id, LOST};
+    }
+    return account;
+}
+
+static int compare_entries(const struct entry *a, const struct entry *b)
+{
+    int order = frame_order_names(&a->sensor, &b->sensor);
+    return order != 0 ? order : frame_order_echo_ids(a->id, b->id);
+}
+
+static bool is_echo(const void *entries, uint32_t number, const void *wanted)
+{
+    return compare_entries((const struct entry *)entries + number, wanted) == 0;
 }
 
 static uint64_t hash_name(uint64_t hash, const char *name)
 {
-    return hash_table_hash(hash, name, strlen(name));
+    return name == NULL ? hash : hash_table_hash(hash, name, strlen(name));
 }
 
-static uint32_t sensor_number(struct account_check *check, const char *sensor, struct arena *arena)
+static uint64_t hash_of(const struct entry *entry)
 {
-    if (check->sensor.text != sensor) {
-        check->sensor.text = sensor;
-        check->sensor.number = intern_word(&check->sensors, sensor, arena);
+    const struct echo_id *id = entry->id;
+    uint64_t hash = hash_name(hash_name(hash_name(0, entry->sensor), id->object), id->reflector);
+    return hash_table_mix(hash_name(hash, id->mirror),
+                          (uint64_t)id->path << 56 ^ (uint64_t)id->number);
+}
+
+/* Keeps one entry of each echo, in time linear in their number. An echo may be in several targets;
+ * a second entry in one target, or in lost, is a fault: of several, the first in canonical order is
+ * told. */
+static int join_entries(struct account *account, struct arena *arena, struct diag *diag)
+{
+    struct entry *entries = account->entries.items, doubled = {0};
+    struct hash_table numbers = hash_table_begin(account->entries.count, arena);
+    uint32_t kept = 0;
+    for (size_t i = 0; i < account->entries.count; i++) {
+        struct entry entry = entries[i];
+        uint32_t *slot = hash_table_slot(&numbers, hash_of(&entry), is_echo, entries, &entry);
+        struct entry *same = *slot > 0 ? &entries[*slot - 1] : &entries[kept];
+        bool fault = *slot > 0 && (same->place == entry.place || entry.place == LOST);
+        if (fault && (doubled.id == NULL || compare_entries(&entry, &doubled) < 0))
+            doubled = entry;
+        if (*slot == 0)
+            *slot = ++kept;
+        *same = entry;
     }
-    return check->sensor.number;
-}
-
-/* The sensor is the one whose number was asked for last. */
-static uint64_t hash_of(struct account_check *check, const struct echo_id *id)
-{
-    if (check->object.text != id->object) {
-        check->object.text = id->object;
-        check->object.hash = hash_name(0, id->object);
-    }
-    uint64_t hash = hash_name(check->object.hash, id->reflector);
-    if (id->mirror != NULL)
-        hash = hash_name(hash, id->mirror);
-    return hash_table_mix(hash, (uint64_t)id->path << 56 ^ (uint64_t)check->sensor.number << 32 ^
-                                    (uint64_t)id->number);
-}
-
-/* Notes an entry; those of targets, in their order, come before those of lost. Entries of one echo
- * in several targets are one; a second entry in one target, or in lost, is a fault. Returns true
- * for an echo that had no entry before. */
-static bool note(struct account_check *check, struct outcome outcome)
-{
-    uint32_t *slot = hash_table_slot(&check->numbers, hash_of(check, &outcome.id), is_echo,
-                                     check->outcomes, &outcome);
-    if (*slot == 0) {
-        check->outcomes[check->count++] = outcome;
-        *slot = check->count;
-        return true;
-    }
-    struct outcome *last = &check->outcomes[*slot - 1];
-    if ((last->place == outcome.place || outcome.place == LOST) &&
-        (check->doubled == NULL || stands_before(last, check->doubled)))
-        check->doubled = last;
-    last->place = outcome.place;
-    return false;
-}
-
-/* The section that says which echoes are not lost. */
-static enum section kept_in(const struct frame *frame)
-{
-    return (frame->present & SECTION_TARGETS) != 0 ? SECTION_TARGETS
-           : (frame->present & SECTION_CELLS) != 0 ? SECTION_CELLS
-                                                   : SECTION_ECHOES;
-}
-
-static size_t count_kept(const struct frame *frame)
-{
-    size_t count = 0;
-    if (kept_in(frame) == SECTION_TARGETS)
-        for (size_t i = 0; i < frame->targets.count; i++)
-            count += frame->targets.items[i].contributors.count;
-    else if (kept_in(frame) == SECTION_CELLS)
-        for (size_t i = 0; i < frame->cells.count; i++)
-            count += frame->cells.items[i].members.count;
-    else
-        count = frame->echoes.count;
-    return count;
-}
-
-static struct account_check begin(const struct frame *frame)
-{
-    size_t count = count_kept(frame), counted = frame->counts.count;
-    for (size_t i = 0; i < frame->lost.count; i++)
-        count += frame->lost.items[i].echoes.count;
-    struct account_check check = {
-        .frame = frame,
-        .outcomes = arena_room(frame->arena, count * sizeof(struct outcome)),
-        .numbers = hash_table_begin(count, frame->arena),
-        .sensors = intern_begin(counted, frame->arena),
-        .entries = arena_get(frame->arena, (counted + 1) * sizeof(int64_t[PATH_COUNT])),
-    };
-    for (size_t i = 0; i < counted; i++)
-        sensor_number(&check, frame->counts.items[i].sensor, frame->arena);
-    return check;
-}
-
-/* The numbers of entries of a sensor with a count, or of all others together. */
-static int64_t *entries_of(struct account_check *check, const char *sensor)
-{
-    const struct frame *frame = check->frame;
-    size_t number = sensor_number(check, sensor, frame->arena), counted = frame->counts.count;
-    return check->entries[number < counted ? number : counted];
-}
-
-static void collect_members(struct account_check *check, const char *sensor, size_t place,
-                            const struct contributor *members, size_t count)
-{
-    int64_t *entries = entries_of(check, sensor);
-    for (size_t i = 0; i < count; i++)
-        entries[members[i].id.path] += note(check, (struct outcome){sensor, members[i].id, place});
-}
-
-static void collect_kept(struct account_check *check)
-{
-    const struct frame *frame = check->frame;
-    const struct target *target = frame->targets.items;
-    const struct cell *cell = frame->cells.items;
-    const struct echo *echo = frame->echoes.items;
-    if (kept_in(frame) == SECTION_TARGETS)
-        for (size_t i = 0; i < frame->targets.count; i++)
-            collect_members(check, target[i].sensor, i, target[i].contributors.items,
-                            target[i].contributors.count);
-    else if (kept_in(frame) == SECTION_CELLS)
-        for (size_t i = 0; i < frame->cells.count; i++)
-            collect_members(check, cell[i].sensor, i, cell[i].members.items, cell[i].members.count);
-    else
-        for (size_t i = 0; i < frame->echoes.count; i++) {
-            int64_t *entries = entries_of(check, echo[i].sensor);
-            entries[echo[i].id.path] +=
-                note(check, (struct outcome){echo[i].sensor, echo[i].id, 0});
-        }
-}
-
-static void collect_lost(struct account_check *check)
-{
-    const struct frame *frame = check->frame;
-    for (size_t i = 0; i < frame->lost.count; i++) {
-        const struct lost_group *group = &frame->lost.items[i];
-        int64_t *entries = entries_of(check, group->sensor);
-        for (size_t j = 0; j < group->echoes.count; j++) {
-            const struct echo_id *id = &group->echoes.items[j].id;
-            entries[id->path] += note(check, (struct outcome){group->sensor, *id, LOST});
-        }
-    }
+    account->entries.count = kept;
+    return doubled.id == NULL
+               ? 0
+               : diag_fail(
+                     diag, DIAG_DATA,
+                     "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two entries",
+                     doubled.sensor, doubled.id->object, doubled.id->reflector);
 }
 
 /* Along the direct path every pair has an entry, whether it made an echo or not. */
@@ -412,31 +332,37 @@ static int compare(const int64_t *entries, const struct count *counted, struct d
     return 0;
 }
 
-static int compare_with_counts(const struct account_check *check, struct diag *diag)
+/* The number of the sensor's count, or that of counts if it has none; guess is tried first. */
+static size_t count_of(const struct frame *frame, const char *sensor, size_t guess)
 {
-    const struct frame *frame = check->frame;
-    int64_t others = 0;
-    for (size_t i = 0; i < frame->counts.count; i++)
-        if (compare(check->entries[i], &frame->counts.items[i], diag) != 0)
-            return -1;
-    for (enum path path = 0; path < PATH_COUNT; path++)
-        others += check->entries[frame->counts.count][path];
-    return others == 0
-               ? 0
-               : diag_fail(diag, DIAG_DATA, "account: %lld entries of sensors without a count",
-                           (long long)others);
+    const struct count *counts = frame->counts.items;
+    if (guess < frame->counts.count && frame_same_name(counts[guess].sensor, sensor))
+        return guess;
+    size_t i = 0;
+    while (i < frame->counts.count && !frame_same_name(counts[i].sensor, sensor))
+        i++;
+    return i;
 }
 
 int frame_check_account(const struct frame *frame, struct diag *diag)
 {
-    struct account_check check = begin(frame);
-    collect_kept(&check);
-    collect_lost(&check);
-    if (check.doubled != NULL)
-        return diag_fail(diag, DIAG_DATA,
-                         "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
-                         "entries",
-                         check.doubled->sensor, check.doubled->id.object,
-                         check.doubled->id.reflector);
-    return compare_with_counts(&check, diag);
+    struct account account = account_of(frame);
+    size_t counted = frame->counts.count, at = 0;
+    int64_t(*found)[PATH_COUNT] = arena_get(frame->arena, (counted + 1) * sizeof *found);
+    int64_t others = 0;
+    if (join_entries(&account, frame->arena, diag) != 0)
+        return -1;
+    for (size_t i = 0; i < account.entries.count; i++) {
+        const struct entry *entry = &account.entries.items[i];
+        at = count_of(frame, entry->sensor, at);
+        found[at][entry->id->path]++;
+        others += at == counted;
+    }
+    for (size_t i = 0; i < counted; i++)
+        if (compare(found[i], &frame->counts.items[i], diag) != 0)
+            return -1;
+    return others == 0
+               ? 0
+               : diag_fail(diag, DIAG_DATA, "account: %lld entries of sensors without a count",
+                           (long long)others);
 }

@@ -64,7 +64,7 @@ static int check_contributor(const struct contributor *told, const char *sensor,
 {
     struct echo_span echoes = frame_echoes_of(again, sensor);
     for (size_t i = 0; i < echoes.count; i++)
-        if (frame_order_echo_ids(echoes.items[i].id, told->id) == 0) {
+        if (frame_order_echo_ids(&echoes.items[i].id, told) == 0) {
             struct contributor truth = frame_contributor(&echoes.items[i]);
             truth.weight = told->weight;
             labels->recomputed++;
@@ -101,7 +101,7 @@ static int check_group(const struct lost_group *told, const struct lost_group *d
                 told->echoes.count == due->echoes.count;
     for (size_t i = 0; same && i < told->echoes.count; i++) {
         const struct lost_echo *one = &told->echoes.items[i], *truth = &due->echoes.items[i];
-        same = frame_order_echo_ids(one->id, truth->id) == 0;
+        same = frame_order_echo_ids(one, truth) == 0;
         if (same && check_numbers(&lost_echo_record, one, truth, diag) != 0)
             return diag_prefix(diag, "echoes[%zu].", i);
     }

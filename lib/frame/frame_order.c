@@ -25,12 +25,7 @@ static inline int compare_echo_ids(struct echo_id a, struct echo_id b)
     return order != 0 ? order : (a.number > b.number) - (a.number < b.number);
 }
 
-int frame_order_echo_ids(struct echo_id a, struct echo_id b)
-{
-    return compare_echo_ids(a, b);
-}
-
-static int compare_by_echo_id(const void *left, const void *right)
+int frame_order_echo_ids(const void *left, const void *right)
 {
     const struct echo_id *a = left, *b = right;
     return compare_echo_ids(*a, *b);
@@ -61,7 +56,7 @@ int frame_order_cells(const void *left, const void *right)
     int order = compare_names(a->sensor, b->sensor);
     return order != 0 || a->members.count == 0 || b->members.count == 0
                ? order
-               : compare_by_echo_id(a->members.items, b->members.items);
+               : frame_order_echo_ids(a->members.items, b->members.items);
 }
 
 int frame_order_lost_groups(const void *left, const void *right)
@@ -120,7 +115,7 @@ static void order_cells(struct frame *frame)
         struct cell *cell = &frame->cells.items[i];
         if (cell->members.count > 2)
             sort_items(cell->members.items + 1, cell->members.count - 1,
-                       sizeof *cell->members.items, compare_by_echo_id, frame->arena);
+                       sizeof *cell->members.items, frame_order_echo_ids, frame->arena);
     }
     sort_list(&frame->cells, frame_order_cells, frame->arena);
 }
@@ -131,7 +126,7 @@ static void order_lost(struct frame *frame, const char *stage)
     for (size_t i = 0; i < frame->lost.count; i++) {
         struct lost_group *group = &frame->lost.items[i];
         if (stage == NULL || frame_same_name(group->stage, stage))
-            sort_list(&group->echoes, compare_by_echo_id, frame->arena);
+            sort_list(&group->echoes, frame_order_echo_ids, frame->arena);
     }
     frame->ordered.lost = frame->lost.count;
 }

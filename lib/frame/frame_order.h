@@ -21,8 +21,9 @@ struct object *const *frame_order_objects(struct frame *frame);
  * frame_order_echo_ids. Negative, zero or positive. */
 int frame_order_tied(const struct contributor *a, const struct contributor *b);
 
-/* The canonical order of one sensor's echoes: by object, reflector, path, mirror, number. */
-int frame_order_echo_ids(struct echo_id a, struct echo_id b);
+/* The canonical order of one sensor's echoes, for struct echo_id and structs that begin with one:
+ * by object, reflector, path, mirror, number. */
+int frame_order_echo_ids(const void *left, const void *right);
 
 /* The canonical orders of names (const char *), or structs that begin with a name, of echoes, of
  * cells and of lost groups, for sort_items. */

@@ -185,7 +185,7 @@ static void echo_ids_are_ordered_by_their_members_one_after_the_other(void **sta
                                   .number = i & 1};
     for (int i = 0; i < 32; i++)
         for (int j = 0; j < 32; j++)
-            assert_int_equal(sign(frame_order_echo_ids(all[i], all[j])), (i > j) - (i < j));
+            assert_int_equal(sign(frame_order_echo_ids(&all[i], &all[j])), (i > j) - (i < j));
 }
 
 static void a_cells_leader_stays_first_whatever_its_name(void **state)
