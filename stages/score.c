@@ -26,7 +26,7 @@ static int score_start(void *state, struct runner *runner)
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--ensemble: has no pairs and no frames of one side, so it takes neither "
                          "--cutoff nor --partial");
-    own->other = runner_reference_stream(runner, own->truth, own->partial);
+    own->other = runner_reference_stream(runner, own->truth, &frame_record, own->partial);
     return own->other != NULL ? 0 : -1;
 }
 

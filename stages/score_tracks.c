@@ -22,7 +22,7 @@ static int score_tracks_start(void *state, struct runner *runner)
 {
     struct score_tracks *own = state;
     own->summary = own->summary || own->text;
-    own->other = runner_reference_stream(runner, own->tracks, own->partial);
+    own->other = runner_reference_stream(runner, own->tracks, &track_list_record, own->partial);
     return own->other != NULL ? 0 : -1;
 }
 

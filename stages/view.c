@@ -18,10 +18,11 @@ struct view {
     size_t targets;    /* how many that frame has */
 };
 
-static int open_beside(const char *path, struct reference_stream **stream, struct runner *runner)
+static int open_beside(const char *path, const struct record *record,
+                       struct reference_stream **stream, struct runner *runner)
 {
     if (path != NULL)
-        *stream = runner_reference_stream(runner, path, true);
+        *stream = runner_reference_stream(runner, path, record, true);
     return path == NULL || *stream != NULL ? 0 : -1;
 }
 
@@ -45,9 +46,9 @@ static int view_start(void *state, struct runner *runner)
         return diag_fail(
             runner_diag(runner), DIAG_USAGE,
             "--svg or an --output of .svg: the still shows neither --truth nor --tracks");
-    return open_beside(view->truth, &view->data.truth, runner) != 0
+    return open_beside(view->truth, &frame_record, &view->data.truth, runner) != 0
                ? -1
-               : open_beside(view->tracks, &view->data.tracks, runner);
+               : open_beside(view->tracks, &track_list_record, &view->data.tracks, runner);
 }
 
 static void take_still(struct view *view, const struct frame *frame, struct arena *arena)

@@ -89,14 +89,14 @@ static bool reads_standard_input(const struct runner *runner)
 }
 
 struct reference_stream *runner_reference_stream(struct runner *runner, const char *path,
-                                                 bool partial)
+                                                 const struct record *record, bool partial)
 {
     struct reference_stream *stream = NULL;
     if (strcmp(path, "-") == 0 && reads_standard_input(runner))
         diag_fail(&runner->diag, DIAG_USAGE,
                   "\"-\" is standard input, where the frames come from; name their file");
     else
-        stream = reference_stream_open(path, partial, runner->pause, &runner->diag);
+        stream = reference_stream_open(path, record, partial, runner->pause, &runner->diag);
     if (stream != NULL)
         *list_add(&runner->reference_streams, &runner->arena) = stream;
     return stream;

@@ -117,11 +117,11 @@ bool runner_output_ends(const struct runner *runner, const char *ending);
 /* True if nothing is given by --output, and standard output is a terminal. */
 bool runner_output_is_terminal(const struct runner *runner);
 
-/* A second stream beside the one that is read, for sinks that compare the two. "-" is standard
- * input, and refused where the frames come from there. The runner closes it. NULL after a
- * message. */
+/* A second stream, of frames or tracks by their record, beside the one that is read, for sinks that
+ * compare the two. "-" is standard input, and refused where the frames come from there. The runner
+ * closes it. NULL after a message. */
 struct reference_stream *runner_reference_stream(struct runner *runner, const char *path,
-                                                 bool partial);
+                                                 const struct record *record, bool partial);
 
 /* Where the frame was read that the stage has now (frame/frame_sequence.h). */
 struct frame_place runner_place(const struct runner *runner);

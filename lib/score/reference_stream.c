@@ -8,7 +8,6 @@
 #include "frame/frame_text.h"
 #include "score/target_score.h"
 #include "text/file_format.h"
-#include "text/json_scan.h"
 #include "text/record_read.h"
 
 /* A line that waits for its frame, with its text in one piece of memory. */
@@ -23,21 +22,25 @@ struct waiting_line {
 
 struct reference_stream {
     struct input *input;
-    const char *kind; /* of its lines: name of their record */
+    const struct record *record; /* of its lines */
     bool partial, ended;
-    size_t number;    /* number of the line read last */
+    size_t read;      /* number of the line read last */
     size_t found;     /* number of the line found last, which is: */
     const char *line; /* valid until the next line is read */
     size_t length;
+    const char *scene; /* of that line */
+    int64_t number;    /* of its frame in the scene */
     struct waiting_line *first, **last;
     struct waiting_line *taken; /* the waiting line that was taken out last */
     int64_t unmatched, missing;
-    struct frame frame;
-    struct arena arena, words;
+    struct frame frame; /* the line, or else: */
+    struct track_list tracks;
+    struct arena arena;
 };
 
-struct reference_stream *reference_stream_open(const char *path, bool partial,
-                                               struct input_pause pause, struct diag *diag)
+struct reference_stream *reference_stream_open(const char *path, const struct record *record,
+                                               bool partial, struct input_pause pause,
+                                               struct diag *diag)
 {
     struct input *input = input_open(path, diag);
     if (input == NULL) {
@@ -45,8 +48,7 @@ struct reference_stream *reference_stream_open(const char *path, bool partial,
         return NULL;
     }
     struct reference_stream *reference = memory_get(sizeof *reference);
-    *reference =
-        (struct reference_stream){.input = input, .kind = frame_record.name, .partial = partial};
+    *reference = (struct reference_stream){.input = input, .record = record, .partial = partial};
     reference->last = &reference->first;
     reference->frame.arena = &reference->arena;
     input_before_waiting(input, pause);
@@ -63,7 +65,6 @@ void reference_stream_close(struct reference_stream *reference)
         free(line);
     }
     arena_free(&reference->arena);
-    arena_free(&reference->words);
     input_close(reference->input);
     free(reference);
 }
@@ -72,7 +73,8 @@ int reference_stream_prefix(const struct reference_stream *reference, struct dia
 {
     size_t length;
     const char *head = input_head(reference->input, &length);
-    if (file_format_explain(reference->kind, head, length, diag) || diag->code == DIAG_NO_INPUT)
+    if (file_format_explain(reference->record->name, head, length, diag) ||
+        diag->code == DIAG_NO_INPUT)
         return diag_prefix(diag, "%s: ", input_name(reference->input));
     return diag_prefix(diag, "%s:%zu: ", input_name(reference->input), reference->found);
 }
@@ -87,67 +89,37 @@ int64_t reference_stream_missing(const struct reference_stream *reference)
     return reference->missing;
 }
 
-/* The scene and frame of a line. */
-struct key {
-    const char *scene;
-    double frame; /* -1: missing */
-};
-
-static int read_member(struct json_scan *scan, struct key *key)
+/* Reads the line found as a frame or as tracks. */
+static int parse(struct reference_stream *reference, struct diag *diag)
 {
-    struct json_string name, text;
-    if (json_scan_string(scan, &name) != 0)
-        return -1;
-    if (!json_scan_take(scan, ':'))
-        return json_scan_unexpected(scan, "':'");
-    if (text_is(name.text, name.length, "scene")) {
-        if (json_scan_peek(scan) != '"')
-            return json_scan_unexpected(scan, "a scene's name");
-        if (json_scan_string(scan, &text) != 0)
-            return -1;
-        key->scene = arena_text(scan->arena, text.text, text.length);
-        return 0;
+    struct frame *frame = &reference->frame;
+    struct track_list *tracks = &reference->tracks;
+    if (reference->record == &frame_record) {
+        int result = frame_text_read(reference->line, reference->length, frame, diag);
+        reference->scene = frame->scene;
+        reference->number = frame->frame;
+        return result;
     }
-    if (text_is(name.text, name.length, "frame")) {
-        if (strchr("0123456789", json_scan_peek(scan)) == NULL)
-            return json_scan_unexpected(scan, "a frame's number");
-        return json_scan_number(scan, &key->frame);
-    }
-    return json_scan_value(scan, &text);
+    arena_clear(&reference->arena);
+    field_clear(reference->record, tracks);
+    int result = record_read(reference->line, reference->length, reference->record, tracks,
+                             &reference->arena, NULL, diag);
+    reference->scene = tracks->scene;
+    reference->number = tracks->frame;
+    return result;
 }
 
-/* Reads the line up to both members; the rest is read when the line is taken. */
-static int read_key(struct reference_stream *reference, struct key *key, struct diag *diag)
+static void keep_line(struct reference_stream *reference)
 {
-    arena_clear(&reference->words);
-    const char *line = reference->line;
-    struct json_scan scan = {line, line + reference->length, &reference->words, diag};
-    *key = (struct key){.frame = -1};
-    if (!json_scan_take(&scan, '{'))
-        return json_scan_unexpected(&scan, "an object");
-    for (bool more = true; more && (key->scene == NULL || key->frame < 0);
-         more = json_scan_take(&scan, ','))
-        if (read_member(&scan, key) != 0)
-            return -1;
-    if (key->scene == NULL)
-        return diag_fail(diag, DIAG_DATA, "scene: missing; expected the name of a scene");
-    if (key->frame < 0 || key->frame != floor(key->frame) || key->frame > 0x1p53)
-        return diag_fail(diag, DIAG_DATA, "frame: %s; expected the number of a frame",
-                         key->frame < 0 ? "missing" : "not a whole number");
-    return 0;
-}
-
-static void keep_line(struct reference_stream *reference, const struct key *key)
-{
-    size_t scene = strlen(key->scene) + 1;
+    size_t scene = strlen(reference->scene) + 1;
     struct waiting_line *line = memory_get(sizeof *line + scene + reference->length);
     char *text = (char *)(line + 1);
-    *line = (struct waiting_line){.number = reference->number,
-                                  .frame = (int64_t)key->frame,
+    *line = (struct waiting_line){.number = reference->read,
+                                  .frame = reference->number,
                                   .scene = text,
                                   .length = reference->length,
                                   .bytes = text + scene};
-    memcpy(text, key->scene, scene);
+    memcpy(text, reference->scene, scene);
     memcpy(line->bytes, reference->line, line->length);
     *reference->last = line;
     reference->last = &line->next;
@@ -195,7 +167,7 @@ static enum search find_waiting(struct reference_stream *reference, const char *
             reference->found = line->number;
             reference->line = line->bytes;
             reference->length = line->length;
-            return SEARCH_FOUND;
+            return parse(reference, diag) == 0 ? SEARCH_FOUND : SEARCH_FAILED;
         }
         if (skip_line(reference, line->number, line->scene, line->frame, diag) != 0)
             return SEARCH_FAILED;
@@ -205,7 +177,7 @@ static enum search find_waiting(struct reference_stream *reference, const char *
 
 static int read_line(struct reference_stream *reference, struct diag *diag)
 {
-    reference->found = ++reference->number;
+    reference->found = ++reference->read;
     int more =
         input_line(reference->input, FRAME_TEXT_SIZE, &reference->line, &reference->length, diag);
     reference->ended = more == 0;
@@ -217,23 +189,21 @@ static int read_line(struct reference_stream *reference, struct diag *diag)
 static enum search read_next(struct reference_stream *reference, const char *scene, int64_t frame,
                              struct diag *diag)
 {
-    struct key key;
     int more = read_line(reference, diag);
-    if (more < 0 || (more > 0 && read_key(reference, &key, diag) != 0)) {
+    if (more < 0 || (more > 0 && parse(reference, diag) != 0)) {
         reference_stream_prefix(reference, diag);
         return SEARCH_FAILED;
     }
     if (more == 0)
         return SEARCH_PAST;
-    bool same = scene != NULL && strcmp(key.scene, scene) == 0;
-    if (same && (int64_t)key.frame == frame)
+    bool same = scene != NULL && strcmp(reference->scene, scene) == 0;
+    if (same && reference->number == frame)
         return SEARCH_FOUND;
-    if (scene == NULL || (same && key.frame < (double)frame)) {
-        int unmatched =
-            skip_line(reference, reference->number, key.scene, (int64_t)key.frame, diag);
-        return unmatched == 0 ? SEARCH_ON : SEARCH_FAILED;
-    }
-    keep_line(reference, &key);
+    if (scene == NULL || (same && reference->number < frame))
+        return skip_line(reference, reference->read, reference->scene, reference->number, diag) == 0
+                   ? SEARCH_ON
+                   : SEARCH_FAILED;
+    keep_line(reference);
     return same ? SEARCH_PAST : SEARCH_ON;
 }
 
@@ -268,13 +238,11 @@ static int check_time(const struct frame *frame, double time_s, struct diag *dia
                      time_s, frame->time_s);
 }
 
-/* Reads the line found as a frame that has sensors and targets. */
-static int read_frame(struct reference_stream *reference, const struct frame **other,
+/* The line found as a frame that has sensors and targets. */
+static int take_frame(struct reference_stream *reference, const struct frame **other,
                       struct diag *diag)
 {
     struct frame *own = &reference->frame;
-    if (frame_text_read(reference->line, reference->length, own, diag) != 0)
-        return -1;
     frame_order(own);
     unsigned missing = (SECTION_SENSORS | SECTION_TARGETS) & ~own->present;
     if (missing != 0)
@@ -290,7 +258,7 @@ int reference_stream_frame(struct reference_stream *reference, const struct fram
     int found = find(reference, frame, diag);
     if (found <= 0)
         return found;
-    if (read_frame(reference, other, diag) == 0 && check_time(frame, (*other)->time_s, diag) == 0 &&
+    if (take_frame(reference, other, diag) == 0 && check_time(frame, (*other)->time_s, diag) == 0 &&
         (*other)->seed != frame->seed)
         diag_fail(diag, DIAG_DATA,
                   "seed: %" PRIu64 "; expected %" PRIu64 ", as in the other stream", (*other)->seed,
@@ -304,7 +272,8 @@ int reference_stream_next(struct reference_stream *reference, const struct frame
                           struct diag *diag)
 {
     int more = read_line(reference, diag);
-    if (more < 0 || (more > 0 && read_frame(reference, other, diag) != 0))
+    if (more < 0 ||
+        (more > 0 && (parse(reference, diag) != 0 || take_frame(reference, other, diag) != 0)))
         return reference_stream_prefix(reference, diag);
     return more;
 }
@@ -312,16 +281,14 @@ int reference_stream_next(struct reference_stream *reference, const struct frame
 int reference_stream_tracks(struct reference_stream *reference, const struct frame *frame,
                             struct track_list *tracks, struct diag *diag)
 {
-    reference->kind = track_list_record.name;
+    struct track_list *own = &reference->tracks;
     int found = find(reference, frame, diag);
     if (found <= 0)
         return found;
-    field_clear(&track_list_record, tracks);
-    if (record_read(reference->line, reference->length, &track_list_record, tracks, frame->arena,
-                    NULL, diag) != 0 ||
-        track_score_order(tracks, frame->arena, diag) != 0 ||
-        ((tracks->present & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
+    if (track_score_order(own, &reference->arena, diag) != 0 ||
+        ((own->present & TRACK_TIME) != 0 && check_time(frame, own->time_s, diag) != 0))
         return reference_stream_prefix(reference, diag);
+    *tracks = *own;
     return 1;
 }
 

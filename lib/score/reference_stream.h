@@ -2,8 +2,7 @@
  *
  * The second stream and the one that a stage reads may interleave their scenes differently; within
  * a scene both ascend. Lines that come before they are needed wait in memory, so streams in the
- * same order take no more than a line. Lines are JSON objects with the members `scene` and
- * `frame`. */
+ * same order take no more than a line. */
 #pragma once
 
 #include "frame/frame.h"
@@ -12,10 +11,12 @@
 
 struct reference_stream;
 
-/* Opens the file, or standard input for "-". With partial true, frames that only one stream has are
+/* Opens the file, or standard input for "-", whose lines are frames (frame_record) or tracks
+ * (track_list_record). With partial true, frames that only one stream has are
  * counted; else they are errors. The pause comes before a wait for a line. NULL after a message. */
-struct reference_stream *reference_stream_open(const char *path, bool partial,
-                                               struct input_pause pause, struct diag *diag);
+struct reference_stream *reference_stream_open(const char *path, const struct record *record,
+                                               bool partial, struct input_pause pause,
+                                               struct diag *diag);
 void reference_stream_close(struct reference_stream *reference);
 
 /* Finds the line for this frame's scene and number and reads it as a frame with sensors and
@@ -34,8 +35,7 @@ int reference_stream_next(struct reference_stream *reference, const struct frame
 /* Puts the place of the line found last in front of a message: for what callers refuse in it. */
 int reference_stream_prefix(const struct reference_stream *reference, struct diag *diag);
 
-/* Like reference_stream_frame, but reads tracks, in the order of their ids; all lie in the frame's
- * arena. */
+/* The same for tracks, in the order of their ids. */
 int reference_stream_tracks(struct reference_stream *reference, const struct frame *frame,
                             struct track_list *tracks, struct diag *diag);
 

@@ -374,7 +374,8 @@ static int read_record(struct reader *reader, const struct record *record, void 
 static int no_record(struct json_scan *scan, const struct record *record)
 {
     char expected[64];
-    snprintf(expected, sizeof expected, "a %s", record->name);
+    bool several = record->name[strlen(record->name) - 1] == 's'; /* tracks */
+    snprintf(expected, sizeof expected, "%s%s", several ? "" : "a ", record->name);
     return scan->at == scan->end
                ? diag_fail(scan->diag, DIAG_DATA, "an empty line; expected %s", expected)
                : json_scan_unexpected(scan, expected);

@@ -18,7 +18,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     fuzz_open(&file, bytes, size);
     struct diag diag = {0};
     struct reference_stream *tracks =
-        reference_stream_open(file.path, true, (struct input_pause){0}, &diag);
+        reference_stream_open(file.path, &track_list_record, true, (struct input_pause){0}, &diag);
     for (int number = 0; diag.code == DIAG_OK && number < 3; number++)
         match(tracks, number, &diag);
     if (diag.code == DIAG_OK)

@@ -61,8 +61,8 @@ static void frames_meet_in_every_interleaving(void **state)
             write_line(file, order[i], next[order[i]]++);
         fclose(file);
         struct diag diag = {0};
-        struct reference_stream *reference =
-            reference_stream_open(scratch->path, false, (struct input_pause){0}, &diag);
+        struct reference_stream *reference = reference_stream_open(
+            scratch->path, &track_list_record, false, (struct input_pause){0}, &diag);
         interleave(&sample, order);
         memset(next, 0, sizeof next);
         for (int i = 0; i < SCENES * FRAMES; i++)
@@ -96,8 +96,8 @@ static void frames_of_one_stream_alone_are_counted(void **state)
                 write_line(file, order[i], next[order[i]]);
         fclose(file);
         struct diag diag = {0};
-        struct reference_stream *reference =
-            reference_stream_open(scratch->path, true, (struct input_pause){0}, &diag);
+        struct reference_stream *reference = reference_stream_open(
+            scratch->path, &track_list_record, true, (struct input_pause){0}, &diag);
         interleave(&sample, order);
         memset(next, 0, sizeof next);
         for (int i = 0; i < SCENES * FRAMES; i++, next[order[i - 1]]++)
@@ -119,8 +119,8 @@ static void a_frame_without_a_line_is_refused(void **state)
     write_line(file, 0, 2);
     fclose(file);
     struct diag diag = {0};
-    struct reference_stream *reference =
-        reference_stream_open(scratch->path, false, (struct input_pause){0}, &diag);
+    struct reference_stream *reference = reference_stream_open(
+        scratch->path, &track_list_record, false, (struct input_pause){0}, &diag);
     assert_int_equal(ask(reference, 0, 0, &diag), 1);
     assert_int_equal(ask(reference, 0, 1, &diag), -1);
     assert_int_equal(diag.code, DIAG_DATA);
@@ -136,8 +136,8 @@ static void a_line_without_a_frame_is_refused_with_its_place(void **state)
         write_line(file, scene, 3);
     fclose(file);
     struct diag diag = {0};
-    struct reference_stream *reference =
-        reference_stream_open(scratch->path, false, (struct input_pause){0}, &diag);
+    struct reference_stream *reference = reference_stream_open(
+        scratch->path, &track_list_record, false, (struct input_pause){0}, &diag);
     assert_int_equal(ask(reference, 3, 3, &diag), 1);
     assert_int_equal(ask(reference, 0, 3, &diag), 1);
     assert_int_equal(reference_stream_finish(reference, &diag), -1);
@@ -150,7 +150,8 @@ static void a_file_that_is_not_there_is_refused(void **state)
     struct scratch *scratch = *state;
     struct diag diag = {0};
     unlink(scratch->path);
-    assert_null(reference_stream_open(scratch->path, false, (struct input_pause){0}, &diag));
+    assert_null(reference_stream_open(scratch->path, &track_list_record, false,
+                                      (struct input_pause){0}, &diag));
     assert_int_equal(diag.code, DIAG_NO_INPUT);
     reference_stream_close(NULL);
 }
