@@ -76,20 +76,23 @@ static void estimate_range(const struct detection_source *source,
  */
 static const double SINGLE = 3;
 
+double detection_quality_widening(struct effect_measurement *measurement, double noise)
+{
+    double quadrature = monopulse_quadrature(measurement->pointers, noise);
+    measurement->looks_merged = fabs(quadrature) > SINGLE;
+    return measurement->looks_merged ? elementary_hypot(1, quadrature) : 1;
+}
+
 /* The standard deviation is at most that of an azimuth anywhere in the field of view. */
 static void estimate_azimuth(const struct detection_source *source,
                              struct effect_measurement *measurement, double noise)
 {
     const struct sensor *sensor = source->sensor;
     double ratio = measurement->amplitude / noise, sigma_rad = 0;
-    if (noise > 0) {
-        double quadrature = monopulse_quadrature(measurement->pointers, noise);
-        sigma_rad = monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
+    if (noise > 0)
+        sigma_rad = detection_quality_widening(measurement, noise) *
+                    monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
                                         measurement->azimuth_rad, ratio * ratio);
-        measurement->looks_merged = fabs(quadrature) > SINGLE;
-        if (measurement->looks_merged)
-            sigma_rad *= elementary_hypot(1, quadrature);
-    }
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         measurement->azimuth_sigma_rad =
             elementary_min(elementary_hypot(sigma_rad, sensor->azimuth_floor_rad),

@@ -36,6 +36,11 @@ struct detection_source detection_quality_source(const struct sensor *sensor,
                                                  struct cell_span cells,
                                                  const struct effect_scan *scan);
 
+/* Sets looks_merged where the pointers, with noise of this RMS > 0 on each channel, differ from
+ * those of a single echo by more than 3 standard deviations. Returns the factor >= 1 by which the
+ * standard deviation of the azimuth is then larger; 1 where it is not set. */
+double detection_quality_widening(struct effect_measurement *measurement, double noise);
+
 /* For glint-noise: sets false alarms and thresholds of the source, and the standard deviations of
  * the measurements as the sensor estimates them: from the measured amplitude, not the exact one.
  * first_threshold: did the sensor test its cells before the noise? */

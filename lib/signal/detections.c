@@ -30,21 +30,30 @@ static double element_sigma_rad(const struct beamforming_array *array, double az
            elementary_cos(azimuth_rad);
 }
 
-void detections_estimate(const struct signal_cube *signal, double peak_snr, double beam_snr,
+/* The ratio of powers of an echo with this amplitude, of which noise is a part. */
+static double snr_of(double amplitude, double noise)
+{
+    double ratio = amplitude / noise;
+    return elementary_max(ratio * ratio - 1, 0);
+}
+
+void detections_estimate(const struct signal_cube *signal, double peak, double noise,
                          struct effect_measurement *measurement)
 {
     const struct sensor *sensor = signal->sensor;
     double azimuth_rad = measurement->azimuth_rad;
+    double peak_snr = snr_of(peak, noise), beam_snr = snr_of(measurement->amplitude, noise);
     struct measurement_sigma range = {.cell = sensor->cell_range_m,
                                       .factor = factors[signal->range_response]};
     struct measurement_sigma rate = {.cell = sensor->cell_range_rate_mps,
                                      .factor = factors[sensor->waveform.window]};
     double rate_mps = measurement_sigma_at_snr(&rate, peak_snr);
     double coupled_m = signal->coupling * signal->range_step_m * rate_mps;
-    double sigma_rad =
-        signal->array.elements > 0
-            ? element_sigma_rad(&signal->array, azimuth_rad, beam_snr)
-            : monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator, azimuth_rad, beam_snr);
+    double sigma_rad = signal->array.elements > 0
+                           ? element_sigma_rad(&signal->array, azimuth_rad, beam_snr)
+                           : detection_quality_widening(measurement, noise) *
+                                 monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
+                                                     azimuth_rad, beam_snr);
     measurement->range_sigma_m =
         elementary_hypot(measurement_sigma_at_snr(&range, peak_snr), coupled_m);
     measurement->range_rate_sigma_mps = rate_mps;
@@ -95,8 +104,10 @@ static void add_monopulse(struct detections *detections, const struct range_dopp
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     struct detection *detection = add(detections, peak, peak->amplitude, angle.azimuth_rad, arena);
-    if (detection != NULL)
-        detection->sign_undecided = angle.sign_undecided;
+    if (detection == NULL)
+        return;
+    detection->pointers = pointers;
+    detection->sign_undecided = angle.sign_undecided;
 }
 
 static void add_beams(struct detections *detections, const struct range_doppler_peak *peak,
@@ -281,19 +292,13 @@ static struct effect_measurement measurement_of(const struct detection *detectio
         measurement.effects |= EFFECT_BIT(EFFECT_RANGE_NOISE);
     if (detection->azimuth_rad != measurement.azimuth_rad)
         measurement.effects |= EFFECT_BIT(EFFECT_ANGLE_NOISE);
+    measurement.pointers = detection->pointers;
     measurement.range_m = detection->range_m;
     measurement.azimuth_rad = detection->azimuth_rad;
     measurement.range_rate_mps = detection->range_rate_mps;
     measurement.amplitude = detection->amplitude;
     measurement.sign_undecided = detection->sign_undecided;
     return measurement;
-}
-
-/* Signal-to-noise ratio of an echo by its measured amplitude. */
-static double snr_of(const struct detections *detections, double amplitude)
-{
-    double ratio = amplitude / detections->noise;
-    return elementary_max(ratio * ratio - 1, 0);
 }
 
 void detections_list(const struct detections *detections, struct frame *frame, const char *stage,
@@ -307,9 +312,8 @@ void detections_list(const struct detections *detections, struct frame *frame, c
         const struct range_doppler_peak *peak = detection->peak;
         measurements[i] = measurement_of(detection);
         if (frame_carries(frame, CARRY_QUALITY) && detections->noise > 0)
-            detections_estimate(
-                detections->signal, snr_of(detections, peak->amplitude * peak->gain),
-                snr_of(detections, detection->amplitude * peak->gain), &measurements[i]);
+            detections_estimate(detections->signal, peak->amplitude, detections->noise / peak->gain,
+                                &measurements[i]);
         effect_measure(noise, EFFECT_STEP_AZIMUTH, &measurements[i]);
     }
     struct detection_source source = {
@@ -317,6 +321,7 @@ void detections_list(const struct detections *detections, struct frame *frame, c
         .scan = noise,
         .range_rate_interval_mps = detections->signal->fold_mps,
         .noise = detections->noise,
+        .channels = detections->noise > 0 && detections->signal->array.elements == 0,
         .existence = {.false_alarms = detections_noise_bins(detections->signal), .rise = 1},
     };
     target_list_make(frame, stage, &source, measurements, count);

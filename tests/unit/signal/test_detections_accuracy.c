@@ -26,12 +26,14 @@ static struct sensor radar(enum point_response window, int64_t elements)
     return sensor;
 }
 
+/* Found at this ratio of powers, with another one in the beam. */
 static struct effect_measurement accuracy_of(const struct sensor *sensor, double azimuth_rad,
                                              double found, double in_beam)
 {
     struct signal_cube signal = signal_cube_of(sensor, &arena);
-    struct effect_measurement measurement = {.azimuth_rad = azimuth_rad};
-    detections_estimate(&signal, found, in_beam, &measurement);
+    struct effect_measurement measurement = {.azimuth_rad = azimuth_rad,
+                                             .amplitude = sqrt(in_beam + 1)};
+    detections_estimate(&signal, sqrt(found + 1), 1, &measurement);
     return measurement;
 }
 
@@ -75,6 +77,21 @@ static void the_azimuth_is_that_of_elements_or_of_sum_and_delta(void **state)
     assert_near(accuracy_of(&sensor, 0, 400, 100).azimuth_sigma_rad, sqrt(2) / PI / 10, 1e-6);
 }
 
+/* A real delta/sum of 0.3 is 0.3 · 10/sqrt(1.09/2) standard deviations from that of one echo. */
+static void an_azimuth_of_several_echoes_has_a_wider_deviation(void **state)
+{
+    (void)state;
+    struct sensor sensor = radar(POINT_RESPONSE_HANN, 0);
+    struct signal_cube signal = signal_cube_of(&sensor, &arena);
+    struct effect_measurement alone = {.amplitude = 10, .pointers = {10, 0}}, several = alone;
+    several.pointers.delta = 3;
+    detections_estimate(&signal, 10, 1, &alone);
+    detections_estimate(&signal, 10, 1, &several);
+    assert_true(!alone.looks_merged && several.looks_merged);
+    assert_near(several.azimuth_sigma_rad / alone.azimuth_sigma_rad, sqrt(1 + 9 / (1.09 / 2)),
+                1e-9);
+}
+
 static void an_echo_below_the_noise_is_anywhere(void **state)
 {
     (void)state;
@@ -108,6 +125,7 @@ int main(void)
         cmocka_unit_test(range_and_rate_have_the_bound_of_their_window),
         cmocka_unit_test(the_error_of_the_rate_adds_to_that_of_the_range),
         cmocka_unit_test(the_azimuth_is_that_of_elements_or_of_sum_and_delta),
+        cmocka_unit_test(an_azimuth_of_several_echoes_has_a_wider_deviation),
         cmocka_unit_test(an_echo_below_the_noise_is_anywhere),
         cmocka_unit_test(bins_are_ranges_times_rates_times_beams),
     };
