@@ -5,6 +5,7 @@ Usage: python3 tests/oracle/quality.py BIN_DIR
 Exit status 1 if any check fails. Seeds are fixed; statistics are held to three standard errors.
 """
 
+import cmath
 import json
 import math
 import random
@@ -309,6 +310,52 @@ def other_stages(bench):
         bench.check(abs(quality["rcs_dbsm"] - 10 - 20 * math.log10(amplitude / law / pattern)) < 6e-4, f"rcs: {quality}")
 
 
+def noisy(draw, sigma):
+    return sigma / math.sqrt(2) * complex(draw.gauss(0, 1), draw.gauss(0, 1))
+
+
+def looks_merged(pointers, sigma):
+    """|Re(delta conj sum)|/|sum| beyond 3 standard deviations by noise of this RMS on both channels."""
+    total, delta = pointers
+    real = (delta * total.conjugate()).real / abs(total)
+    return abs(real) > 3 * sigma * math.sqrt((1 + abs(delta / total) ** 2) / 2)
+
+
+def pair_of(draw, table, apart, amplitude):
+    """Sum and delta of two echoes of even phases on both sides of boresight, each of this amplitude in the sum; of one
+    echo where they are not apart."""
+    parts = [(cmath.rect(amplitude, draw.uniform(0, math.tau)), table(side * apart / 2))
+             for side in ((-1, 1) if apart else (1,))]
+    return sum(echo for echo, _ in parts), sum(-1j * echo * delta / total for echo, (total, delta) in parts)
+
+
+def marks(bench):
+    """Of single echoes 0.27 % look merged, and of pairs 4 degrees apart as many as in a Monte Carlo of its own."""
+    path, sigma, count = model.ROOT / "data/antennas/lrr77.csv", 0.5, 10000
+    with open(path, encoding="utf-8") as text:
+        rows = [tuple(map(float, line.split(","))) for line in text if line[0] in "-0123456789"]
+
+    def table(azimuth):
+        low, high = max(row for row in rows if row[0] <= azimuth), min(row for row in rows if row[0] > azimuth)
+        part = (azimuth - low[0]) / (high[0] - low[0])
+        return [a + part * (b - a) for a, b in zip(low[1:], high[1:])]
+    suite = suite_of(radar(antenna_pattern="table", antenna_table=str(path), pointer_sigma=sigma, list_limit=0))
+    for apart, snr_db, least, most in ((0, 20, 0.0012, 0.0042), (4, 20, 0.62, 0.67), (4, 25, 0.79, 0.83)):
+        draw, amplitude = random.Random(snr_db), sigma * 10 ** (snr_db / 20)
+        own = sum(looks_merged([one + noisy(draw, sigma) for one in pair_of(draw, table, apart * DEGREE, amplitude)], sigma)
+                  for _ in range(count)) / count
+        cells = [cell_of(n, 50, 0, 0, amplitude) for n in range(count)]
+        for cell in cells:
+            total, delta = pair_of(draw, table, apart * DEGREE, amplitude)
+            cell.update(sum_re=total.real, sum_im=total.imag, delta_re=delta.real, delta_im=delta.imag)
+        lists = [cells[n:n + BATCH] for n in range(0, count, BATCH)]
+        found = [one["quality"]["looks_merged"] for one in targets_of(heard(bench, suite, lists))]
+        share, error = mean_of(found)
+        bench.check(len(found) == count and abs(share - own) < 3 * math.sqrt(2) * error and least < share < most,
+                    f"{apart} degrees, {snr_db} dB: {share:.4f} of {len(found)} look merged, expected {own:.4f}")
+        print(f"  {apart} degrees apart, {snr_db} dB: {share:.4f} +- {error:.4f} look merged")
+
+
 WAVEFORMS = {
     "chirp, hann": {"window": "hann"},
     "chirp, rectangular": {"window": "rectangular"},
@@ -355,6 +402,7 @@ CHECKS = [
     ("of detections with a probability of existence so many are echoes", existence),
     ("so they are through the chain of shipped suites, with both thresholds", existence_of_shipped),
     ("places and the rate over ground are those of the ego and the mount", places),
+    ("a mark of merged echoes comes with its probability", marks),
     ("labels of folds and merged echoes are exact", labels),
     ("the other noise stages tell their own errors", other_stages),
     ("the signal's errors are as large as their deviations say", of_the_signal),

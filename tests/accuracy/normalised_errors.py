@@ -1,0 +1,105 @@
+"""Squared errors of targets over the variances that their quality gives, for people who write trackers.
+
+    python3 tests/accuracy/normalised_errors.py [--scenes 20] [--suites srr24-signal,lrr77-full]
+
+Random scenes of dense traffic move for 2 s each at 25 Hz. Each suite detects them by its cells (glint-sensor,
+glint-noise), a suite with a waveform also by its signal (glint-sensor-signal). The error of a target is its
+difference from the echo of its greatest weight; false alarms have none. A range rate is compared in its true fold,
+but targets that the signal puts into a wrong one are a group of their own. Misalignment is left out, as the quality
+does not contain it. The other groups are targets of one echo and of several, unmarked and marked by `looks_merged`.
+Each figure has its 95 % interval by resampling whole scenes. Where variances hold, the mean is 1, and 95 % of the
+errors are within 1.96 standard deviations.
+"""
+import argparse
+import json
+import os
+import random
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+from progress import Progress, say  # noqa: E402
+
+GLINT = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin", "glint")
+SUITES = "srr24-pair,srr24-signal,corner77,lrr77,lrr77-full,lrr77-coherent,lrr77-signal-small,radarscenes77-full"
+CELLS, SIGNAL = "glint-sensor | glint-noise", "glint-sensor-signal"
+COMPONENTS = {"range": ("range_m", "range_sd_m"), "rate": ("range_rate_mps", "range_rate_sd_mps"),
+              "azimuth": ("azimuth_rad", "azimuth_sd_rad")}
+GROUPS = {(False, False): "one", (False, True): "one, marked", (True, False): "several", (True, True): "several, marked"}
+RESAMPLES = 1000
+FEWEST = 8  # scenes with such targets, for an interval
+WITHIN = 1.96 ** 2
+
+
+def normalised(target):
+    """Squared errors over variances, by component; none without a deviation."""
+    quality, truth = target["quality"], max(target["contributors"], key=lambda one: one["weight"])
+    folds = quality.get("ambiguity_number", 0) * quality.get("range_rate_interval_mps", 0)
+    reported = dict(target, range_rate_mps=target["range_rate_mps"] + folds)
+    return {name: ((reported[key] - truth[key]) / quality[sd]) ** 2
+            for name, (key, sd) in COMPONENTS.items() if quality[sd] > 0}
+
+
+def scenes_of(source, suite, chain):
+    """By scene and group the normalised errors of each target with an echo."""
+    text = (f"{source} | glint-extract | glint-ideal --sensors {suite} --sections quality "
+            f"--effects auto,-misalignment | {chain}")
+    done = subprocess.run([GLINT, "-c", text], check=True, stdout=subprocess.PIPE, cwd=ROOT)
+    scenes = {}
+    for frame in map(json.loads, done.stdout.splitlines()):
+        groups = scenes.setdefault(frame["scene"], {})
+        for target in frame["targets"]:
+            quality = target["quality"]
+            group = GROUPS[quality["merged_reflectors"], quality.get("looks_merged", False)]
+            if chain == SIGNAL and quality["ambiguity_number"] != 0:
+                group = "wrong fold"
+            if target["contributors"][0]["path"] != "false_alarm":
+                groups.setdefault(group, []).append(normalised(target))
+    return list(scenes.values())
+
+
+def ratio(pairs):
+    """The ratio of sums, with the middle 95 % of those of resampled scenes; without it where few scenes have any."""
+    above, below = map(sum, zip(*pairs))
+    if sum(pair[1] > 0 for pair in pairs) < FEWEST:
+        return f"{above / below:.3g} (few)" if below else "-"
+    draws = random.Random(1)
+    sums = [tuple(map(sum, zip(*draws.choices(pairs, k=len(pairs))))) for _ in range(RESAMPLES)]
+    ratios = sorted(above / below for above, below in sums if below)
+    cut = len(ratios) // 40
+    return f"{above / below:.3g} ({ratios[cut]:.3g} to {ratios[-1 - cut]:.3g})"
+
+
+def report(title, scenes):
+    """Rows of one chain: groups by component."""
+    for group in [*GROUPS.values(), "wrong fold"]:
+        own = [scene.get(group, []) for scene in scenes]
+        share = ratio([(100 * len(of), sum(map(len, scene.values()))) for of, scene in zip(own, scenes)])
+        for name in COMPONENTS if any(own) else ():
+            errors = [[one[name] for one in of if name in one] for of in own]
+            mean = ratio([(sum(of), len(of)) for of in errors])
+            within = ratio([(100 * sum(one <= WITHIN for one in of), len(of)) for of in errors])
+            say(f"{title:27}{group:17}{name:9}{sum(map(len, own)):6}  {share:23}{mean:28}{within}")
+
+
+def main():
+    asked = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked.add_argument("--scenes", type=int, default=20, help="number of random scenes; absent: 20")
+    asked.add_argument("--suites", default=SUITES, help="names of suites with commas")
+    asked = asked.parse_args()
+    source = f"glint-traffic-random --density dense --seconds 2 --rate-hz 25 --scenes 0:{asked.scenes} --seed 27"
+    chains = []
+    for suite in asked.suites.split(","):
+        chains.append((suite, suite, CELLS))
+        with open(os.path.join(ROOT, "data", "sensors", suite + ".json")) as text:
+            if all("waveform" in one for one in json.load(text)["sensors"]):
+                chains.append((f"{suite}, signal", suite, SIGNAL))
+    say(f"{'suite':27}{'echoes':17}{'':9}{'count':>6}  {'% of targets':23}{'mean squared error/variance':28}% within 1.96 sd")
+    for title, suite, chain in Progress("chains").over(chains):
+        report(title, scenes_of(source, suite, chain))
+
+
+if __name__ == "__main__":
+    main()
