@@ -163,7 +163,7 @@ def check_set():
 def fault_of(module, data, entry):
     """What the script's own functions say of a file's bytes; entry None: of the manifest's."""
     try:
-        return module.fault_of_manifest(data) if entry is None else module.fault_of_bytes(data, entry)
+        return module.fault_of_manifest(data) if entry is None else module.fault_of_bytes(len(data), module.digest_of(data), entry)
     except (ValueError, KeyError, TypeError) as error:
         return str(error)
 
