@@ -9,11 +9,11 @@ class Drawing:
 .beam{fill:#0072b2;opacity:.06}.body{fill:#e9ecf0;stroke:#7b8490;stroke-width:1.2}.ego{fill:#3d4550}
 .rail{fill:#c3c9d1}.cell{fill:#0072b2;opacity:.3}.centre{fill:#16191d}.merged{stroke:#16191d;stroke-width:1.2;stroke-dasharray:2 3}
 .lost{stroke:#b3261e;stroke-width:1.8}.left{fill:#0072b2;stroke:#fff;stroke-width:1}
-.right{fill:none;stroke:#d55e00;stroke-width:2.6}.rate-left{stroke:#0072b2;stroke-width:1.8}
-.rate-right{stroke:#d55e00;stroke-width:1.8}.ghost{fill:#fff;stroke:#0072b2;stroke-width:1.6;stroke-dasharray:3 2}
+.right{fill:none;stroke:#c74e00;stroke-width:2.6}.rate-left{stroke:#0072b2;stroke-width:1.8}
+.rate-right{stroke:#c74e00;stroke-width:1.8}.ghost{fill:#fff;stroke:#0072b2;stroke-width:1.6;stroke-dasharray:3 2}
 .path{stroke:#0072b2;stroke-width:1.2;stroke-dasharray:6 4;fill:none;opacity:.7}
 .pointer,.frame{stroke:#9aa3ad;stroke-width:1}.frame{fill:none}text{fill:#16191d}.quiet{fill:#5b636e}.red{fill:#b3261e}
-.white{fill:#fff}.strong{font-weight:bold}.paper{fill:#fff}.blue{fill:#0072b2}.orange{fill:#d55e00}.green{fill:#009e73}
+.white{fill:#fff}.strong{font-weight:bold}.paper{fill:#fff}.blue{fill:#0072b2}.orange{fill:#c74e00}.green{fill:#009e73}
 .fan{fill-opacity:.35}.edge{stroke-width:1;stroke-dasharray:8 6}.arrow{stroke:#5b636e;stroke-width:2}
 .plane{stroke:#009e73;stroke-width:4}
 @media (prefers-color-scheme:dark){.paper{fill:#0d1117}.road{stroke:#363c44}.beam{fill:#56b4e9;opacity:.09}

@@ -53,8 +53,9 @@ class Logarithmic:
 
 
 class Signed:
-    """Decades to both sides of a piece around zero that is linear."""
+    """Decades to both sides of a piece around zero that is linear, which the axis says in its label."""
     LINEAR = 0.2
+    SCALE = f"linear within ±{LINEAR:g}, logarithmic beyond"
     MARKS = [-100, -30, -10, -3, -1, -0.3, 0, 0.3, 1, 3, 10, 30, 100]
 
     def __init__(self, values):
@@ -257,7 +258,7 @@ def effect_panels(rows, radar, size, frames):
     names = sorted(best, key=lambda name: -best[name])
     ends = [row[key] for row in own for key in ("gain_low", "gain_high")]
     gains = Panel(size, frames[0], Signed(ends), Rows(names),
-                  ("Error that an effect takes away, with its 95 % interval", "percentage points", ""))
+                  ("Error that an effect takes away, with its 95 % interval", f"percentage points; {Signed.SCALE}", ""))
     cost = {id(row): spent_more(rows, row) for row in own}
     costs = Panel(size, frames[1], Logarithmic(list(cost.values()), 1), Rows(["" for _ in names]),
                   ("Time that it takes", "CPU time of a frame, µs", ""))
@@ -310,7 +311,8 @@ def tracker_page(rows, path):
     ladder.series([(row["gospa"], place) for place, row in enumerate(rungs)], BLUE)
     effects = Panel(size, Box(170, 830, 60, middle),
                     Signed([row[key] for row in own for key in ("change_low", "change_high")] or [1]), Rows(names),
-                    ("What an effect adds to it, with its 95 % interval", "GOSPA of its tracks, m", ""))
+                    ("What an effect adds to it, with its 95 % interval",
+                     f"GOSPA of its tracks, m; {Signed.SCALE}", ""))
     effect_series(effects, own, names, "change")
     effects.legend += [(title, colour) for _, colour, _, title in EFFECT_GROUPS]
     page(path, size, [ladder, effects])
