@@ -148,7 +148,6 @@ const struct stage stage_view = {
         "stream.",
     .options = STAGE_OPTIONS(struct view, view_fields),
     .sink = true,
-    .reads = SECTION_OBJECTS,
     .start = view_start,
     .step = view_step,
     .stop = view_stop,

@@ -60,7 +60,7 @@ static uint32_t scene_of(struct view_data *data, const struct frame *frame)
     const uint64_t key[] = {name_of(data, frame->scene), frame->seed};
     uint32_t number = intern_number(&data->scene_keys, key, sizeof key, data->arena);
     if (number == data->scenes.count) {
-        const struct object *ego = frame_object(frame, frame->ego);
+        struct vec2 ego = view_frame_ego(frame, 0).position_m;
         bool has_sensors = (frame->present & SECTION_SENSORS) != 0;
         *list_add(&data->scenes, data->arena) = (struct view_scene){
             .name = (int64_t)key[0],
@@ -69,8 +69,8 @@ static uint32_t scene_of(struct view_data *data, const struct frame *frame)
             .suite = name_of(data, has_sensors ? frame->sensors.suite : ""),
             .first_frame = frame->frame,
             .start_s = frame->time_s,
-            .anchor_x_m = frame->origin_x_m + ego->x_m,
-            .anchor_y_m = frame->origin_y_m + ego->y_m,
+            .anchor_x_m = frame->origin_x_m + ego.x,
+            .anchor_y_m = frame->origin_y_m + ego.y,
         };
     }
     if (frame->last)
@@ -205,14 +205,15 @@ static struct vec2 spot_of(struct view_data *data, uint32_t scene, const struct 
     return data->spots.items[number];
 }
 
-/* True if the loss was within 5 cm of its reflector's spot, or if its place is not known. */
+/* True if the loss was within 5 cm of its reflector's spot, or if its place is not known. Only
+ * direct echoes come from there. */
 static bool is_at_spot(struct view_data *data, const struct loss_scan *scan,
                        const struct loss_row *row, const struct lost_echo *echo)
 {
     const struct object *object = frame_object(scan->frame, echo->id.object);
     if (echo->range_m == 0)
         return true;
-    if (object == NULL)
+    if (object == NULL || echo->id.path != PATH_DIRECT)
         return false;
     struct motion body = frame_motion(object, scan->scan.age_s);
     struct vec2 place = vec2_turn_back(

@@ -1,9 +1,16 @@
 #include "view/view_frame.h"
 
+struct motion view_frame_ego(const struct frame *frame, double age_s)
+{
+    const struct object *ego = frame_object(frame, frame->ego);
+    return ego != NULL ? frame_motion(ego, age_s)
+                       : (struct motion){.velocity_mps = {(double)NAN, (double)NAN}};
+}
+
 struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor)
 {
     struct view_scan scan = {.age_s = sensor->age_s};
-    struct motion ego = frame_motion(frame_object(frame, frame->ego), scan.age_s);
+    struct motion ego = view_frame_ego(frame, scan.age_s);
     scan.pose =
         kinematics_sensor_pose(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
     return scan;

@@ -14,6 +14,10 @@ struct view_scan {
     double age_s; /* the frame's time less that of the measurement */
 };
 
+/* The ego some time before the frame's. In a stream without objects it is at the origin, heads
+ * along x, and has no velocity (NAN). */
+struct motion view_frame_ego(const struct frame *frame, double age_s);
+
 struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor);
 
 /* The place, in the frame's coordinates, at a range and an azimuth of a scan. */

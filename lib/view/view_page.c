@@ -1,6 +1,7 @@
 #include "view/view_page.h"
 
 #include "text/record_write.h"
+#include "view/view_marks.h"
 
 struct reason {
     const char *name;
@@ -13,7 +14,8 @@ struct effect_set {
 
 struct head {
     int64_t open_frame;
-    LIST_OF(const char *) names, paths, effects;
+    LIST_OF(const char *) names, paths, kinds, effects, light, dark;
+    LIST_OF(struct view_shape) shapes;
     LIST_OF(struct reason) reasons;
     LIST_OF(struct effect_set) effect_sets;
     LIST_OF(struct view_scene) scenes;
@@ -65,11 +67,25 @@ static const struct field place_fields[] = {
 static const struct record place_record = {
     .name = "column", .size = sizeof(struct view_column_place), .fields = place_fields};
 
+static const struct field shape_fields[] = {
+    {FIELD_INTEGER_IN(struct view_shape, corners, 0, 100, "0: a circle")},
+    {FIELD_REAL_IN(struct view_shape, inner, 0, 1, "radius between the tips of a star; 0: none")},
+    {FIELD_REAL_IN(struct view_shape, turn_rad, 0, 10, "of the first corner, from the top")},
+    {FIELD_REAL_IN(struct view_shape, size, 0, 10, "its radius, where a mark's is 1")},
+    {0},
+};
+static const struct record shape_record = {
+    .name = "shape", .size = sizeof(struct view_shape), .fields = shape_fields};
+
 static const struct field head_fields[] = {
     {FIELD_INTEGER_IN(struct head, open_frame, -1, 0x1p53,
                       "number of the frame to open; -1: the page's choice")},
     {FIELD_NAMES_OF(struct head, names, "names, by number")},
     {FIELD_NAMES_OF(struct head, paths, "paths of echoes, by number")},
+    {FIELD_NAMES_OF(struct head, kinds, "kinds of targets, by the number of their path")},
+    {FIELD_NAMES_OF(struct head, light, "colours of sensors on light paper")},
+    {FIELD_NAMES_OF(struct head, dark, "and on dark paper")},
+    {FIELD_LIST_OF(struct head, shapes, &shape_record, "shapes of targets, by sensor")},
     {FIELD_NAMES_OF(struct head, effects, "effects, by number")},
     {FIELD_LIST_OF(struct head, reasons, &reason_record, "reasons of losses, by number")},
     {FIELD_LIST_OF(struct head, effect_sets, &effect_set_record, "sets of effects, by number")},
@@ -157,8 +173,16 @@ static void add_numbered(const struct view_data *data, struct head *head)
     struct arena *arena = data->arena;
     for (size_t i = 0; i < data->names.list.count; i++)
         *list_add(&head->names, arena) = data->names.list.items[i].text;
-    for (enum path path = 0; frame_paths[path] != NULL; path++)
+    for (enum path path = 0; frame_paths[path] != NULL; path++) {
         *list_add(&head->paths, arena) = frame_paths[path];
+        *list_add(&head->kinds, arena) = view_marks_kind(path);
+    }
+    for (int i = 0; i < VIEW_COLOURS; i++) {
+        *list_add(&head->light, arena) = view_marks_light[i];
+        *list_add(&head->dark, arena) = view_marks_dark[i];
+    }
+    for (int i = 0; i < VIEW_SHAPES; i++)
+        *list_add(&head->shapes, arena) = view_marks_shapes[i];
     for (int effect = 0; effect < EFFECT_COUNT; effect++)
         *list_add(&head->effects, arena) = effects_names[effect];
     for (enum loss loss = 0; frame_losses[loss] != NULL; loss++)

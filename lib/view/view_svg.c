@@ -2,13 +2,9 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
+#include "view/view_marks.h"
 
-enum { WIDTH = 1200, HEIGHT = 800, MARGIN = 60 };
-
-/* Colours and symbols are those of the page, by the sensor's index in the list. */
-static const char *const colours[] = {"#0072b2", "#c74e00", "#00805e",
-                                      "#a8478a", "#8a6d00", "#3a6fd8"};
-enum { STYLES = sizeof colours / sizeof *colours };
+enum { WIDTH = 1200, HEIGHT = 800, MARGIN = 60, MARK = 7 };
 
 /* A drawing, with the transformation from metres in the ego's axes, x right, to pixels. */
 struct drawing {
@@ -156,8 +152,8 @@ static void draw_beam(struct drawing *drawing, const struct sensor_view *sensor,
     struct view_scan scan = view_frame_scan(drawing->frame, sensor);
     struct vec2 at = to_pixels(drawing, scan.pose.position_m);
     double radius = drawing->scale * sensor->range_max_m, half = sensor->field_of_view_rad / 2;
-    text_format(drawing->text, "<path class=\"beam s%zu\" d=\"M%.1f %.1f", style % STYLES, at.x,
-                at.y);
+    text_format(drawing->text, "<path class=\"beam s%zu\" d=\"M%.1f %.1f", style % VIEW_COLOURS,
+                at.x, at.y);
     for (int i = 0; i <= 2; i++) {
         struct vec2 to = to_pixels(
             drawing, view_frame_place(&scan, sensor->range_max_m, half * (1 - i) * 0.999999));
@@ -169,31 +165,47 @@ static void draw_beam(struct drawing *drawing, const struct sensor_view *sensor,
     text_add_word(drawing->text, "Z\"/>\n");
 }
 
-static void add_symbol(struct text *text, size_t style, bool hollow, struct vec2 at)
+static void add_circle(struct text *text, const char *class, size_t style, struct vec2 at,
+                       double radius)
 {
-    static const struct {
-        int corners;
-        double inner, turn, size;
-    } shapes[STYLES] = {
-        {5, 0.42, 0, 9.5}, {0, 0, 0, 6.5},      {4, 1, 0, 8.5},
-        {3, 1, 0, 8.5},    {4, 1, PI / 4, 8.5}, {4, 0.3, PI / 4, 9.5},
-    };
-    size_t shape = style % STYLES;
-    if (shapes[shape].corners == 0) {
-        text_format(text, "<circle class=\"%s s%zu\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n",
-                    hollow ? "hollow" : "ring", shape, at.x, at.y, shapes[shape].size);
+    text_format(text, "<circle class=\"%s%zu\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", class,
+                style % VIEW_COLOURS, at.x, at.y, radius);
+}
+
+/* The star or polygon of a sensor, or the ring that is its circle. */
+static void add_shape(struct text *text, size_t style, bool hollow, struct vec2 at)
+{
+    const struct view_shape *shape = &view_marks_shapes[style % VIEW_SHAPES];
+    if (shape->corners == 0) {
+        add_circle(text, hollow ? "hollow s" : "ring s", style, at, MARK * shape->size);
         return;
     }
-    bool star = shapes[shape].inner < 1;
-    int steps = shapes[shape].corners * (star ? 2 : 1);
-    text_format(text, "<path class=\"%s%zu\" d=\"", hollow ? "hollow s" : "target f", shape);
-    for (int i = 0; i < steps; i++) {
-        double reach = shapes[shape].size * (star && i % 2 == 1 ? shapes[shape].inner : 1);
-        double angle = shapes[shape].turn - PI / 2 + 2 * PI * i / steps;
+    int64_t steps = shape->corners * (shape->inner > 0 ? 2 : 1);
+    text_format(text, "<path class=\"%s%zu\" d=\"", hollow ? "hollow s" : "target f",
+                style % VIEW_COLOURS);
+    for (int64_t i = 0; i < steps; i++) {
+        double reach = MARK * shape->size * (shape->inner > 0 && i % 2 == 1 ? shape->inner : 1);
+        double angle = shape->turn_rad - PI / 2 + 2 * PI * (double)i / (double)steps;
         text_format(text, "%s%.1f %.1f", i == 0 ? "M" : "L", at.x + reach * elementary_cos(angle),
                     at.y + reach * elementary_sin(angle));
     }
     text_add_word(text, "Z\"/>\n");
+}
+
+static void add_symbol(struct text *text, size_t style, enum path path, struct vec2 at)
+{
+    static const struct vec2 gravel[] = {{0, -0.6}, {-0.65, 0.5}, {0.65, 0.5}};
+    if (path == PATH_CLUTTER)
+        for (int i = 0; i < 3; i++)
+            add_circle(text, "target f", style, vec2_add(at, vec2_scale(MARK, gravel[i])),
+                       0.42 * MARK);
+    else if (path == PATH_FALSE_ALARM)
+        text_format(text,
+                    "<path class=\"alarm s%zu\" d=\"M%.1f %.1fl13.4 7.7m0 -7.7l-13.4 7.7m6.7 "
+                    "-11.6v15.4\"/>\n",
+                    style % VIEW_COLOURS, at.x - 6.7, at.y - 3.85);
+    else
+        add_shape(text, style, !frame_shows_object(path), at);
 }
 
 static void draw_target(struct drawing *drawing, const struct target *target)
@@ -203,12 +215,12 @@ static void draw_target(struct drawing *drawing, const struct target *target)
     struct view_scan scan = view_frame_scan(drawing->frame, sensor);
     struct vec2 at = view_frame_place(&scan, target->range_m, target->azimuth_rad);
     char class[16] = "speed s0";
-    class[7] = (char)('0' + style % STYLES);
+    class[7] = (char)('0' + style % VIEW_COLOURS);
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *from = &target->contributors.items[i];
         struct vec2 place = view_frame_place(&scan, from->range_m, from->azimuth_rad);
-        text_format(drawing->text, "<g class=\"part s%zu\" stroke-width=\"%.2f\">", style % STYLES,
-                    1 + 3 * from->weight);
+        text_format(drawing->text, "<g class=\"part s%zu\" stroke-width=\"%.2f\">",
+                    style % VIEW_COLOURS, 1 + 3 * from->weight);
         add_line(drawing, "tie", place, at);
         text_add_word(drawing->text, "</g>\n");
         add_dot(drawing, "lit", place, 3);
@@ -217,9 +229,7 @@ static void draw_target(struct drawing *drawing, const struct target *target)
         add_line(drawing, class, at,
                  view_frame_place(&scan, target->range_m + target->range_rate_mps / 2,
                                   target->azimuth_rad));
-    const struct contributor *strongest = frame_strongest(target);
-    add_symbol(drawing->text, style, strongest != NULL && !frame_shows_object(strongest->id.path),
-               to_pixels(drawing, at));
+    add_symbol(drawing->text, style, target->contributors.items[0].id.path, to_pixels(drawing, at));
 }
 
 /* Draws a dot where a reflector sent no echo, and a cross where an echo is in no target. A dot for
@@ -236,8 +246,9 @@ static void draw_lost(struct drawing *drawing, const struct lost_group *group)
         if (echo->range_m == 0 || !in_picture(at, 0))
             continue;
         if (view_frame_loss_is_notable(frame_loss_of(group->reason)))
-            text_format(drawing->text, "<path class=\"lost\" d=\"M%.1f %.1fl9 9m0 -9l-9 9\"/>\n",
-                        at.x - 4.5, at.y - 4.5);
+            text_format(drawing->text,
+                        "<path class=\"lost\" d=\"M%.1f %.1fl10 10m0 -10l-10 10\"/>\n", at.x - 5,
+                        at.y - 5);
         else if (first)
             add_dot(drawing, "centre", place, 2);
     }
@@ -270,18 +281,28 @@ static void draw_legend(struct drawing *drawing)
     text_format(text, ", frame %lld, %g s</text>\n", (long long)frame->frame, frame->time_s);
     for (size_t i = 0; i < frame->sensors.list.count; i++) {
         y += 20;
-        add_symbol(text, i, false, (struct vec2){29, y - 4});
+        add_symbol(text, i, PATH_DIRECT, (struct vec2){29, y - 4});
         text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">target of ", y);
         add_escaped(text, frame->sensors.list.items[i].name);
         text_add_word(text, "; its line: radial speed, 0.5 s long</text>\n");
     }
-    add_symbol(text, 0, true, (struct vec2){29, y + 16});
-    add_note(text, y + 20, "ghost, clutter or false alarm");
+    static const struct {
+        enum path path;
+        double x;
+        const char *name;
+    } kinds[] = {{PATH_WALL_OBJECT, 29, "ghost"},
+                 {PATH_CLUTTER, 119, "clutter"},
+                 {PATH_FALSE_ALARM, 219, "false alarm"}};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        add_symbol(text, 0, kinds[i].path, (struct vec2){kinds[i].x, y + 16});
+        text_format(text, "<text class=\"note\" x=\"%.0f\" y=\"%.0f\">%s</text>\n", kinds[i].x + 17,
+                    y + 20, kinds[i].name);
+    }
     text_format(text, "<circle class=\"lit\" cx=\"29\" cy=\"%.0f\" r=\"3\"/>\n", y + 36);
     add_note(text, y + 40, "echo in a target");
     if (!frame_carries(frame, CARRY_ACCOUNT))
         return;
-    text_format(text, "<path class=\"lost\" d=\"M24.5 %.0fl9 9m0 -9l-9 9\"/>\n", y + 51);
+    text_format(text, "<path class=\"lost\" d=\"M24 %.0fl10 10m0 -10l-10 10\"/>\n", y + 51);
     add_note(text, y + 60, "echo in no target");
     text_format(text, "<circle class=\"centre\" cx=\"29\" cy=\"%.0f\" r=\"2\"/>\n", y + 76);
     add_note(text, y + 80, "reflector without an echo");
@@ -300,12 +321,13 @@ static void begin_drawing(struct text *text)
         ".name{fill:#5b636e;text-anchor:middle;paint-order:stroke;stroke:#fff;stroke-width:3}\n"
         ".note{fill:#5b636e}\n"
         ".title{fill:#16191d;font-weight:bold}.scale{stroke:#16191d;stroke-width:1.5}\n"
-        ".scale,.speed,.lost,.beam,.ring{fill:none}.lost{stroke:#b3261e;stroke-width:2}\n"
+        ".scale,.speed,.lost,.beam,.ring,.alarm{fill:none}.lost{stroke:#b3261e;stroke-width:2}\n"
         ".beam{stroke-dasharray:6 4;opacity:.5}.speed{stroke-width:1.6}\n"
-        ".ring{stroke-width:2.6}.target{stroke:#fff}.part{opacity:.6}\n"
+        ".ring{stroke-width:2.6}.alarm{stroke-width:2.1}.target{stroke:#fff}.part{opacity:.6}\n"
         ".hollow{fill:#fff;stroke-width:1.6;stroke-dasharray:3 2}\n");
-    for (int i = 0; i < STYLES; i++)
-        text_format(text, ".s%d{stroke:%s}.f%d{fill:%s}\n", i, colours[i], i, colours[i]);
+    for (int i = 0; i < VIEW_COLOURS; i++)
+        text_format(text, ".s%d{stroke:%s}.f%d{fill:%s}\n", i, view_marks_light[i], i,
+                    view_marks_light[i]);
     text_format(text, "</style>\n<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", WIDTH,
                 HEIGHT);
 }
@@ -327,13 +349,13 @@ static void draw_frame(struct drawing *drawing)
 
 void view_svg_write(const struct frame *frame, struct view_models *models, struct text *text)
 {
-    const struct object *ego = frame_object(frame, frame->ego);
+    struct motion ego = view_frame_ego(frame, 0);
     struct drawing drawing = {
         .frame = frame,
         .models = models,
         .text = text,
-        .origin = {ego->x_m, ego->y_m},
-        .heading = vec2_heading(ego->yaw_rad),
+        .origin = ego.position_m,
+        .heading = vec2_heading(ego.yaw_rad),
     };
     frame_picture(&drawing);
     begin_drawing(text);

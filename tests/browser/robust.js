@@ -92,7 +92,7 @@ module.exports = ({work, stream, view, withPage}) => {
         async 'sensors of one colour have different shapes, and the first six all'() {
             await withPage(view([{...busy, last: true}]), async page => {
                 const looks = await page.evaluate(() => Array.from({length: 24}, (_, i) =>
-                    `${ink.palette[i % ink.palette.length]} ${targetShapes[i % targetShapes.length]}`));
+                    `${ink.palette[i % ink.palette.length]} ${JSON.stringify(head.shapes[i % head.shapes.length])}`));
                 assert.strictEqual(new Set(looks).size, 24);
                 assert.strictEqual(new Set(looks.slice(0, 6).map(look => look.slice(8))).size, 6);
             });
@@ -144,6 +144,7 @@ module.exports = ({work, stream, view, withPage}) => {
                 assert.ok(await has('target_range_m'));
                 assert.ok(!await has('target_cell_range_m'));
                 await page.keyboard.press('n');
+                await page.click('[aria-controls=panel]');
                 assert.ok(await has('target_cell_range_m'));
             });
         },
@@ -162,10 +163,14 @@ module.exports = ({work, stream, view, withPage}) => {
                 assert.match(await page.innerText('#clock'), /^frame 49999 \(50000\/50000\)/);
                 await page.click('[aria-controls=over-time]');
                 assert.strictEqual(await page.evaluate(() => series.counts.length), 50000);
-                await page.keyboard.press('g');
-                await page.keyboard.type('123.45 s');
-                await page.keyboard.press('Enter');
-                assert.match(await page.innerText('#clock'), /^frame 12345 /);
+                const times = Array.from({length: 40}, (_, i) => 3200 + 1171 * i);
+                assert.ok(times.filter(number => Math.fround(number / 100) > number / 100 + 1e-6).length > 5);
+                for (const number of times) {
+                    await page.keyboard.press('g');
+                    await page.keyboard.type(`${number / 100} s`);
+                    await page.keyboard.press('Enter');
+                    assert.match(await page.innerText('#clock'), new RegExp(`^frame ${number} `));
+                }
             });
         },
 

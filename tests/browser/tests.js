@@ -626,7 +626,8 @@ const tests = {
 Object.assign(tests, require('./whole_scene.js')(
     {stream, view, withPage, targetOnMap, clickMap, panelText, clock}),
 require('./comparison.js')({work, write, view, withPage}), require('./robust.js')({work, stream, view, withPage}),
-require('./truth.js')({stream, view, withPage, panelText}));
+require('./truth.js')({stream, view, withPage, panelText}),
+require('./events.js')({stream, view, withPage, targetOnMap, panelText, clock}));
 
 async function main() {
     browser = await launch();

@@ -356,6 +356,167 @@ module.exports = ({stream, view, withPage, panelText}) => {
             });
         },
 
+        async 'echoes of one reflector tell their paths'() {
+            const frames = streamOf('wheels-and-limbs');
+            const wordsOf = one => one.path === 'wheel' || one.path === 'limb'
+                ? `${one.reflector} by ${one.path} ${one.number}` : `${one.reflector} direct`;
+            const alike = frame => frame.targets.filter(one => one.contributors.length === 1 &&
+                one.contributors[0].object === 'car' && one.contributors[0].reflector === 'wheel_rr');
+            const frame = frames.find(one => alike(one).length >= 3);
+            await withPage(view(frames), async page => {
+                await showFrame(page, frame);
+                await page.evaluate(() => chooseObject(names.indexOf('car')));
+                const rows = await page.locator('#panel .row:not(.lost) .what').allInnerTexts();
+                for (const {contributors: [one]} of alike(frame)) {
+                    assert.ok(rows.some(row => row.endsWith(` ${wordsOf(one)} 100 %`)), `${wordsOf(one)}: ${rows}`);
+                }
+                assert.strictEqual(new Set(alike(frame).map(one => wordsOf(one.contributors[0]))).size, alike(frame).length);
+            });
+        },
+
+        async 'a lost ghost is called a ghost, and stands on no body'() {
+            const frames = streamOf('ghosts');
+            const isGhostly = echo => echo.path.includes('wall');
+            const lostGhosts = frame => frame.lost.filter(group => ['below_threshold', 'blocked'].includes(group.reason))
+                .flatMap(group => group.echoes.filter(isGhostly));
+            const frame = structuredClone(frames.find(one => lostGhosts(one).length > 0));
+            const [echo] = lostGhosts(frame);
+            await withPage(view([{...frame, last: true}]), async page => {
+                await showFrame(page, frame);
+                const {sensor} = frame.lost.find(group => group.echoes.includes(echo));
+                await page.evaluate(([id, at]) => {
+                    chooseObject(names.indexOf(id));
+                    Object.assign(camera, at, {scale: 20});
+                }, [echo.object, placeOf(frame, sensor, echo.range_m, echo.azimuth_rad)]);
+                const {words} = await drawnNow(page);
+                const label = words.find(word => word.includes(`ghost of ${echo.reflector} `) && /:/.test(word));
+                assert.ok(label && label.includes(echo.mirror), words.join('; '));
+                assert.ok((await panelText(page)).includes(`ghost of ${echo.reflector} `));
+            });
+            frame.lost.forEach(group => group.echoes.filter(isGhostly).forEach(one => {
+                delete one.range_m;
+                delete one.azimuth_rad;
+            }));
+            await withPage(view([{...frame, last: true}]), async page => {
+                await showFrame(page, frame);
+                const places = await page.evaluate(id => {
+                    chooseObject(names.indexOf(id));
+                    return lossesOf(scansOf(state.frame).begin, state.object)
+                        .filter(loss => head.paths[loss.path].includes('wall')).map(loss => lossPlace(scansOf(state.frame).begin, loss));
+                }, echo.object);
+                assert.ok(places.length > 0 && places.every(place => place === null), JSON.stringify(places));
+            });
+        },
+
+        async 'over time an object without a target has the reasons of its own echoes'() {
+            const frame = structuredClone(streamOf('ghosts').find(one => one.objects.some(object => object.id === 'van')));
+            const [{name: sensor}] = frame.sensors.list;
+            const echo = (reflector, path, number) => ({object: 'van', reflector, path, range_m: 20 + number, azimuth_rad: 0,
+                ...(path === 'direct' ? {} : {mirror: 'wall'})});
+            const some = (path, count) => Array.from({length: count}, (_, i) => echo(`point_${i}`, path, i));
+            const lost = [{sensor, stage: 'ideal', reason: 'blocked', echoes: some('direct', 2).map(one => ({...one, by: 'wall'}))},
+                {sensor, stage: 'ideal', reason: 'facing_away', echoes: some('direct', 6).slice(3)},
+                {sensor, stage: 'sensor', reason: 'below_threshold',
+                    echoes: some('wall_object', 5).map(one => ({...one, shortfall_db: 2})).concat(
+                        {...echo('point_2', 'direct', 2), shortfall_db: 1})}];
+            const counts = [{sensor, pairs: 6, paths: [{path: 'direct', echoes: 1}, {path: 'wall_object', echoes: 5}]}];
+            const bare = {...frame, targets: [], lost, counts, last: true};
+            await withPage(view([bare]), async page => {
+                await showFrame(page, frame);
+                await page.evaluate(() => { chooseObject(names.indexOf('van')); showPane('over-time'); });
+                assert.deepStrictEqual(await page.evaluate(() => series.gaps.map(gap => gap.reason)), ['blocked, below threshold']);
+                assert.match(await page.evaluate(() => overTimeWords(0)), /: 2 blocked, 1 below threshold$/);
+            });
+        },
+
+        async 'over time azimuths of all boresights count from the vehicle’s heading'() {
+            const frames = streamOf('smear');
+            const mounts = new Map(frames[0].sensors.list.map(one => [one.name, one.mount_yaw_rad]));
+            assert.ok(new Set(mounts.values()).size > 1);
+            await withPage(view(frames), async page => {
+                await page.evaluate(() => { chooseObject(-1); showPane('over-time'); });
+                const {title, values} = await page.evaluate(() => ({title: overTimePlots[2].title,
+                    values: series.points.map(({target, scan}) => overTimePlots[2].value(target, scan))}));
+                assert.match(title, /from the vehicle’s heading/);
+                const wrap = angle => Math.atan2(Math.sin(angle), Math.cos(angle));
+                const expected = frames.flatMap(frame => frame.sensors.list.flatMap(({name}) => frame.targets
+                    .filter(one => one.sensor === name).map(one => wrap(one.azimuth_rad + mounts.get(name)) * 180 / Math.PI)));
+                assert.strictEqual(values.length, expected.length);
+                expected.forEach((value, i) => assert.ok(Math.abs(values[i] - value) < 1e-3, `${values[i]}, expected ${value}`));
+            });
+        },
+
+        async 'page, comparison and still have the same marks'() {
+            const frame = withMany(streamOf('intersection'));
+            const kinds = structuredClone({...frame, last: true, sections: undefined, lost: undefined, counts: undefined});
+            kinds.targets.slice(0, 3).forEach(({contributors: [one]}, i) => Object.assign(one,
+                {path: ['wall_object', 'clutter', 'false_alarm'][i], mirror: i === 0 ? 'bus' : undefined}));
+            const svg = fs.readFileSync(view([kinds], '--svg'), 'utf8');
+            const style = kinds.sensors.list.findIndex(one => one.name === kinds.targets[0].sensor);
+            const body = svg.slice(0, svg.indexOf('class="title"'));
+            for (const mark of [`hollow s${style}`, `target f${style}" cx`, `alarm s${style}`]) {
+                assert.ok(body.includes(`class="${mark}`), mark);
+            }
+            await withPage(view([kinds]), async page => {
+                const {light, traced, radius, marks} = await page.evaluate(() => {
+                    const trace = style => {
+                        const points = [];
+                        traceTargetShape({beginPath() {}, closePath() {}, arc: (x, y, size) => points.push(size),
+                            lineTo: (x, y) => points.push([x, y])}, style, 0, 0, 7);
+                        return points;
+                    };
+                    return {light: head.light, traced: trace(0), radius: trace(1)[0],
+                        marks: ['body', 'ghost', 'clutter', 'false_alarm', 'truth'].map(kind =>
+                            symbolCanvas(0, '#000', 24, kind).toDataURL())};
+                });
+                light.forEach((colour, i) => assert.ok(svg.includes(`.s${i}{stroke:${colour}}.f${i}{fill:${colour}}`), colour));
+                const legend = svg.slice(svg.indexOf('class="title"'));
+                const star = /class="target f0" d="M([^Z]*)Z/.exec(legend)[1].split('L').map(one => one.split(' ').map(Number));
+                star.forEach(([x, y], i) => assert.ok(Math.hypot(x - star[0][0] - traced[i][0],
+                    y - star[0][1] - traced[i][1] + traced[0][1]) < 0.11, `${x}, ${y}: ${traced[i]}`));
+                assert.strictEqual(Number(/class="ring s1"[^>]* r="([\d.]+)"/.exec(legend)[1]), Number(radius.toFixed(1)));
+                assert.strictEqual(new Set(marks).size, 5);
+            });
+            const other = path.join(fs.mkdtempSync(path.join(require('node:os').tmpdir(), 'truth-')), 'truth.jsonl');
+            fs.writeFileSync(other, JSON.stringify({...frame, last: true}) + '\n');
+            await withPage(view([{...frame, targets: frame.targets.slice(1), last: true, sections: undefined,
+                lost: undefined, counts: undefined}], '--truth', other), async page => {
+                await page.click('[aria-controls=comparison]');
+                assert.ok(await page.evaluate(() => document.querySelector('#comparison tr.missed canvas').toDataURL() ===
+                    symbolCanvas(sensorStyle(scansOf(state.frame).begin), ink.ink, 18, 'truth').toDataURL()));
+            });
+        },
+
+        async 'pictures of the pages have a ground of their own in light and dark pages, and say where an axis is linear'() {
+            const pictures = ['accuracy', 'figures'].flatMap(folder => fs.readdirSync(path.join(root, 'data', folder))
+                .filter(name => name.endsWith('.svg')).map(name => path.join(root, 'data', folder, name)));
+            assert.ok(pictures.length > 15);
+            for (const colorScheme of ['light', 'dark']) {
+                await withPage(view([]), async page => {
+                    const clear = await page.evaluate(async texts => {
+                        const found = [];
+                        for (const [name, text] of texts) {
+                            const frame = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement;
+                            document.body.append(document.adoptNode(frame));
+                            const [ground] = frame.querySelectorAll('rect');
+                            const fill = getComputedStyle(ground).fill;
+                            const all = ['width', 'height'].every(side =>
+                                ground[side].baseVal.value >= frame.viewBox.baseVal[side] - 1);
+                            if (!all || !/^rgb\(/.test(fill)) {
+                                found.push(`${name}: ${fill}`);
+                            }
+                            frame.remove();
+                        }
+                        return found;
+                    }, pictures.map(file => [file, fs.readFileSync(file, 'utf8')]));
+                    assert.deepStrictEqual(clear, []);
+                }, {colorScheme}, [/Content Security Policy/]);
+            }
+            for (const file of pictures.filter(name => /cost-|tracker/.test(name))) {
+                assert.match(fs.readFileSync(file, 'utf8'), /linear within ±0\.2, logarithmic beyond/, file);
+            }
+        },
+
         async 'a sentence says what the frame shows'() {
             const numbers = ['No', 'One', 'Two', 'Three', 'Four'];
             for (const name of ['intersection', 'two-vehicles', 'clutter', 'ghosts', 'snow', 'coherence']) {

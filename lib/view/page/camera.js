@@ -9,8 +9,14 @@ function zoomBy(factor, x, y) {
     redraw();
 }
 
+// Zooms the map, or the side plot that lies over it.
 function zoomMiddle(factor) {
-    zoomBy(factor, canvas.clientWidth / 2, canvas.clientHeight / 2);
+    if (state.large) {
+        const {clientWidth: width, clientHeight: height} = plots[state.large].canvas;
+        zoomPlot(state.large, factor, width / 2, height / 2);
+    } else {
+        zoomBy(factor, canvas.clientWidth / 2, canvas.clientHeight / 2);
+    }
 }
 
 function panBy(dx, dy) {
@@ -117,7 +123,9 @@ function openView() {
 }
 
 function fitView() {
-    if (state.frame >= 0) {
+    if (state.large) {
+        showWholePlot(state.large);
+    } else if (state.frame >= 0) {
         Object.assign(camera, cameraFor(placesToFit()));
         redraw();
     }

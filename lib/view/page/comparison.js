@@ -93,10 +93,7 @@ function drawPair(pair) {
         } else {
             drawAlone(context, at, 4, 0);
         }
-        traceTargetShape(context, sensorStyle(scan), at.x, at.y, 6);
-        context.strokeStyle = ink.ink;
-        context.lineWidth = 1.2;
-        context.stroke();
+        drawTargetSymbol(context, sensorStyle(scan), at.x, at.y, 7, ink.ink, 'truth');
     } else {
         drawAlone(context, toScreen(targetPlace(scan, target)), 4, Math.PI / 4);
     }
@@ -168,11 +165,7 @@ function comparisonLines() {
     const cross = lineMark(2, [[3, 8, 15, 8], [9, 2, 9, 14]]);
     return [
         ...hasTruth ? [
-            legendLine(markCanvas(drawing => {
-                traceTargetShape(drawing, 0, 9, 8, 6);
-                drawing.strokeStyle = ink.ink;
-                drawing.stroke();
-            }), 'true target, tied to its pair'),
+            legendLine(symbolCanvas(0, ink.ink, 18, 'truth'), 'true target, tied to its pair'),
             legendLine(mark(drawing => drawAlone(drawing, {x: 16, y: 14}, 4, 0)), 'missed target'),
             legendLine(mark(drawing => drawAlone(drawing, {x: 16, y: 14}, 4, Math.PI / 4)), 'false target'),
         ] : [],
@@ -188,7 +181,7 @@ function pairRow(pair) {
     const row = make('tr', null, kind);
     const mark = make('td');
     const symbol = target >= 0 ? targetSymbol(scan, target)
-        : pooledSymbol(sensorStyle(scan), ink.soft, 18, 'ghost');
+        : pooledSymbol(sensorStyle(scan), ink.ink, 18, 'truth');
     mark.append(symbol, target >= 0 ? ` ${target - targetsOf(scan).begin + 1}` : '');
     const object = truth >= 0 ? nameOrNone('truth_object', truth) : names[objectOfTarget(target)];
     row.append(mark, make('td', kind === 'matched' ? object : `${kind}: ${object}`));
@@ -296,18 +289,10 @@ function fillComparison() {
         ...hasTracks ? [make('h2', 'Tracks'), ...comparedTracks()] : []);
 }
 
-// Goes to the next frame with something missed, false or switched.
-function goToDifference() {
-    const frames = sceneFrames[state.scene];
-    const differs = frame => pairsOfFrame(frame).some(pair => kindOfPair(pair) !== 'matched') ||
+// True if the frame has something missed, false or switched.
+function isDifferent(frame) {
+    return pairsOfFrame(frame).some(pair => kindOfPair(pair) !== 'matched') ||
         (hasTracks && column('track_before').slice(tracksOf(frame).begin, tracksOf(frame).end).some(Boolean));
-    for (let step = 1; step <= frames.length; step++) {
-        const row = (state.row + step) % frames.length;
-        if (differs(frames[row])) {
-            stepBy(row - state.row);
-            return;
-        }
-    }
 }
 
 function connectComparison() {

@@ -85,6 +85,7 @@ function frameNumber(frame) {
 }
 
 const sceneFrames = framesByScene();
+const hasObjects = column('frame_objects').some(count => count > 0);
 
 // The index of a scene's last frame that is not later than a time, by bisection.
 function rowAt(frames, time) {
@@ -169,16 +170,14 @@ function effectsOf(target) {
     return effectSets[column('target_effects')[target]];
 }
 
-// Paths of ghosts, which come by way of a mirror: nothing is where they are seen.
-const ghostPaths = head.paths.map(path => /wall|ego/.test(path));
-
-// What sent a path's echo back: "ghost", "clutter", "false_alarm", or "body".
-const pathKinds = head.paths.map((path, i) => ghostPaths[i] ? 'ghost'
-    : ['clutter', 'false_alarm'].includes(path) ? path : 'body');
-
-// What a target is an echo of, by its leader.
+// What a target is an echo of, by its leader: "body", "ghost", "clutter" or "false_alarm".
 function kindOf(target) {
-    return pathKinds[column('contributor_path')[leaderOf(target)]];
+    return head.kinds[column('contributor_path')[leaderOf(target)]];
+}
+
+// Ghosts come by way of a mirror: nothing is where they are seen.
+function isGhostPath(path) {
+    return head.kinds[path] === 'ghost';
 }
 
 const interferenceEffect = head.effects.indexOf('interference');
@@ -250,14 +249,14 @@ function scanOfTarget(frame, target) {
     return -1;
 }
 
-// The range rate as reported, or compensated: without the sensor's own motion. A folded rate says
-// nothing of the speed over ground: null.
+// The range rate as reported, or compensated: without the sensor's own motion. The speed over ground of
+// a folded rate, or in a stream without the ego, is not known: null.
 function rateOf(scan, target, compensated) {
     const rate = column('target_range_rate_mps')[target];
     if (!compensated) {
         return rate;
     }
-    if (isRateFolded(scan, target)) {
+    if (isRateFolded(scan, target) || Number.isNaN(column('scan_vx_mps')[scan])) {
         return null;
     }
     const angle = column('scan_yaw_rad')[scan] + column('target_azimuth_rad')[target];

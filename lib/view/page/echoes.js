@@ -118,10 +118,13 @@ function lossesOf(scan, object) {
     return losses;
 }
 
-// Where an echo that a scan lost was; null if the stream does not say.
+// Where an echo that a scan lost was; null if the stream does not say. Ghosts are not at their reflector.
 function lossPlace(scan, loss) {
     if (loss.range > 0) {
         return scanPlace(scan, loss.range, loss.azimuth);
+    }
+    if (head.kinds[loss.path] !== 'body') {
+        return null;
     }
     const row = objectRow(state.frame, loss.object);
     const spot = spotsOf(loss.object).get(loss.reflector);

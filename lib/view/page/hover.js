@@ -26,7 +26,7 @@ function targetWords(scan, target) {
     const value = name => column('target_' + name)[target];
     const number = target - targetsOf(scan).begin + 1;
     return `${sensorOf(scan).name} ${number}: ${round(value('range_m'), 2)} m, ` +
-        `${round(value('azimuth_rad') * degrees, 1)}°, ${round(value('range_rate_mps'), 2)} m/s, ` +
+        `${round(value('azimuth_rad') * degrees, 1)}° off boresight, ${round(value('range_rate_mps'), 2)} m/s, ` +
         `${round(value('amplitude_db'), 1)} dB, ${names[objectOfTarget(target)]}`;
 }
 

@@ -45,6 +45,7 @@ function dotMark(colour) {
 }
 
 const pathsSeen = [...new Set(column('contributor_path'))].sort((a, b) => a - b);
+const bodyPaths = pathsSeen.filter(path => head.kinds[path] === 'body').length;
 
 function colourLines() {
     if (state.effect >= 0) {
@@ -60,7 +61,7 @@ function colourLines() {
     });
     if (state.colour === 'rate') {
         const top = state.rateScale;
-        return [legendLine(gradient([-top, -top / 4, 0, top / 4, top].map(rateColour)),
+        return [legendLine(gradient([-4, -3, -2, -1, 0, 1, 2, 3, 4].map(part => rateColour(top * part / 4))),
             `approaching ${round(top, 1)} … receding ${round(top, 1)} m/s`)];
     }
     if (state.colour === 'amplitude') {
@@ -117,7 +118,7 @@ const kindWords = {
 
 // Lines for the kinds of targets besides bodies that the stream has, and for interference.
 function kindLines() {
-    const kinds = new Set(pathsSeen.map(path => pathKinds[path]));
+    const kinds = new Set(pathsSeen.map(path => head.kinds[path]));
     const lines = Object.keys(kindWords).filter(kind => kinds.has(kind))
         .map(kind => legendLine(symbolCanvas(0, ink.soft, 18, kind), kindWords[kind]));
     if (effectSets.some(set => set.includes(interferenceEffect))) {

@@ -210,7 +210,7 @@ function drawTrail() {
     const frames = sceneFrames[state.scene];
     const times = column('frame_time_s');
     const now = times[state.frame];
-    for (let at = state.row - 1; at >= 0 && times[frames[at]] > now - 0.5; at--) {
+    for (let at = state.row - 1; state.ego && at >= 0 && times[frames[at]] > now - 0.5; at--) {
         context.globalAlpha = 0.45 * (1 - (now - times[frames[at]]) / 0.5);
         eachTarget(frames[at], (scan, target) => {
             drawDot(toScreen(targetPlace(scan, target)), 2.2, colourOf(scan, target));
@@ -302,7 +302,7 @@ function drawOriginal(scan, i) {
     const object = column('contributor_object')[i];
     const row = objectRow(state.frame, object);
     const spot = spotsOf(object).get(column('contributor_reflector')[i]);
-    if (row < 0 || spot === undefined || !ghostPaths[column('contributor_path')[i]]) {
+    if (row < 0 || spot === undefined || !isGhostPath(column('contributor_path')[i])) {
         return;
     }
     context.strokeStyle = ink.soft;
@@ -315,8 +315,7 @@ function drawOriginal(scan, i) {
 function labelContributor(scan, i) {
     const from = toScreen(contributorPlace(scan, i));
     const weight = Math.round(100 * column('contributor_weight')[i]);
-    const ghost = ghostPaths[column('contributor_path')[i]] ? 'ghost of ' : '';
-    putLabel(`${ghost}${names[column('contributor_reflector')[i]]} ${weight} %`, from, ink.ink);
+    putLabel(`${contributorWords(i)} ${weight} %`, from, ink.ink);
 }
 
 function labelContributors(target) {
@@ -333,7 +332,7 @@ function lostEchoes() {
     eachScan(scan => {
         for (const loss of lossesOf(scan, state.object).filter(one => one.reason.notable)) {
             const known = found.get(echoKey(state.object, loss)) ||
-                {name: names[loss.reflector], place: lossPlace(scan, loss), reasons: []};
+                {name: echoWords(loss.reflector, loss), place: lossPlace(scan, loss), reasons: []};
             known.reasons.push(`${shortReason(loss)} for ${sensorOf(scan).name}`);
             found.set(echoKey(state.object, loss), known);
         }

@@ -93,7 +93,7 @@ function countLost(scan, counts, targetsHere) {
 // fourth, less beyond 50 m, where the map must show bodies small.
 function scoreOf({targets, lost, foreign, beside, range}, row) {
     if (row < 0) {
-        return 0;
+        return hasObjects ? 0 : Math.min(targets, 3);
     }
     const many = spotsOf(column('object_id')[row]).size >= 6;
     return 3 * Math.min(targets, 3) + (lost > 0 ? 4 : 0) - 0.5 * Math.max(0, lost - 2) -

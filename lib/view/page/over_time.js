@@ -4,10 +4,12 @@
 const overTimePlots = [
     {title: 'range m', value: target => column('target_range_m')[target]},
     {title: 'rate m/s', value: (target, scan) => rateOf(scan, target, state.rates === 'compensated')},
-    {title: 'azimuth °', value: target => column('target_azimuth_rad')[target] * degrees},
+    {title: 'azimuth, ° from the vehicle’s heading',
+        value: (target, scan) => vehicleAzimuth(scan, column('target_azimuth_rad')[target]) * degrees},
     {title: 'level dB', value: target => column('target_amplitude_db')[target]},
     {title: 'count'},
 ];
+const notMeasured = 'not measured';
 const overTimeMargin = {left: 38, right: 14, top: 14, bottom: 18, between: 16};
 
 const overTimeCanvas = document.getElementById('series');
@@ -40,48 +42,74 @@ function isOfSubject(target, subject) {
     return false;
 }
 
-// The reason that says best why a pattern has no target of the subject: that of most losses among
-// the notable ones, or else among all.
-function mainReason(pattern, subject) {
+// How many echoes of the subject a pattern lost for each reason. Echoes by way of a mirror are none of
+// the body's own, and count only where nothing else is lost.
+function countReasons(pattern, subject) {
+    const own = new Map();
+    const mirrored = new Map();
     const begin = starts('pattern_items');
-    const counts = new Map();
     for (let i = begin[pattern]; i < begin[pattern + 1]; i++) {
         if (subject.reflector < 0 || column('item_reflector')[i] === subject.reflector) {
+            const counts = isGhostPath(column('item_path')[i]) ? mirrored : own;
             const reason = column('item_reason')[i];
-            const weight = head.reasons[reason].notable ? 1000 : 1;
-            counts.set(reason, (counts.get(reason) || 0) + weight);
+            counts.set(reason, (counts.get(reason) || 0) + 1);
         }
     }
-    const [most] = [...counts].sort((a, b) => b[1] - a[1]);
-    return most ? words(head.reasons[most[0]].name) : '';
+    return own.size > 0 ? own : mirrored;
 }
 
-// Why a scan has no target of the subject.
-function reasonOfGap(frame, scan, subject) {
-    if (!column('scan_measured')[scan]) {
-        return 'not measured';
+// The same for all scans of a frame that are plotted.
+function frameReasons(frame, subject) {
+    const counts = new Map();
+    eachPlotted(frame, scan => eachFate(scan, (object, pattern) => {
+        if (object === subject.object) {
+            if (!subject.patterns.has(pattern)) {
+                subject.patterns.set(pattern, countReasons(pattern, subject));
+            }
+            subject.patterns.get(pattern).forEach((count, reason) => counts.set(reason, (counts.get(reason) || 0) + count));
+        }
+    }));
+    return [...counts].sort((a, b) => a[0] - b[0]).map(([reason, count]) => ({...head.reasons[reason], count}));
+}
+
+// Why a frame has no target of the subject: each reason for which an echo is lost that might have been
+// received, or else each reason of geometry; with counts or without.
+function reasonOfGap(frame, subject, counted) {
+    const scans = scansOf(frame);
+    const plotted = [];
+    eachPlotted(frame, scan => plotted.push(scan));
+    if (plotted.length === 0) {
+        return scans.end > scans.begin ? 'sensor switched off' : 'no sensor';
+    }
+    if (!plotted.some(scan => column('scan_measured')[scan])) {
+        return notMeasured;
     }
     if (subject.object < 0) {
         return 'no target';
     }
-    if (objectRow(frame, subject.object) < 0) {
+    if (subject.object === head.scenes[state.scene].ego) {
+        return 'the ego carries the sensors';
+    }
+    if (hasObjects && objectRow(frame, subject.object) < 0) {
         return 'not in the scene';
     }
     if (!column('frame_account')[frame]) {
-        return 'lost: no account';
+        return 'no account of losses';
     }
-    const begin = starts('scan_fates');
-    const objects = column('fate_object');
-    for (let i = begin[scan]; i < begin[scan + 1]; i++) {
-        if (objects[i] === subject.object) {
-            const pattern = column('fate_pattern')[i];
-            if (!subject.reasons.has(pattern)) {
-                subject.reasons.set(pattern, mainReason(pattern, subject));
-            }
-            return subject.reasons.get(pattern) || 'not looked for';
+    const reasons = frameReasons(frame, subject);
+    const notable = reasons.filter(one => one.notable);
+    return (notable.length > 0 ? notable : reasons)
+        .map(one => (counted ? `${one.count} ` : '') + words(one.name)).join(', ') || 'no echo';
+}
+
+// Visits the scans of a frame that are plotted.
+function eachPlotted(frame, visit) {
+    const {begin, end} = scansOf(frame);
+    for (let scan = begin; scan < end; scan++) {
+        if (isPlotted(scan)) {
+            visit(scan);
         }
     }
-    return 'not looked for';
 }
 
 function addScanToSeries(built, row, scan, subject) {
@@ -96,34 +124,27 @@ function addScanToSeries(built, row, scan, subject) {
     return count;
 }
 
-// Adds a frame without targets to the gap before it, if that has the same reason, or begins one.
+// Adds a frame without targets to the gap before it, if that has the same reason, or begins one. Where no
+// sensor measured, nothing has begun.
 function addToGaps(gaps, row, reason) {
     const last = gaps[gaps.length - 1];
-    if (last && last.to === row - 1 && last.reason === reason) {
+    if (last && last.to === row - 1 && (last.reason === reason || reason === notMeasured)) {
         last.to = row;
-    } else {
+    } else if (reason !== notMeasured) {
         gaps.push({from: row, to: row, reason});
     }
 }
 
 function buildSeries(key) {
     const subject = {object: state.object, reflector: state.reflector ? names.indexOf(state.reflector) : -1,
-        reasons: new Map()};
-    const built = {key, points: [], counts: [], gaps: []};
+        patterns: new Map()};
+    const built = {key, subject, points: [], counts: [], gaps: []};
     sceneFrames[state.scene].forEach((frame, row) => {
-        const {begin, end} = scansOf(frame);
-        const reasons = new Set();
         let count = 0;
-        for (let scan = begin; scan < end; scan++) {
-            if (isPlotted(scan)) {
-                const more = addScanToSeries(built, row, scan, subject);
-                count += more;
-                reasons.add(more > 0 ? '' : reasonOfGap(frame, scan, subject));
-            }
-        }
+        eachPlotted(frame, scan => { count += addScanToSeries(built, row, scan, subject); });
         built.counts.push(count);
         if (count === 0) {
-            addToGaps(built.gaps, row, [...reasons].join(' / ') || 'no sensor');
+            addToGaps(built.gaps, row, reasonOfGap(frame, subject, false));
         }
     });
     return built;
@@ -267,6 +288,7 @@ function subjectTitle() {
 
 function fillOverTime() {
     setText(control('subject'), subjectTitle());
+    showLanes();
     drawOverTime();
 }
 
@@ -283,8 +305,8 @@ function rowOfPlace(x) {
 
 function overTimeWords(row) {
     const frame = sceneFrames[state.scene][row];
-    const gap = series.gaps.find(one => one.from <= row && row <= one.to);
-    return `frame ${frameNumber(frame)}: ` + (gap ? gap.reason : plural(series.counts[row], 'target'));
+    return `frame ${frameNumber(frame)}: ` + (series.counts[row] > 0 ? plural(series.counts[row], 'target')
+        : reasonOfGap(frame, series.subject, true));
 }
 
 function connectOverTime() {
@@ -302,5 +324,5 @@ function connectOverTime() {
     overTimeCanvas.addEventListener('pointermove', event =>
         showTip(overTimeWords(rowOfPlace(event.offsetX)), event.clientX, event.clientY));
     overTimeCanvas.addEventListener('pointerleave', hideTip);
-    new ResizeObserver(() => state.pane === 'over-time' && drawOverTime()).observe(overTimeCanvas);
+    new ResizeObserver(() => state.pane === 'over-time' && fillOverTime()).observe(overTimeCanvas);
 }

@@ -15,6 +15,7 @@ const state = {
     pane: 'panel', // what is shown beside the map
     loop: false,
     large: '', // side plot over the map: azimuth or rate
+    event: '', // kind of the events that keys step through; '': every kind
     colour: 'sensor',
     effect: -1, // effect whose targets are coloured; -1: colour by `colour`
     rates: 'raw',
@@ -46,6 +47,9 @@ function draw() {
     drawMap();
     drawComparison();
     drawHover();
+    if (state.frame >= 0) {
+        rememberPlace();
+    }
     if (!control('plots').hidden) {
         drawPlots();
     }
@@ -55,7 +59,6 @@ function refresh() {
     if (state.frame >= 0) {
         fillPane();
         showSentence();
-        rememberPlace();
     }
     redraw();
 }
@@ -218,6 +221,9 @@ function showNotice() {
         notes.push(alone ? `${plural(framesMissing(0), 'frame')} between its first and its last are not in the stream.`
             : `Frames are missing within ${someOf(holes)}.`);
     }
+    if (!hasObjects) {
+        notes.push('The stream has no objects: targets are seen from the ego, wherever it is.');
+    }
     control('notice').hidden = notes.length === 0;
     control('notice').textContent = notes.join(' ');
 }
@@ -279,6 +285,7 @@ function setTheme(dark) {
 // Chooses range rates as reported or over ground; each has its own scale.
 function setRates(rates) {
     state.rates = rates;
+    plots.rate.axes = null;
     state.fastest = fastestRate(rates === 'compensated');
     state.rateScale = Math.max(1, state.fastest);
     state.limits = plotLimits();
@@ -372,7 +379,9 @@ const keyActions = {
     'PageUp': () => stepScene(-1),
     '?': () => control('keys').showModal(),
     'm': enlargeNextPlot,
-    'u': goToDifference,
+    'u': () => stepEvent(1, 'difference'),
+    '.': () => stepEvent(1),
+    ',': () => stepEvent(-1),
     'Escape': () => (state.large ? enlargePlot('') : chooseNone()),
 };
 
@@ -427,7 +436,8 @@ function start() {
     fillEffects();
     connectChoices();
     connectButtons();
-    connectPointers();
+    connectPointers(canvas, {pan: panBy, zoom: zoomBy, click: clickAt});
+    connectPlots();
     connectPanes();
     connectTable();
     connectHover();

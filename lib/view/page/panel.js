@@ -52,11 +52,28 @@ const otherPaths = {
 // The path of an echo in words: "direct", or a ghost's legs from the radar and back.
 function pathWords(path, mirror, number) {
     const name = head.paths[path];
-    const stops = {wall: mirror > 0 ? names[mirror - 1] : 'a wall', object: 'it', ego: 'the ego'};
-    const way = ghostPaths[path]
+    const stops = {wall: mirror > 0 ? names[mirror - 1] : 'a wall', object: 'it'};
+    const way = isGhostPath(path)
         ? `ghost: radar → ${name.split('_').map(stop => stops[stop]).join(' → ')} → radar`
         : otherPaths[name] || words(name);
     return number > 0 ? `${way}, no. ${number}` : way;
+}
+
+const ghostWays = {wall_object: 'out by', object_wall: 'back by', wall_object_wall: 'out and back by'};
+
+// The reflector of an echo with its path in few words: "corner_rl by wheel 2", "ghost of corner_rl out by
+// wall". Direct paths are named in streams where bodies have others, too.
+function echoWords(reflector, {path, mirror, number}) {
+    const name = head.paths[path];
+    const wall = mirror > 0 ? names[mirror - 1] : 'a wall';
+    const note = isGhostPath(path) ? ` ${ghostWays[name]} ${wall}`
+        : name === 'wheel' || name === 'limb' ? ` by ${name} ${number}`
+            : name === 'direct' && bodyPaths > 1 ? ' direct' : '';
+    return (isGhostPath(path) ? 'ghost of ' : '') + names[reflector] + note;
+}
+
+function contributorWords(i) {
+    return echoWords(column('contributor_reflector')[i], echoOfContributor(i));
 }
 
 function contributorPath(i) {
@@ -129,11 +146,9 @@ function partsText(target, object) {
     const parts = [];
     for (let i = begin; i < end; i++) {
         const foreign = column('contributor_object')[i] !== object;
-        const ghost = ghostPaths[column('contributor_path')[i]] ? 'ghost of ' : '';
-        const reflector = ghost + names[column('contributor_reflector')[i]];
         parts.push({
             weight: column('contributor_weight')[i],
-            text: foreign ? `${reflector} of ${names[column('contributor_object')[i]]}` : reflector,
+            text: contributorWords(i) + (foreign ? ` of ${names[column('contributor_object')[i]]}` : ''),
         });
     }
     parts.sort((a, b) => b.weight - a.weight);
@@ -150,11 +165,9 @@ function targetRow(scan, target, number, object) {
 }
 
 function lossRow(loss) {
-    const name = names[loss.reflector];
-    const way = head.paths[loss.path] === 'direct' ? '' : `, ${pathWords(loss.path, loss.mirror, loss.number)}:`;
-    const row = rowButton('✕', [make('b', name), `${way} ${shortReason(loss)}`],
+    const row = rowButton('✕', [make('b', echoWords(loss.reflector, loss)), ` ${shortReason(loss)}`],
         loss.effect ? words(loss.effect) : '',
-        () => chooseReflector(name, loss.object, loss));
+        () => chooseReflector(names[loss.reflector], loss.object, loss));
     row.classList.add('lost');
     return row;
 }
@@ -163,7 +176,7 @@ function silentSection(losses) {
     const groups = new Map();
     for (const loss of losses) {
         const what = silentWords(loss.reason.name) + effectNote(loss.effect);
-        groups.set(what, (groups.get(what) || []).concat(names[loss.reflector]));
+        groups.set(what, (groups.get(what) || []).concat(head.paths[loss.path] === 'direct' ? names[loss.reflector] : echoWords(loss.reflector, loss)));
     }
     const lines = [];
     for (const [what, reflectors] of groups) {
@@ -239,7 +252,7 @@ function section(title, rows) {
 
 function objectTitle(id) {
     const row = objectRow(state.frame, id);
-    const kind = row < 0 ? 'not in this frame' : names[column('object_class')[row]];
+    const kind = !hasObjects ? names[id] : row < 0 ? 'not in this frame' : names[column('object_class')[row]];
     return kind === names[id] ? kind : `${names[id]} (${kind})`;
 }
 
@@ -295,17 +308,17 @@ function valuesTable(scan, target) {
     const table = make('table', null, 'values');
     const value = name => column(name)[target];
     const sum = value('target_cell_sum');
-    const folded = 'folded: not known';
+    const ground = rateOf(scan, target, true);
+    const unknown = isRateFolded(scan, target) ? 'folded: not known' : 'not known';
     table.append(
         tableRow(['', 'reported', 'without noise'], 'th'),
         tableRow(['range', `${round(value('target_range_m'), 3)} m`,
             `${round(value('target_cell_range_m'), 3)} m`]),
-        tableRow(['azimuth', `${round(value('target_azimuth_rad') * degrees, 2)}°`,
+        tableRow(['azimuth off boresight', `${round(value('target_azimuth_rad') * degrees, 2)}°`,
             `${round(value('target_cell_azimuth_rad') * degrees, 2)}°`]),
         tableRow(['range rate', `${round(value('target_range_rate_mps'), 3)} m/s`,
             `${round(value('target_cell_range_rate_mps'), 3)} m/s`]),
-        tableRow(['… over ground', isRateFolded(scan, target) ? folded
-            : `${round(rateOf(scan, target, true), 3)} m/s`, '']),
+        tableRow(['… over ground', ground === null ? unknown : `${round(ground, 3)} m/s`, '']),
         tableRow(['amplitude', `${round(value('target_amplitude_db'), 2)} dB`,
             sum > 0 ? `${round(20 * Math.log10(sum), 2)} dB` : '']));
     return table;
@@ -408,7 +421,7 @@ function showTarget() {
 // The resolution cell that is drawn around a chosen target.
 function cellWords(sensor) {
     return `The radar’s cell: ${metres(sensor.cell_range_m)} m (dashed arcs on the map) by ` +
-        `${metres(sensor.cell_range_rate_mps)} m/s (a box in range over rate).`;
+        `${metres(sensor.cell_range_rate_mps)} m/s (a box in range over rate, if enlarged enough).`;
 }
 
 function targetNotes(scan) {
@@ -486,7 +499,7 @@ function showReflector() {
     for (let scan = begin; scan < end; scan++) {
         const fates = reflectorFates(scan);
         const silent = !column('scan_measured')[scan] ? 'The sensor did not measure in this frame.'
-            : column('frame_account')[state.frame] ? 'Not looked for: out of range.'
+            : column('frame_account')[state.frame] ? 'The frame has no echo of it, neither in a target nor lost.'
                 : 'In no target. Why is not in the frame: give --sections account to glint-ideal.';
         parts.push(sensorTitle(scan, fates.length > 1 ? `${fates.length} echoes` : ''),
             ...(fates.length > 0 ? fates : [make('p', silent)]));

@@ -1,12 +1,14 @@
 // The side plots: the sensors' measurements in polar values. Targets are symbols, the exact echoes
 // behind them dots, resolution cells boxes. Azimuths are in the vehicle's frame, from its heading.
 
+// axes: what is shown after zooming; null: everything.
 const plots = {
-    azimuth: {canvas: document.getElementById('azimuths'), unit: '°', hits: []},
-    rate: {canvas: document.getElementById('speeds'), unit: 'm/s', hits: []},
+    azimuth: {canvas: document.getElementById('azimuths'), unit: '°', hits: [], axes: null},
+    rate: {canvas: document.getElementById('speeds'), unit: 'm/s', hits: [], axes: null},
 };
 
 const degrees = 180 / Math.PI;
+const leastCell = 3; // px: the outline of a smaller box would be as wide as the box
 const plotMargin = {left: 30, right: 14, top: 8, bottom: 30};
 
 function roundStep(span, parts) {
@@ -53,10 +55,62 @@ function vehicleAzimuth(scan, azimuth) {
     return wrap(azimuth + sensorOf(scan).mount_yaw_rad);
 }
 
-function plotAxes(kind) {
+function wholeAxes(kind) {
     const limits = state.limits;
-    return kind === 'azimuth' ? {left: limits.azimuth, right: -limits.azimuth, top: limits.range}
-        : {left: -limits.rate, right: limits.rate, top: limits.range};
+    return kind === 'azimuth' ? {left: limits.azimuth, right: -limits.azimuth, bottom: 0, top: limits.range}
+        : {left: -limits.rate, right: limits.rate, bottom: 0, top: limits.range};
+}
+
+function plotAxes(kind) {
+    return plots[kind].axes || wholeAxes(kind);
+}
+
+// The values at a place in a plot.
+function plotValues(kind, x, y) {
+    const {clientWidth: width, clientHeight: height} = plots[kind].canvas;
+    const axes = plotAxes(kind);
+    const across = (x - plotMargin.left) / (width - plotMargin.left - plotMargin.right);
+    const up = (height - plotMargin.bottom - y) / (height - plotMargin.top - plotMargin.bottom);
+    return {x: axes.left + across * (axes.right - axes.left), range: axes.bottom + up * (axes.top - axes.bottom)};
+}
+
+// Zooms a plot at a place, which stays where it is, but shows no more than everything.
+function zoomPlot(kind, factor, x, y) {
+    const at = plotValues(kind, x, y);
+    const {left, right, bottom, top} = plotAxes(kind);
+    const about = (value, middle) => middle + (value - middle) / factor;
+    const axes = {left: about(left, at.x), right: about(right, at.x),
+        bottom: about(bottom, at.range), top: about(top, at.range)};
+    const whole = wholeAxes(kind);
+    const share = (axes.right - axes.left) / (whole.right - whole.left);
+    plots[kind].axes = share >= 1 ? null : share > 1e-4 ? axes : plots[kind].axes;
+    redraw();
+}
+
+// Moves a plot that is zoomed.
+function panPlot(kind, dx, dy) {
+    const {axes} = plots[kind];
+    if (axes) {
+        const from = plotValues(kind, 0, 0);
+        const to = plotValues(kind, dx, dy);
+        const [across, up] = [from.x - to.x, from.range - to.range];
+        plots[kind].axes = {left: axes.left + across, right: axes.right + across,
+            bottom: axes.bottom + up, top: axes.top + up};
+        redraw();
+    }
+}
+
+function showWholePlot(kind) {
+    plots[kind].axes = null;
+    redraw();
+}
+
+function connectPlots() {
+    for (const [kind, plot] of Object.entries(plots)) {
+        connectPointers(plot.canvas, {pan: (dx, dy) => panPlot(kind, dx, dy),
+            zoom: (factor, x, y) => zoomPlot(kind, factor, x, y), click: at => clickPlot(plot, at)});
+        plot.canvas.addEventListener('dblclick', () => showWholePlot(kind));
+    }
 }
 
 function plotPlace(size, axes, x, range) {
@@ -64,7 +118,7 @@ function plotPlace(size, axes, x, range) {
     const height = size.height - plotMargin.top - plotMargin.bottom;
     return {
         x: plotMargin.left + width * (x - axes.left) / (axes.right - axes.left),
-        y: size.height - plotMargin.bottom - height * range / axes.top,
+        y: size.height - plotMargin.bottom - height * (range - axes.bottom) / (axes.top - axes.bottom),
     };
 }
 
@@ -85,23 +139,28 @@ function plotRule(drawing, from, to, strong) {
     drawing.stroke();
 }
 
+// A number at an axis, with the digits that its step needs.
+function tickText(value, step) {
+    return round(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9))).replace('-', '−');
+}
+
 function drawAxes(drawing, size, axes, unit) {
     const span = Math.abs(axes.right - axes.left);
     const step = span === 180 ? 45 : roundStep(span, 4);
     const low = Math.min(axes.left, axes.right);
     const high = Math.max(axes.left, axes.right);
     for (let x = Math.ceil(low / step) * step; x <= high; x += step) {
-        const at = plotPlace(size, axes, x, 0);
+        const at = plotPlace(size, axes, x, axes.bottom);
         plotRule(drawing, at, plotPlace(size, axes, x, axes.top), x === 0);
-        plotText(drawing, metres(x), at.x, at.y + 11, 'center');
+        plotText(drawing, tickText(x, step), at.x, at.y + 11, 'center');
     }
-    const stride = roundStep(axes.top, 4);
-    for (let range = 0; range <= axes.top; range += stride) {
+    const stride = roundStep(axes.top - axes.bottom, 4);
+    for (let range = Math.ceil(axes.bottom / stride) * stride; range <= axes.top; range += stride) {
         const at = plotPlace(size, axes, axes.left, range);
         plotRule(drawing, at, plotPlace(size, axes, axes.right, range), range === 0);
-        plotText(drawing, metres(range), at.x - 4, at.y, 'right');
+        plotText(drawing, tickText(range, stride), at.x - 4, at.y, 'right');
     }
-    const middle = plotPlace(size, axes, (axes.left + axes.right) / 2, 0);
+    const middle = plotPlace(size, axes, (axes.left + axes.right) / 2, axes.bottom);
     plotText(drawing, unit === '°' ? '° from the vehicle’s heading'
         : state.rates === 'raw' ? 'm/s, receding is right' : 'm/s over ground',
         middle.x, size.height - 7, 'center');
@@ -111,10 +170,11 @@ function plotTarget(plot, kind, drawing, size, axes, scan, target) {
     const compensated = state.rates === 'compensated';
     const x = kind === 'azimuth' ? vehicleAzimuth(scan, column('target_azimuth_rad')[target]) * degrees
         : rateOf(scan, target, compensated);
-    if (x === null) {
+    const range = column('target_range_m')[target];
+    if (x === null || (x - axes.left) * (x - axes.right) > 0 || range < axes.bottom || range > axes.top) {
         return;
     }
-    const at = plotPlace(size, axes, x, column('target_range_m')[target]);
+    const at = plotPlace(size, axes, x, range);
     const chosen = target === state.target;
     drawTargetSymbol(drawing, sensorStyle(scan), at.x, at.y, chosen ? 7.5 : 5, colourOf(scan, target),
         kindOf(target));
@@ -138,9 +198,11 @@ function plotCell(kind, drawing, size, axes, scan, target) {
     const range = column('contributor_range_m')[leader];
     const low = plotPlace(size, axes, rate - sensor.cell_range_rate_mps / 2, range - sensor.cell_range_m / 2);
     const high = plotPlace(size, axes, rate + sensor.cell_range_rate_mps / 2, range + sensor.cell_range_m / 2);
-    drawing.strokeStyle = ink.edge;
-    drawing.lineWidth = 1;
-    drawing.strokeRect(low.x, high.y, Math.max(2, high.x - low.x), Math.max(2, low.y - high.y));
+    if (high.x - low.x >= leastCell && low.y - high.y >= leastCell) {
+        drawing.strokeStyle = ink.edge;
+        drawing.lineWidth = 1;
+        drawing.strokeRect(low.x, high.y, high.x - low.x, low.y - high.y);
+    }
 }
 
 function plotEchoes(kind, drawing, size, axes, scan, target) {
@@ -171,7 +233,7 @@ function drawPlot(kind) {
         return;
     }
     const top = plotPlace(size, axes, axes.left, axes.top);
-    const end = plotPlace(size, axes, axes.right, 0);
+    const end = plotPlace(size, axes, axes.right, axes.bottom);
     drawing.save();
     drawing.beginPath();
     drawing.rect(top.x - 6, top.y - 6, end.x - top.x + 12, end.y - top.y + 12);

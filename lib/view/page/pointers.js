@@ -1,61 +1,56 @@
-// Mouse and touch: one pointer pans or clicks, two zoom.
-
-const pointers = new Map();
-let moved = 0;
+// Mouse and touch, on the map and on the side plots: one pointer pans or clicks, two zoom.
 
 function pointerPlace(event) {
-    const frame = canvas.getBoundingClientRect();
+    const frame = event.currentTarget.getBoundingClientRect();
     return {x: event.clientX - frame.left, y: event.clientY - frame.top};
 }
 
-function pinch(from, to, other) {
-    const before = Math.hypot(from.x - other.x, from.y - other.y);
-    const after = Math.hypot(to.x - other.x, to.y - other.y);
-    panBy((to.x - from.x) / 2, (to.y - from.y) / 2);
-    zoomBy(after / Math.max(1, before), (to.x + other.x) / 2, (to.y + other.y) / 2);
-}
-
-function onPointerMove(event) {
-    const from = pointers.get(event.pointerId);
-    if (!from) {
-        return;
-    }
-    const to = pointerPlace(event);
-    moved += Math.hypot(to.x - from.x, to.y - from.y);
-    const other = [...pointers].find(([id]) => id !== event.pointerId);
-    if (other) {
-        pinch(from, to, other[1]);
-    } else if (moved > 4) {
-        panBy(to.x - from.x, to.y - from.y);
-    }
-    pointers.set(event.pointerId, to);
-}
-
-function onPointerUp(event) {
-    const click = pointers.size === 1 && pointers.has(event.pointerId) && moved <= 4;
-    pointers.delete(event.pointerId);
-    if (click && event.type === 'pointerup') {
-        clickAt(pointerPlace(event));
-    }
-}
-
-function connectPointers() {
-    canvas.addEventListener('pointerdown', event => {
+// Lets pointers and the wheel move what a canvas shows: pan(dx, dy), zoom(factor, x, y), click(place), in
+// pixels of the canvas.
+function connectPointers(element, {pan, zoom, click}) {
+    const pointers = new Map();
+    let moved = 0;
+    const release = event => {
+        const clicked = pointers.size === 1 && pointers.has(event.pointerId) && moved <= 4;
+        pointers.delete(event.pointerId);
+        if (clicked && event.type === 'pointerup') {
+            click(pointerPlace(event));
+        }
+    };
+    element.addEventListener('pointerdown', event => {
         moved = pointers.size === 0 ? 0 : Infinity;
         pointers.set(event.pointerId, pointerPlace(event));
-        canvas.setPointerCapture(event.pointerId);
+        element.setPointerCapture(event.pointerId);
     });
-    canvas.addEventListener('pointermove', onPointerMove);
-    canvas.addEventListener('pointerup', onPointerUp);
-    canvas.addEventListener('pointercancel', onPointerUp);
-    canvas.addEventListener('wheel', event => {
+    element.addEventListener('pointermove', event => {
+        const from = pointers.get(event.pointerId);
+        if (!from) {
+            return;
+        }
+        const to = pointerPlace(event);
+        const other = [...pointers].find(([id]) => id !== event.pointerId);
+        moved += Math.hypot(to.x - from.x, to.y - from.y);
+        pointers.set(event.pointerId, to);
+        if (other) {
+            pinch(from, to, other[1], {pan, zoom});
+        } else if (moved > 4) {
+            pan(to.x - from.x, to.y - from.y);
+        }
+    });
+    element.addEventListener('pointerup', release);
+    element.addEventListener('pointercancel', release);
+    element.addEventListener('wheel', event => {
         event.preventDefault();
         const at = pointerPlace(event);
-        zoomBy(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), at.x, at.y);
+        zoom(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), at.x, at.y);
     }, {passive: false});
-    for (const plot of Object.values(plots)) {
-        plot.canvas.addEventListener('click', event => clickPlot(plot, event));
-    }
+}
+
+function pinch(from, to, other, {pan, zoom}) {
+    const before = Math.hypot(from.x - other.x, from.y - other.y);
+    const after = Math.hypot(to.x - other.x, to.y - other.y);
+    pan((to.x - from.x) / 2, (to.y - from.y) / 2);
+    zoom(after / Math.max(1, before), (to.x + other.x) / 2, (to.y + other.y) / 2);
 }
 
 function nearest(candidates, at, reach) {
@@ -156,8 +151,8 @@ function clickAt(at) {
     }
 }
 
-function clickPlot(plot, event) {
-    const hit = targetMeant(plot.hits, {x: event.offsetX, y: event.offsetY});
+function clickPlot(plot, at) {
+    const hit = targetMeant(plot.hits, at);
     if (hit) {
         chooseTarget(hit.target);
     }

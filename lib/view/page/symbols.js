@@ -1,14 +1,5 @@
 // Colours and marks, in light and dark: a target's symbol by its sensor and by what it is an echo
-// of, and the cross of a lost echo.
-
-// Colours that people with any colour vision can tell apart: by at least 10 in CIEDE2000, also where
-// one kind of cones is missing (tests/browser).
-const palettes = {
-    light: ['#0072b2', '#c74e00', '#00675b', '#ac4481', '#8e3900', '#3590d8', '#724a38', '#4c344e'],
-    dark: ['#56b4e9', '#f0a030', '#2c9b9a', '#b75ec2', '#de6e4e', '#a3daff', '#cfb37c', '#caccc8'],
-};
-// Shapes of targets, by sensor.
-const targetShapes = ['star', 'circle', 'diamond', 'triangle', 'square', 'four-point star'];
+// of, and the cross of a lost echo. The head has the shapes and colours (lib/view/view_marks.h).
 
 let ink = {};
 
@@ -18,7 +9,7 @@ function isDark() {
 
 function readInk() {
     const style = getComputedStyle(document.documentElement);
-    ink = {palette: isDark() ? palettes.dark : palettes.light};
+    ink = {palette: isDark() ? head.dark : head.light};
     for (const name of ['paper', 'ink', 'soft', 'faint', 'grid', 'body', 'edge', 'ego', 'chosen',
         'halo', 'lost']) {
         ink[name] = style.getPropertyValue('--' + name).trim();
@@ -124,15 +115,20 @@ function tracePolygon(drawing, x, y, radius, corners, inner, turn) {
 }
 
 function traceTargetShape(drawing, style, x, y, radius) {
+    const {corners, inner, turn_rad: turn, size} = head.shapes[style % head.shapes.length];
     drawing.beginPath();
-    switch (targetShapes[style % targetShapes.length]) {
-    case 'star': return tracePolygon(drawing, x, y, 1.3 * radius, 5, 0.42, 0);
-    case 'circle': return drawing.arc(x, y, 0.95 * radius, 0, 2 * Math.PI);
-    case 'diamond': return tracePolygon(drawing, x, y, 1.2 * radius, 4, 0, 0);
-    case 'triangle': return tracePolygon(drawing, x, y, 1.2 * radius, 3, 0, 0);
-    case 'square': return tracePolygon(drawing, x, y, 1.2 * radius, 4, 0, Math.PI / 4);
-    default: return tracePolygon(drawing, x, y, 1.3 * radius, 4, 0.3, Math.PI / 4);
+    if (corners === 0) {
+        drawing.arc(x, y, size * radius, 0, 2 * Math.PI);
+    } else {
+        tracePolygon(drawing, x, y, size * radius, corners, inner, turn);
     }
+}
+
+// Draws the traced shape as that of a true target, which the other stream has: an outline.
+function drawTruth(drawing) {
+    drawing.lineWidth = 1.2;
+    drawing.strokeStyle = ink.ink;
+    drawing.stroke();
 }
 
 // Draws the traced circle hollow, so that another sensor's symbol at the same place shows through.
@@ -201,7 +197,7 @@ function drawBolt(drawing, x, y, radius) {
     drawing.lineJoin = 'miter';
 }
 
-// Draws a target; kind is that of kindOf.
+// Draws a target; kind is that of kindOf, or "truth".
 function drawTargetSymbol(drawing, style, x, y, radius, colour, kind) {
     if (kind === 'false_alarm') {
         drawFalseAlarm(drawing, x, y, radius, colour);
@@ -212,19 +208,19 @@ function drawTargetSymbol(drawing, style, x, y, radius, colour, kind) {
         return;
     }
     traceTargetShape(drawing, style, x, y, radius);
-    if (kind === 'ghost') {
+    if (kind === 'truth') {
+        drawTruth(drawing);
+    } else if (kind === 'ghost') {
         drawGhost(drawing, colour);
-        return;
-    }
-    if (targetShapes[style % targetShapes.length] === 'circle') {
+    } else if (head.shapes[style % head.shapes.length].corners === 0) {
         drawRing(drawing, radius, colour);
-        return;
+    } else {
+        drawing.fillStyle = colour;
+        drawing.fill();
+        drawing.lineWidth = 1.2;
+        drawing.strokeStyle = ink.paper;
+        drawing.stroke();
     }
-    drawing.fillStyle = colour;
-    drawing.fill();
-    drawing.lineWidth = 1.2;
-    drawing.strokeStyle = ink.paper;
-    drawing.stroke();
 }
 
 // Marks a lost echo with a cross.

@@ -47,13 +47,19 @@ function showTimeline() {
     drawBand();
 }
 
+// The row of a time: of the last frame whose time is not later, as the clock shows it. Columns have times
+// in single precision, with 24 bits.
+function rowOfTime(time) {
+    return rowAt(sceneFrames[state.scene], time + Math.max(0.0005, time * 2 ** -24));
+}
+
 // Goes to the frame of a number, or to a time: "120", "4.8 s".
 function goTo(text) {
     const asked = /^\s*(-?\d+(?:\.\d+)?)\s*(s?)\s*$/.exec(text);
     const frames = sceneFrames[state.scene];
     const row = !asked ? -1
         : asked[2] || asked[1].includes('.')
-            ? rowAt(frames, Number(asked[1]) - head.scenes[state.scene].start_s + 1e-6)
+            ? rowOfTime(Number(asked[1]) - head.scenes[state.scene].start_s)
             : frames.findIndex(frame => frameNumber(frame) === Number(asked[1]));
     control('goto').setAttribute('aria-invalid', String(row < 0));
     if (row >= 0) {

@@ -387,6 +387,26 @@ static void a_loss_is_at_its_spot_or_has_its_place(void **state)
     release(&packed);
 }
 
+static void a_ghost_is_not_at_the_spot_of_its_reflector(void **state)
+{
+    (void)state;
+#define LOST_BY(path, range)                                                                       \
+    "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"out_of_view\",\"echoes\":["      \
+    "{\"object\":\"</script>\",\"reflector\":\"c\",\"path\":\"" path "\",\"range_m\":" range       \
+    ",\"azimuth_rad\":-0.37435}]}]"
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("x", "0", "4", "false", LOST_BY("wall_object", "12")));
+    add_line(&packed, FRAME("x", "1", "4.04", "false", LOST_BY("direct", "8.062")));
+    add_line(&packed, FRAME("x", "2", "4.08", "false", LOST_BY("wall_object", "8.062")));
+    finish(&packed);
+    assert_int_equal(count_of(&packed, "spot_x_m"), 1);
+    assert_close(value_of(&packed, "spot_x_m", 0), 0, 1e-3);
+    assert_int_equal(count_of(&packed, "detail_range_m"), 2);
+    assert_close(value_of(&packed, "detail_range_m", 0), 12, 1e-6);
+    release(&packed);
+}
+
 static void a_column_is_as_wide_as_its_largest_number(void **state)
 {
     (void)state;
@@ -443,6 +463,7 @@ int main(void)
         cmocka_unit_test(every_reason_and_path_has_its_name),
         cmocka_unit_test(the_same_losses_share_a_pattern),
         cmocka_unit_test(a_loss_is_at_its_spot_or_has_its_place),
+        cmocka_unit_test(a_ghost_is_not_at_the_spot_of_its_reflector),
         cmocka_unit_test(a_column_is_as_wide_as_its_largest_number),
         cmocka_unit_test(an_empty_stream_has_a_head),
     };

@@ -45,6 +45,17 @@ static void a_sensor_that_has_not_measured_stands_where_the_ego_is_now(void **st
     assert_close(scan.pose.position_m.x, 102, 1e-12);
 }
 
+static void without_objects_the_ego_is_at_the_origin_and_its_velocity_unknown(void **state)
+{
+    (void)state;
+    struct frame frame = {.ego = "ego", .time_s = 4};
+    const struct sensor_view sensor = {.name = "front", .mount_x_m = 2, .age_s = 0.1};
+    struct view_scan scan = view_frame_scan(&frame, &sensor);
+    assert_close(scan.pose.position_m.x, 2, 0);
+    assert_close(view_frame_place(&scan, 5, 0).x, 7, 0);
+    assert_true(isnan(scan.pose.velocity_mps.x));
+}
+
 static void a_box_without_a_size_has_that_of_its_class(void **state)
 {
     (void)state;
@@ -61,6 +72,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sensor_stands_where_it_was_when_it_measured),
         cmocka_unit_test(a_sensor_that_has_not_measured_stands_where_the_ego_is_now),
+        cmocka_unit_test(without_objects_the_ego_is_at_the_origin_and_its_velocity_unknown),
         cmocka_unit_test(a_box_without_a_size_has_that_of_its_class),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

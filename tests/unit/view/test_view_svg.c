@@ -199,21 +199,22 @@ static void the_bar_is_a_round_length(void **state)
     }
 }
 
-static void what_shows_no_object_is_hollow(void **state)
+static void every_kind_of_target_has_its_mark(void **state)
 {
     (void)state;
     static const char *const lines[] = {
+        FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("wheel", "8") "]"),
+        FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("wall_object", "8") "]"),
         FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("clutter", "8") "]"),
         FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("false_alarm", "8") "]"),
-        FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("wheel", "8") "]"),
     };
-    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+    static const char *const marks[] = {"<path class=\"target f0\"", "<path class=\"hollow s0\"",
+                                        "<circle class=\"target f0\"", "<path class=\"alarm s0\""};
+    for (size_t i = 0; i < 4; i++) {
         char *xml = draw(lines[i]);
         const char *legend = strstr(xml, "<rect width=\"380\"");
-        const char *hollow = strstr(xml, "class=\"hollow s0\""),
-                   *full = strstr(xml, "\"target f0\"");
-        assert_int_equal(hollow < legend, i < 2);
-        assert_int_equal(full < legend, i == 2);
+        for (size_t mark = 0; mark < 4; mark++)
+            assert_int_equal(strstr(xml, marks[mark]) < legend, mark == i);
         free(xml);
     }
 }
@@ -279,7 +280,7 @@ int main(void)
         cmocka_unit_test(every_echo_of_a_target_is_lit_and_tied_to_it),
         cmocka_unit_test(targets_of_the_first_sensor_are_stars_of_five_points),
         cmocka_unit_test(losses_are_marked_where_they_were),
-        cmocka_unit_test(what_shows_no_object_is_hollow),
+        cmocka_unit_test(every_kind_of_target_has_its_mark),
         cmocka_unit_test(a_name_lies_over_targets_and_not_over_the_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
