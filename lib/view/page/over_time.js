@@ -4,7 +4,7 @@
 const overTimePlots = [
     {title: 'range m', value: target => column('target_range_m')[target]},
     {title: 'rate m/s', value: (target, scan) => rateOf(scan, target, state.rates === 'compensated')},
-    {title: 'azimuth, ° from the vehicle’s heading',
+    {title: 'azimuth °, from the heading',
         value: (target, scan) => vehicleAzimuth(scan, column('target_azimuth_rad')[target]) * degrees},
     {title: 'level dB', value: target => column('target_amplitude_db')[target]},
     {title: 'count'},
