@@ -46,8 +46,8 @@ def number(low, high, of=(int, float)):
 NAME = lambda value: type(value) is str and value != "", "a name"
 SEED = lambda value: type(value) is str and re.fullmatch("[0-9]{1,20}", value), "a string of digits"
 WHOLE = lambda value: type(value) in (int, float) and 0 <= value < 2 ** 53 and value % 1 == 0, "a whole number"
-QUALITY = (lambda value: type(value) is dict and all(map(number(-1e9, 1e9, (int, float, bool))[0], value.values())),
-           "an object of numbers")
+QUALITY = (lambda value: type(value) is dict and all(map(number(-1e9, 1e9, (int, float, bool))[0], value.values()))
+           and 0 <= value.get("existence", 1) <= 1, "an object of numbers, existence in [0, 1]")
 PLACE, ANGLE, SPEED, ORIGIN = (number(-most, most) for most in (1e7, 1e6, 1e4, 1e9))
 OBJECT = {"id": NAME, "x_m": PLACE, "y_m": PLACE, "yaw_rad": ANGLE, "vx_mps": SPEED, "vy_mps": SPEED,
           "yaw_rate_radps": number(-1e3, 1e3)}
@@ -295,11 +295,13 @@ def detections(frame, system="world"):
 
 def write_tracks(frame, tracks, out=None):
     """Writes the tracks of a frame as schemas/tracks.json has them, for glint-score-tracks and glint-view.
-    tracks: (id, x, y, vx, vy) of centres in the world."""
+    tracks: (id, x, y, vx, vy) of centres in the world, and perhaps a matrix that begins with the covariance of x and y."""
     x, y = frame.get("origin_x_m", 0), frame.get("origin_y_m", 0)
+    spread = [{"variance_x_m2": of[0][0], "covariance_xy_m2": of[0][1], "variance_y_m2": of[1][1]} if of else {}
+              for of in (one[5] if len(one) > 5 else None for one in tracks)]
     write({"scene": frame["scene"], "frame": frame["frame"], "time_s": frame["time_s"],
-           "tracks": [{"id": one[0], "x_m": one[1] - x, "y_m": one[2] - y, "vx_mps": one[3], "vy_mps": one[4]}
-                      for one in tracks]}, out)
+           "tracks": [{"id": one[0], "x_m": one[1] - x, "y_m": one[2] - y, "vx_mps": one[3], "vy_mps": one[4], **of}
+                      for one, of in zip(tracks, spread)]}, out)
 
 
 class Shards:

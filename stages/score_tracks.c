@@ -5,15 +5,23 @@
 #include "run/stage.h"
 #include "score/reference_stream.h"
 
+struct tracker {
+    struct reference_stream *stream; /* NULL: there is no such tracker */
+    struct track_memory memory;
+    struct track_list tracks; /* of the frame */
+    struct score_tally tally;
+    int64_t switches;
+};
+
 struct score_tracks {
-    const char *tracks, *classes;
+    const char *tracks, *against, *classes;
     enum track_truth objects;
     double cutoff_m;
     bool partial, summary, text;
-    struct reference_stream *other;
+    struct tracker tracker, other; /* of --tracks and --against */
     int64_t frames, id_switches;
     struct score_tally tally; /* for the summary */
-    struct track_memory memory;
+    struct tracker_scenes scenes;
     struct frame_sequence sequence;
     struct intern seen; /* classes of all objects but the egos, for --classes */
 };
@@ -21,9 +29,17 @@ struct score_tracks {
 static int score_tracks_start(void *state, struct runner *runner)
 {
     struct score_tracks *own = state;
-    own->summary = own->summary || own->text;
-    own->other = runner_reference_stream(runner, own->tracks, &track_list_record, own->partial);
-    return own->other != NULL ? 0 : -1;
+    own->summary = own->summary || own->text || own->against != NULL;
+    own->tracker.stream =
+        runner_reference_stream(runner, own->tracks, &track_list_record, own->partial);
+    if (own->tracker.stream == NULL || own->against == NULL)
+        return own->tracker.stream != NULL ? 0 : -1;
+    if (strcmp(own->tracks, "-") == 0 && strcmp(own->against, "-") == 0)
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--tracks and --against are both standard input; name a file");
+    own->other.stream =
+        runner_reference_stream(runner, own->against, &track_list_record, own->partial);
+    return own->other.stream != NULL ? 0 : -1;
 }
 
 static void note_classes(struct score_tracks *own, const struct frame *frame, struct arena *arena)
@@ -53,11 +69,45 @@ static int check_classes(struct score_tracks *own, struct runner *runner)
     return 0;
 }
 
+/* Reads the tracks of the frame: 1, 0 if there are none, -1 after a message. */
+static int read_tracks(struct tracker *tracker, const struct frame *frame, struct runner *runner)
+{
+    if (tracker->stream == NULL)
+        return 1;
+    return reference_stream_tracks(tracker->stream, frame, &tracker->tracks, runner_diag(runner));
+}
+
+static void score_tracker(const struct score_tracks *own, struct tracker *tracker,
+                          const struct frame *frame, struct arena *lasting)
+{
+    tracker->tally = (struct score_tally){0};
+    tracker->switches = track_score_frame(&tracker->tally, frame, &tracker->tracks, own->objects,
+                                          own->classes, own->cutoff_m, &tracker->memory, lasting);
+    if (frame->last)
+        track_score_forget(&tracker->memory, frame->scene);
+}
+
+static void compare_trackers(struct score_tracks *own, const struct frame *frame,
+                             struct arena *lasting)
+{
+    double figures[2][TRACKER_FIGURES];
+    const struct tracker *trackers[] = {&own->tracker, &own->other};
+    score_tracker(own, &own->other, frame, lasting);
+    for (int i = 0; i < 2; i++) {
+        const struct score_tally *tally = &trackers[i]->tally;
+        figures[i][TRACKER_GOSPA] = tally->gospa_sum;
+        figures[i][TRACKER_MISSED] = (double)(tally->truths - tally->pairs);
+        figures[i][TRACKER_FALSE] = (double)(tally->listed - tally->pairs);
+        figures[i][TRACKER_SWITCHES] = (double)trackers[i]->switches;
+    }
+    tracker_difference_add(&own->scenes, frame->scene, figures[0], figures[1], lasting);
+}
+
 static int score_tracks_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct score_tracks *own = state;
     struct arena *lasting = runner_arena(runner);
-    struct track_list tracks;
+    struct tracker *tracker = &own->tracker;
     if (frame_sequence_ascend(&own->sequence, frame, runner_place(runner), lasting,
                               runner_diag(runner)) != 0 ||
         frame_sequence_one_seed(&own->sequence, runner_diag(runner)) != 0 ||
@@ -65,26 +115,25 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
         return -1;
     if (own->classes != NULL)
         note_classes(own, frame, lasting);
-    int found = reference_stream_tracks(own->other, frame, &tracks, runner_diag(runner));
-    if (found <= 0)
-        return found;
-    struct score_tally tally = {0};
-    int64_t switches = track_score_frame(&tally, frame, &tracks, own->objects, own->classes,
-                                         own->cutoff_m, &own->memory, lasting);
-    if (frame->last)
-        track_score_forget(&own->memory, frame->scene);
+    int found = read_tracks(tracker, frame, runner),
+        matched = read_tracks(&own->other, frame, runner);
+    if (found <= 0 || matched <= 0)
+        return found < 0 || matched < 0 ? -1 : 0;
+    score_tracker(own, tracker, frame, lasting);
+    if (own->other.stream != NULL)
+        compare_trackers(own, frame, lasting);
     own->frames++;
-    own->id_switches += switches;
+    own->id_switches += tracker->switches;
     if (own->summary) {
-        score_merge(&own->tally, &tally, lasting);
+        score_merge(&own->tally, &tracker->tally, lasting);
         return 0;
     }
     struct score_line line = {
         .scene = frame->scene,
         .frame = frame->frame,
         .time_s = frame->time_s,
-        .id_switches = switches,
-        .all = score_of(&tally, 1, frame->arena),
+        .id_switches = tracker->switches,
+        .all = score_of(&tracker->tally, 1, frame->arena),
     };
     return runner_write_record(runner, &score_track_line_record, &line);
 }
@@ -92,19 +141,26 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
 static int score_tracks_stop(void *state, struct runner *runner)
 {
     struct score_tracks *own = state;
-    if (reference_stream_finish(own->other, runner_diag(runner)) != 0 ||
+    if (reference_stream_finish(own->tracker.stream, runner_diag(runner)) != 0 ||
+        (own->other.stream != NULL &&
+         reference_stream_finish(own->other.stream, runner_diag(runner)) != 0) ||
         check_classes(own, runner) != 0)
         return -1;
     if (!own->summary)
         return 0;
     struct score_summary summary = {
         .frames = own->frames,
-        .true_frames = reference_stream_missing(own->other),
-        .listed_frames = reference_stream_unmatched(own->other),
+        .true_frames = reference_stream_missing(own->tracker.stream),
+        .listed_frames = reference_stream_unmatched(own->tracker.stream),
         .cutoff_m = own->cutoff_m,
         .id_switches = own->id_switches,
         .all = score_of(&own->tally, 1, runner_arena(runner)),
     };
+    if (own->other.stream != NULL) {
+        if (tracker_difference_of(&own->scenes, &summary.difference, runner_diag(runner)) != 0)
+            return -1;
+        summary.present = SCORE_DIFFERENCE;
+    }
     if (!own->text)
         return runner_write_record(runner, &score_track_summary_record, &summary);
     struct text text = {0};
@@ -115,6 +171,9 @@ static int score_tracks_stop(void *state, struct runner *runner)
 static const struct field score_tracks_options[] = {
     {FIELD_NAME_OF(struct score_tracks, tracks,
                    "the tracker's tracks, as schemas/tracks.json describes them"),
+     .word = "FILE"},
+    {OPTIONAL_NAME(struct score_tracks, against,
+                   "another tracker's tracks: the summary has the differences from their scores"),
      .word = "FILE"},
     {OPTIONAL_CHOICE(struct score_tracks, objects, track_score_truths,
                      "which objects a tracker should find; absent: in_view")},
@@ -140,12 +199,17 @@ const struct stage stage_score_tracks = {
         "list.jsonl.\n\n"
         "Writes a JSON line for each frame: GOSPA (order 2, alpha 2) over the distances of "
         "centres in metres, with its parts, OSPA, counts, distances and differences in velocity "
-        "of the pairs, and how many objects are paired with another track than last time. "
+        "of the pairs, and how many objects are paired with another track than last time. Tracks "
+        "with a covariance also have the NEES: the squared distance over it, 2 on average if it "
+        "holds. "
         "--objects chooses the objects that count: in_view, if their centre is within the range "
         "and field of view of a sensor; detected, if an echo of theirs is in a target of the "
         "frame; all. The ego never counts. A frame that one side lacks is an error, unless "
         "--partial is given. Tracks have no seed, so every scene of the stream must have one seed "
-        "alone.",
+        "alone.\n\n"
+        "With --against, for instance tracks by another tracker or of another chain's lists, the "
+        "summary has the differences of both scores in a frame, paired by scene, with Student's 95 "
+        "% interval over scenes; it takes at least 5.",
     .options = STAGE_OPTIONS(struct score_tracks, score_tracks_options),
     .sink = true,
     .reads = SECTION_OBJECTS,

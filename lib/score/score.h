@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/text.h"
+#include "score/tracker_difference.h"
 #include "text/field.h"
 
 enum score_component {
@@ -14,10 +15,11 @@ enum score_component {
     SCORE_AMPLITUDE, /* up to here of targets, below of tracks */
     SCORE_POSITION,  /* distance of track and object, and size of their difference in velocity */
     SCORE_VELOCITY,
+    SCORE_NEES, /* squared distance over the track's covariance, 2 on average if that holds */
     SCORE_COMPONENTS,
 };
 
-enum { SCORE_PAIRS = 1 << 0, SCORE_LISTS = 1 << 1 };
+enum { SCORE_PAIRS = 1 << 0, SCORE_LISTS = 1 << 1, SCORE_DIFFERENCE = 1 << 2 };
 
 /* The differences in one component, in its unit. */
 struct score_differences {
@@ -36,6 +38,7 @@ struct score {
     double gospa, gospa_rms, gospa_max;
     double gospa_localisation, gospa_missed, gospa_false;
     double ospa;
+    double nees_low, nees_high; /* 95 % of mean NEES of as many independent pairs; 0: few pairs */
     struct score_differences differences[SCORE_COMPONENTS];
 };
 
@@ -59,6 +62,8 @@ struct score_summary {
     int64_t id_switches;
     struct score all;
     LIST_OF(struct score) sensors;
+    struct tracker_difference difference; /* of tracks */
+    unsigned present;                     /* SCORE_DIFFERENCE */
 };
 
 extern const struct record score_record;

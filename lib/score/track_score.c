@@ -10,6 +10,10 @@ const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
                                           [TRACK_TRUTH_ALL] = "all",
                                           NULL};
 
+#define COVARIANCE(member, low, help)                                                              \
+    OPTIONAL_REAL(struct track, member, low, 1e14, help ", positive definite together"),           \
+        .section = TRACK_COVARIANCE
+
 static const struct field track_fields[] = {
     {FIELD_NAME_OF(struct track, id,
                    "unique in the line; constant for an object; a number is its digits"),
@@ -20,12 +24,17 @@ static const struct field track_fields[] = {
                    "centre of the object's box, in the frame's coordinates")},
     {FIELD_REAL_IN(struct track, vx_mps, -1e4, 1e4, "velocity over ground")},
     {FIELD_REAL_IN(struct track, vy_mps, -1e4, 1e4, "velocity over ground")},
+    {COVARIANCE(variance_x_m2, 0, "variance of x_m")},
+    {COVARIANCE(covariance_xy_m2, -1e14, "covariance of x_m and y_m")},
+    {COVARIANCE(variance_y_m2, 0, "variance of y_m")},
     {FIELD_RAW_OF(struct track, extra, "any value, for your own use; not read")},
     {0},
 };
 
 static const struct record track_record = {
-    FIELD_TABLE(struct track, track_fields, "track", "A track of an object.")};
+    FIELD_TABLE(struct track, track_fields, "track",
+                "A track of an object, with the covariance of its place or without."),
+    .present_offset = offsetof(struct track, present)};
 
 static const struct field list_fields[] = {
     {FIELD_NAME_OF(struct track_list, scene, "scene of the frame")},
@@ -45,8 +54,35 @@ const struct record track_list_record = {
 
 _Static_assert(offsetof(struct track, id) == 0, "frame_order_names compares it");
 
+/* Of x_m and y_m, in [-1, 1] for a covariance. NaN without a variance. */
+static double correlation(const struct track *track)
+{
+    return track->covariance_xy_m2 / sqrt(track->variance_x_m2) / sqrt(track->variance_y_m2);
+}
+
+/* The squared distance of the centres over the covariance of the track. */
+static double normalised_square(const struct track *track, const struct object *object)
+{
+    double x = (track->x_m - object->x_m) / sqrt(track->variance_x_m2);
+    double y = (track->y_m - object->y_m) / sqrt(track->variance_y_m2), r = correlation(track);
+    return (x * x - 2 * r * x * y + y * y) / (1 - r * r);
+}
+
+static int check_covariance(const struct track *track, size_t number, struct diag *diag)
+{
+    if ((track->present & TRACK_COVARIANCE) == 0 || fabs(correlation(track)) < 1)
+        return 0;
+    return diag_fail(diag, DIAG_DATA,
+                     "tracks[%zu]: variance_x_m2 %g, covariance_xy_m2 %g and variance_y_m2 %g are "
+                     "not positive definite",
+                     number, track->variance_x_m2, track->covariance_xy_m2, track->variance_y_m2);
+}
+
 int track_score_order(struct track_list *list, struct arena *arena, struct diag *diag)
 {
+    for (size_t i = 0; i < list->tracks.count; i++)
+        if (check_covariance(&list->tracks.items[i], i, diag) != 0)
+            return -1;
     sort_list(&list->tracks, frame_order_names, arena);
     for (size_t i = 1; i < list->tracks.count; i++)
         if (frame_order_names(&list->tracks.items[i - 1], &list->tracks.items[i]) == 0)
@@ -209,6 +245,8 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
         pairs++;
         squares += pair->apart_m * pair->apart_m;
         *list_add(&errors[SCORE_POSITION].list, frame->arena) = pair->apart_m;
+        if ((track->present & TRACK_COVARIANCE) != 0)
+            *list_add(&errors[SCORE_NEES].list, frame->arena) = normalised_square(track, object);
         *list_add(&errors[SCORE_VELOCITY].list, frame->arena) =
             elementary_hypot(object->vx_mps - track->vx_mps, object->vy_mps - track->vy_mps);
         switches +=

@@ -13,8 +13,12 @@
 struct track {
     const char *id; /* constant while the tracker takes it for the same object */
     double x_m, y_m, vx_mps, vy_mps;
+    double variance_x_m2, covariance_xy_m2, variance_y_m2; /* of the place */
     const char *extra;
+    unsigned present; /* TRACK_COVARIANCE: the track has the covariance of its place */
 };
+
+enum { TRACK_COVARIANCE = 1 << 0 };
 
 enum { TRACK_TIME = 1 << 0 };
 
@@ -29,7 +33,8 @@ struct track_list {
 
 extern const struct record track_list_record;
 
-/* Sorts the tracks by id; refuses an id of two tracks (DIAG_DATA). */
+/* Sorts the tracks by id; refuses an id of two tracks, and a covariance that is not positive
+ * definite (DIAG_DATA). */
 int track_score_order(struct track_list *list, struct arena *arena, struct diag *diag);
 
 /* The objects that a tracker is expected to have. The ego is never one. */

@@ -295,13 +295,29 @@ def the_tracker_follows_most_of_what_is_detected(folder):
     assert score["id_switches"] <= 8, score
 
 
+def false_alarms_make_few_tracks(folder):
+    """Most targets of this list are false alarms, and few tracks are false; what is missed hardly changes."""
+    scores = {}
+    for effects in ("all", "all,-false_alarms"):
+        shell("glint-traffic-random --seconds 3 --rate-hz 25 --scenes 0:8 --seed 5 --sections quality,objects | glint-extract"
+              f" | glint-ideal --sensors srr24-signal --effects {effects} | glint-sensor | glint-noise >list.jsonl", folder)
+        text = shell(f"{sys.executable} {SCRIPTS}/tracker list.jsonl"
+                     " | glint-score-tracks --tracks - list.jsonl --summary", folder)
+        scores[effects] = json.loads(text)["all"]
+    with_alarms, without = scores.values()
+    assert with_alarms["false_count"] <= 0.3 * with_alarms["listed_count"], with_alarms
+    assert with_alarms["missed_count"] <= 1.1 * without["missed_count"], scores
+    assert 2 < with_alarms["nees"]["mean"] < 8, with_alarms
+
+
 def main():
     for test in (places_are_in_the_system_that_is_asked_for, what_stands_has_no_rate_over_ground,
                  frames_are_read_from_files_of_both_kinds, a_stage_that_changes_nothing_changes_no_byte_of_the_list,
                  columns_have_the_numbers_of_quality, detections_are_placed_from_where_the_ego_was,
                  what_glint_refuses_the_tracker_refuses, bytes_that_glint_refuses_the_tracker_refuses,
                  faults_outside_the_input_have_a_line_and_a_status, scenes_of_two_seeds_share_no_tracks,
-                 workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected):
+                 workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected,
+                 false_alarms_make_few_tracks):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
         print("ok      ", test.__name__.replace("_", " "))

@@ -20,6 +20,7 @@ from fractions import Fraction
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 COMPONENTS = ["range_m", "azimuth_rad", "range_rate_mps", "amplitude_db"]
+TRACKED = ["position_m", "velocity_mps", "nees"]
 MOST = 11  # the most targets a side for which trying all assignments is feasible
 checks = failures = 0
 
@@ -140,7 +141,7 @@ class Tally:
         for i, part in enumerate(("localisation", "missed", "false")):
             near(score["gospa_" + part], sum(p[i] for p in self.parts) / scans, what + " " + part)
         near(score["ospa"], sum(self.ospa) / scans, what + " ospa")
-        for name in COMPONENTS + ["position_m", "velocity_mps"]:
+        for name in COMPONENTS + TRACKED:
             told = score.get(name, {})
             expected = statistics(self.apart[name]) if self.apart.get(name) else {}
             if self.truth.get(name) and self.listed.get(name):
@@ -259,7 +260,7 @@ def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
 
 
 UNITS = {"range_m": "m", "azimuth_rad": "deg", "range_rate_mps": "m/s", "amplitude_db": "dB", "position_m": "m",
-         "velocity_mps": "m/s"}
+         "velocity_mps": "m/s", "nees": ""}
 
 
 def rows(score, distance):
@@ -270,7 +271,7 @@ def rows(score, distance):
     for key, value in score.items():
         if key in UNITS:
             scale = 180 / math.pi if key == "azimuth_rad" else 1
-            found.update({f"{key.rpartition('_')[0]} {figure}": (UNITS[key], scale * size)
+            found.update({f"{key.rpartition('_')[0] or key} {figure}": (UNITS[key], scale * size)
                           for figure, size in value.items()})
         elif key != "sensor":
             square = key in ("gospa_localisation", "gospa_missed", "gospa_false")
@@ -318,10 +319,19 @@ def invented_tracks(rng, frame, names):
         tracks.append({"id": names[thing["id"]], "x_m": thing["x_m"] + rng.gauss(0, 2),
                        "y_m": thing["y_m"] + rng.gauss(0, 2), "vx_mps": thing["vx_mps"] + rng.gauss(0, 1),
                        "vy_mps": thing["vy_mps"]})
+        if rng.random() < 0.5:
+            tracks[-1].update(variance_x_m2=4, covariance_xy_m2=rng.uniform(-1.9, 1.9), variance_y_m2=1)
     for _ in range(rng.randint(0, 2)):
         tracks.append({"id": str(rng.randrange(10**6)), "x_m": rng.uniform(-50, 50), "y_m": rng.uniform(-50, 50),
                        "vx_mps": 0, "vy_mps": 0})
     return list({track["id"]: track for track in tracks}.values())
+
+
+def nees(thing, track):
+    """The squared distance over the covariance, by its inverse."""
+    dx, dy = track["x_m"] - thing["x_m"], track["y_m"] - thing["y_m"]
+    a, b, c = (track[key] for key in ("variance_x_m2", "covariance_xy_m2", "variance_y_m2"))
+    return (c * dx * dx - 2 * b * dx * dy + a * dy * dy) / (a * c - b * b)
 
 
 def is_seen(frame, thing):
@@ -361,6 +371,7 @@ def check_tracks(bench, rng, frames, which, cutoff):
                                      for i, j in pairs]
         tally.apart["velocity_mps"] = [math.hypot(truth[i]["vx_mps"] - tracks[j]["vx_mps"],
                                                   truth[i]["vy_mps"] - tracks[j]["vy_mps"]) for i, j in pairs]
+        tally.apart["nees"] = [nees(truth[i], tracks[j]) for i, j in pairs if "variance_x_m2" in tracks[j]]
         switches = sum(last.get(truth[i]["id"], tracks[j]["id"]) != tracks[j]["id"] for i, j in pairs)
         last.update((truth[i]["id"], tracks[j]["id"]) for i, j in pairs)
         tally.compare(score["all"], f"tracks {which} {frame['frame']}")

@@ -152,6 +152,80 @@ static void tracks_are_sorted_by_id(void **state)
     arena_free(&arena);
 }
 
+/* A metre to each side with variances of 4 and 1 and a covariance of 1: (1 1) over [4 1; 1 1] is 1,
+ * and without the covariance 1.25. */
+static void a_squared_distance_is_over_the_covariance(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = frame_with_thing_at(90, 52);
+    frame.arena = &arena;
+    struct track track = {.id = "1",
+                          .x_m = 91,
+                          .y_m = 53,
+                          .variance_x_m2 = 4,
+                          .covariance_xy_m2 = 1,
+                          .variance_y_m2 = 1,
+                          .present = TRACK_COVARIANCE};
+    struct track_list list = {.tracks = {&track, 1, 1}};
+    struct track_memory memory = {0};
+    struct score_tally tally = {0};
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, 6, &memory, &arena);
+    assert_close(score_of(&tally, 1, &arena).differences[SCORE_NEES].max, 1, 1e-12);
+    track.covariance_xy_m2 = 0;
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, 6, &memory, &arena);
+    assert_close(score_of(&tally, 1, &arena).differences[SCORE_NEES].mean, 1.125, 1e-12);
+    track.present = 0;
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, 6, &memory, &arena);
+    assert_close(score_of(&tally, 1, &arena).differences[SCORE_NEES].mean, 1.125, 1e-12);
+    assert_close(score_of(&tally, 1, &arena).nees_low, 0, 0);
+    arena_free(&arena);
+}
+
+/* Quantiles of chi squared by table: 3.247 and 20.483 with 10, 74.222 and 129.561 with 100 degrees
+ * of freedom. */
+static void the_mean_of_the_nees_has_the_interval_of_chi_squared(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct score_tally tally = {0};
+    for (int i = 0; i < 50; i++) {
+        *list_add(&tally.values[SCORE_ERROR][SCORE_NEES].list, &arena) = 2;
+        struct score score = score_of(&tally, 1, &arena);
+        assert_true((score.nees_low > 0) == (i >= 4));
+        if (i == 4) {
+            assert_near(score.nees_low, 3.247 / 5, 0.01);
+            assert_near(score.nees_high, 20.483 / 5, 0.01);
+        }
+    }
+    struct score score = score_of(&tally, 1, &arena);
+    assert_near(score.nees_low, 74.222 / 50, 0.001);
+    assert_near(score.nees_high, 129.561 / 50, 0.001);
+    arena_free(&arena);
+}
+
+static void a_covariance_is_positive_definite(void **state)
+{
+    (void)state;
+    static const struct {
+        double x, xy, y;
+        int status;
+    } cases[] = {{1, 0, 1, 0},  {4, 1.9, 1, 0}, {1e-9, 0, 1e9, 0}, {4, 2, 1, -1}, {4, -2, 1, -1},
+                 {0, 0, 1, -1}, {1, 0, 0, -1},  {0, 0, 0, -1},     {4, 3, 1, -1}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct arena arena = {0};
+        struct diag diag = {0};
+        struct track track = {.id = "1",
+                              .variance_x_m2 = cases[i].x,
+                              .covariance_xy_m2 = cases[i].xy,
+                              .variance_y_m2 = cases[i].y,
+                              .present = TRACK_COVARIANCE};
+        struct track_list list = {.tracks = {&track, 1, 1}};
+        assert_int_equal(track_score_order(&list, &arena, &diag), cases[i].status);
+        arena_free(&arena);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +237,9 @@ int main(void)
         cmocka_unit_test(a_switch_is_another_track_than_last_in_its_scene),
         cmocka_unit_test(a_track_three_and_four_metres_off_is_five_off),
         cmocka_unit_test(tracks_are_sorted_by_id),
+        cmocka_unit_test(a_squared_distance_is_over_the_covariance),
+        cmocka_unit_test(the_mean_of_the_nees_has_the_interval_of_chi_squared),
+        cmocka_unit_test(a_covariance_is_positive_definite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
