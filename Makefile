@@ -264,8 +264,11 @@ man: all
 	    name=$$($(BUILD)/bin/$$t --help | sed '/^Usage/d; /^  or/d' | sed -n 's/\.$$//; 1p'); \
 	    help2man --no-info -n "$$name" -o $(BUILD)/man/$$t.1 $(BUILD)/bin/$$t || exit 1; done
 
-# Pages about data and pipelines go with them; the others, with their pictures, go to share/doc.
-doc_pages = README.md CHANGES.md MODEL.md LICENSE $(wildcard lib/*/MODEL.md stages/README.md tests/*/README.md)
+# Pages about data and pipelines go with them; the others, with their pictures, go to share/doc/glint, which has the
+# layout of this tree, so that commands of pages run there. What tests and measures glint stays here.
+doc = $(DESTDIR)$(PREFIX)/share/doc/glint
+doc_pages = README.md CHANGES.md MODEL.md LICENSE scripts/README.md \
+    $(wildcard lib/*/MODEL.md stages/README.md tests/*/README.md)
 # One file under the names of several programs, without what only a debugger reads.
 bin = $(DESTDIR)$(PREFIX)/bin
 install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
@@ -288,9 +291,18 @@ install: all man
 	cp -R data/* $(DESTDIR)$(PREFIX)/share/glint
 	cp -R pipelines schemas $(DESTDIR)$(PREFIX)/share/glint
 	$(Q)for page in $(doc_pages); do \
-	    install -D -m 644 $$page $(DESTDIR)$(PREFIX)/share/doc/glint/$$page || exit 1; done
-	ln -sfn ../../glint $(DESTDIR)$(PREFIX)/share/doc/glint/data
-	ln -sfn ../../glint/pipelines ../../glint/schemas $(DESTDIR)$(PREFIX)/share/doc/glint
+	    install -D -m 644 $$page $(doc)/$$page || exit 1; done
+	ln -sfn ../../glint $(doc)/data
+	ln -sfn ../../glint/pipelines ../../glint/schemas $(doc)
+	install -d $(doc)/scripts/sets $(doc)/tests/support $(doc)/build
+	ln -sfn ../../../../bin $(doc)/build/bin
+	install -m 755 $(addprefix scripts/,dataset check-set tracker) $(doc)/scripts
+	install -m 644 scripts/glint.py $(doc)/scripts
+	install -m 644 scripts/sets/*.py $(doc)/scripts/sets
+	install -m 644 tests/support/progress.py $(doc)/tests/support
+	install -m 644 stages/noise_none.c $(doc)/stages
+	sed '/^```c$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray.c
+	sed '/^```make$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/Makefile
 
 # Takes away what `make install` puts there: programs and pages by name, and glint's own folders.
 uninstall:

@@ -10,16 +10,22 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
 PREFIX, BUILT = (os.path.abspath(folder) for folder in sys.argv[1:3])
+DOCUMENTS = os.path.join(PREFIX, "share/doc/glint")  # has the layout of the source tree
 PROGRAMS = os.path.join(PREFIX, "bin")
 MOST_BYTES = 4_000_000
 ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C",
                "PKG_CONFIG_PATH": os.path.join(PREFIX, "lib/pkgconfig")}
 REACH_M = 40
+# What tests and measures glint stays in the source tree. Of the stages only examples are installed.
+OF_THE_TREE = {"accuracy-cost", "bench", "check-house", "demo", "deps", "figures", "golden", "make-antennas", "make-vehicles",
+               "numerics", "realism", "soundness", "test", "summary.c", "noise_mine.c"}
+OWN_STAGES = {"glint-spray", "glint-noise-mine", "glint-traffic-adversarial"}  # of readers and of the tests
 
 
 def run(command, folder="/", expected=0):
@@ -58,11 +64,12 @@ def check_headers(folder):
 
 def build_stage(folder):
     """The page's stage, without a warning, beside glint's own programs."""
-    with open(os.path.join(PREFIX, "share/doc/glint/stages/README.md"), encoding="utf-8") as page:
+    with open(os.path.join(DOCUMENTS, "stages/README.md"), encoding="utf-8") as page:
         blocks = dict(re.findall(r"```(c|make)\n(.*?)```", page.read(), re.DOTALL))
     for name, text in ("spray.c", blocks["c"]), ("Makefile", blocks["make"]):
-        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-            file.write(text)
+        shutil.copy(os.path.join(DOCUMENTS, "stages", name), folder)
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
+            assert file.read() == text, f"{name} is another one than the page's"
     assert len(blocks["make"].splitlines()) <= 12, "the page promises a Makefile of twelve lines"
     run('make -s install CFLAGS="-std=c11 -O2 -Wall -Wextra -Werror"', folder)
 
@@ -89,9 +96,50 @@ def check_stage(folder):
     assert refusal.startswith("glint-spray: --reach-m: "), refusal
 
 
+def pages():
+    """(folder, text) of every installed page."""
+    for top in DOCUMENTS, os.path.join(PREFIX, "share/glint"):
+        for folder, _, names in os.walk(top):
+            for name in names:
+                if name.endswith(".md"):
+                    with open(os.path.join(folder, name), encoding="utf-8") as page:
+                        yield folder, page.read()
+
+
+def check_names():
+    """Programs, scripts, pipelines, documents, schemas and headers that pages name are there, and scripts have a help."""
+    scripts = set()
+    for folder, text in pages():
+        for name in re.findall(r"\bglint(?:-[a-z0-9]+)*(?= -|\b[^-a-z0-9/._*])", text):
+            known = os.path.exists(os.path.join(PROGRAMS, name)) or name in OWN_STAGES
+            assert known, f"{folder}: {name} is not installed"
+        for name in re.findall(r"(?<![\w./$-])(?:scripts|pipelines|data|schemas|stages)/[\w./-]*\w", text):
+            there = os.path.exists(os.path.join(DOCUMENTS, name)) or os.path.basename(name) in OF_THE_TREE
+            assert there, f"{folder}: {name} is not installed"
+        for name in re.findall(r"(?<![\w./-])lib/([a-z]+/\w+\.h)", text):
+            assert os.path.exists(os.path.join(PREFIX, "include/glint", name)), f"{folder}: {name} is not installed"
+        scripts.update(re.findall(r"(?<![\w./-])scripts/([\w-]+)(?![\w./-])", text))
+    assert {"dataset", "check-set", "tracker"} <= scripts - OF_THE_TREE, scripts
+    for name in sorted(scripts - OF_THE_TREE):
+        assert run(f"{DOCUMENTS}/scripts/{name} --help"), f"{name} --help prints nothing"
+
+
+def check_scripts(folder):
+    """A set is made and checked, tracks are scored, and glint.py reads frames."""
+    run(f"{DOCUMENTS}/scripts/dataset {DOCUMENTS}/data/sets/small.json --out set && make -s -C set && {DOCUMENTS}/scripts/check-set set", folder)
+    run(f"cat set/*/*/*.jsonl.gz > list.jsonl.gz && {DOCUMENTS}/scripts/tracker list.jsonl.gz > tracks.jsonl", folder)
+    score = json.loads(run("glint-score-tracks --tracks tracks.jsonl --summary list.jsonl.gz", folder))
+    assert score["frames"] == 1000, score
+    code = "import glint; print(sum(len(one['targets']) for one in glint.frames('list.jsonl.gz')))"
+    assert int(run(f'PYTHONPATH={DOCUMENTS}/scripts python3 -B -c "{code}"', folder)) > 0
+    assert run(f"cd {DOCUMENTS} && build/bin/glint pipelines/two-vehicles.sh | head -n 1").startswith("{")
+
+
 check_programs()
+check_names()
 with tempfile.TemporaryDirectory() as place:
     check_headers(place)
+    check_scripts(place)
     build_stage(place)
     check_stage(place)
 os.remove(os.path.join(PROGRAMS, "glint-spray"))
