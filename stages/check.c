@@ -16,7 +16,7 @@ struct check {
     struct diag unknown;               /* why echoes of a frame could not be made again */
     struct frame_sequence sequence;
     struct frame_labels labels; /* that were checked */
-    int64_t frames, targets;
+    int64_t frames, targets, every;
 };
 
 /* Begins ideal anew where a frame has another suite or other effects than the one before. */
@@ -57,7 +57,8 @@ static bool remake(struct check *own, const struct frame *frame, struct frame *a
 static int check_labels(struct check *own, const struct frame *frame, struct diag *diag)
 {
     struct frame again;
-    bool known = frame->objects.count > 0 && remake(own, frame, &again);
+    bool due = own->every > 0 && (own->frames - 1) % own->every == 0;
+    bool known = due && frame->objects.count > 0 && remake(own, frame, &again);
     return frame_labels_check(frame, known ? &again : NULL, &own->labels, diag);
 }
 
@@ -110,6 +111,10 @@ static int check_run(void *state, struct runner *runner)
 static const struct field check_options[] = {
     {OPTIONAL_FLAG(struct check, partial, "scenes may lack frames and come in any order")},
     {OPTIONAL_NAME(struct check, sensors, "path of the suite, if it is not found by its name")},
+    {OPTIONAL_INTEGER(
+         struct check, every, 0, 1e9,
+         "compute the labels of one frame in so many again, 0: of none; absent: of each"),
+     .absent = 1},
     {OPTIONAL_NAME(struct check, extract,
                    "stage that wrote the reflectors, as extract-3gpp; absent: extract")},
     {0},

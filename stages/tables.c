@@ -1,5 +1,7 @@
 /* A stream as tables: detections, objects, scans, contributors, sightings, lost echoes, frames. */
 #include "export/detection_tables.h"
+#include "export/stream_counts.h"
+#include "frame/frame_text.h"
 #include "run/tool.h"
 #include "text/output.h"
 
@@ -9,10 +11,12 @@
 
 struct tables_state {
     const char *folder;
-    bool plain;
+    const char *copy; /* a file that gets the frames, too; NULL: none does */
+    bool plain, without_objects, counts;
     int64_t part;
-    struct output *outputs[TABLE_COUNT];
+    struct output *outputs[TABLE_COUNT], *copied;
     struct detection_tables tables;
+    struct stream_counts counted;
 };
 
 static int make_folder(const char *folder, struct diag *diag)
@@ -44,6 +48,17 @@ static int open_outputs(struct tables_state *own, struct runner *runner)
     return 0;
 }
 
+/* What goes elsewhere than into the folder. */
+static int open_others(struct tables_state *own, struct runner *runner)
+{
+    own->counted.arena = runner_arena(runner);
+    if (own->counts && runner_output(runner) == NULL)
+        return -1;
+    if (own->copy != NULL && (own->copied = runner_output_beside(runner, own->copy)) == NULL)
+        return diag_prefix(runner_diag(runner), "--copy: ");
+    return 0;
+}
+
 static int send_rows(struct tables_state *own, struct runner *runner)
 {
     for (int i = 0; i < TABLE_COUNT; i++)
@@ -52,25 +67,62 @@ static int send_rows(struct tables_state *own, struct runner *runner)
     return 0;
 }
 
+static int copy_frame(struct tables_state *own, struct frame *frame, struct diag *diag)
+{
+    if (own->without_objects) {
+        frame->sections &= ~(unsigned)CARRY_OBJECTS;
+        frame_drop(frame, SECTION_OBJECTS);
+    }
+    return frame_text_write(frame, output_text(own->copied), diag) == 0
+               ? output_send(own->copied, diag)
+               : -1;
+}
+
+static int add_frame(struct tables_state *own, struct frame *frame, struct runner *runner)
+{
+    struct diag *diag = runner_diag(runner);
+    if (detection_tables_add(&own->tables, frame, diag) != 0 || send_rows(own, runner) != 0)
+        return -1;
+    if (own->counts && stream_counts_add(&own->counted, frame, diag) != 0)
+        return -1;
+    return own->copied != NULL ? copy_frame(own, frame, diag) : 0;
+}
+
+static int write_counts(struct tables_state *own, struct runner *runner)
+{
+    struct text text = {0};
+    stream_counts_write(&own->counted, &text);
+    return runner_write_text(runner, &text);
+}
+
 static int tables_run(void *state, struct runner *runner)
 {
     struct tables_state *own = state;
     struct frame *frame;
-    int more = open_outputs(own, runner) == 0 ? 1 : -1;
+    int more = open_others(own, runner) == 0 && open_outputs(own, runner) == 0 ? 1 : -1;
     if (more > 0)
         detection_tables_begin(&own->tables, own->part * DETECTION_TABLES_KEYS,
                                runner_arena(runner));
     while (more > 0 && (more = runner_frame(runner, &frame)) > 0)
-        if (detection_tables_add(&own->tables, frame, runner_diag(runner)) != 0 ||
-            send_rows(own, runner) != 0)
+        if (add_frame(own, frame, runner) != 0)
             more = -1;
-    return more;
+    return more == 0 && own->counts ? write_counts(own, runner) : more;
+}
+
+static void tables_release(void *state)
+{
+    struct tables_state *own = state;
+    arena_free(&own->counted.open_names);
 }
 
 static const struct field tables_options[] = {
     {FIELD_NAME_OF(struct tables_state, folder,
                    "the folder for the seven tables; it is made if it does not exist")},
     {OPTIONAL_FLAG(struct tables_state, plain, "write .csv instead of .csv.gz")},
+    {OPTIONAL_NAME(struct tables_state, copy, "write the frames to this file, too"),
+     .word = "FILE"},
+    {OPTIONAL_FLAG(struct tables_state, without_objects, "leave the objects out of the copy")},
+    {OPTIONAL_FLAG(struct tables_state, counts, "print what glint-summary prints")},
     {OPTIONAL_INTEGER(struct tables_state, part, 0, 9e6,
                       "number of this part of a set; its keys begin at 1e9 times the number")},
     {0},
@@ -90,4 +142,5 @@ const struct stage stage_tables = {
     .into_folder = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,
     .run = tables_run,
+    .release = tables_release,
 };
