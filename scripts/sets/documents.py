@@ -6,7 +6,7 @@ import shutil
 import subprocess
 
 from durable import digest_of_file, make_folder, whole_file
-from plan import BAD_DATA, FROM_FILES, NO_INPUT, ROOT, Fault, kind_of, read_json, refuse
+from plan import BAD_DATA, FROM_FILES, NO_INPUT, ROOT, Fault, is_own, kind_of, read_json, refuse, stages_of
 
 BIN = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin")
 DOCUMENTS = "documents"
@@ -128,6 +128,17 @@ def files_of(source, plan_folder):
         names += [os.path.join(folder, other) for other in beside
                   if re.fullmatch(re.escape(recorded[1]) + r"_(tracks|recording)Meta\.csv", other)]
     return sorted(set(names))
+
+
+def files_of_chain(plan, plan_folder):
+    """The files of stages of one's own, from the plan's folder."""
+    found = []
+    for stage in filter(is_own, stages_of(plan["chain"])):
+        names = [word for word in shlex.split(stage) if "/" in word and os.path.isfile(os.path.join(plan_folder, word))]
+        if not names:
+            raise Fault(NO_INPUT, f"/chain: {stage}: no such file in {plan_folder}")
+        found += names
+    return found
 
 
 def described(files, folder=""):

@@ -4,10 +4,12 @@ import os
 import shlex
 import sys
 
-from documents import copies, copy_documents, described, files_of, program_version, suite_name
+from documents import copies, copy_documents, described, files_of, files_of_chain, program_version, suite_name
 from durable import alone, canonical, digest_of, make_folder, remove_temporaries, sync_folder, write_whole
+from lines import ENDINGS
 from plan import BAD_DATA, CANNOT_CREATE, ROOT, Fault, read_json, refuse
 from rehearsal import rehearse
+from tables import paths_of
 from traffic import chain_of, packed, source_command, stretches_of
 
 WORK, LAYOUT = "work", "work/layout.json"
@@ -15,11 +17,12 @@ WORK, LAYOUT = "work", "work/layout.json"
 
 def shard_of(stretches, split, suite, number, plan, plan_folder):
     place = f"{split}/{suite}/{number:05}"
-    tables = read_json(os.path.join(ROOT, "schemas", "tables.json")) if plan.get("tables") else []
-    return {"path": place + ".jsonl.gz", "split": split, "suite": suite,
-            "tables": [f"{place}/{name}.csv.gz" for name in tables],
-            "inputs": sorted({name for stretch in stretches for name in files_of(stretch.source, plan_folder)}),
-            "commands": [f"{source_command(plan, stretch, suite)} | {chain_of(plan, suite)}" for stretch in stretches]}
+    inputs = {name for stretch in stretches for name in files_of(stretch.source, plan_folder)}
+    return {"lines": None if plan.get("lines") == "none" else place + ENDINGS[plan.get("compression", "gzip")],
+            "split": split, "suite": suite, "tables": paths_of(plan, place),
+            "frames": sum((stretch.end - stretch.first) * stretch.frames for stretch in stretches),
+            "inputs": sorted(inputs.union(files_of_chain(plan, plan_folder))),
+            "commands": [chain_of(plan, suite, source_command(plan, stretch, suite)) for stretch in stretches]}
 
 
 def shards_of(plan, plan_folder):
@@ -83,7 +86,7 @@ def word_of_make(path):
 
 def makefile_of(layout, plan_folder):
     shards = layout["shards"]
-    rules = "\n".join(f"parts part-{i}: work/part-{i}.json  # {shard['path']}" for i, shard in enumerate(shards))
+    rules = "\n".join(f"parts part-{i}: work/part-{i}.json  # {shard['split']}/{shard['suite']}" for i, shard in enumerate(shards))
     return MAKEFILE.format(name=layout["plan"]["name"], count=len(shards), rules=rules,
                            program=word_of_make(os.path.join(ROOT, "scripts", "dataset")),
                            plan_folder=word_of_make(plan_folder))
@@ -112,7 +115,7 @@ def fill_folder(layout, copied, plan_folder, folder):
     remove_temporaries(work)
     write_whole(os.path.join(folder, LAYOUT), work, json.dumps(layout, indent=1, ensure_ascii=False) + "\n")
     copy_documents(copied, folder, work)
-    for path in {path for shard in layout["shards"] for path in (shard["path"], *shard["tables"][:1])}:
+    for path in {path for shard in layout["shards"] for path in filter(None, (shard["lines"], *shard["tables"][:1]))}:
         make_folder(os.path.dirname(os.path.join(folder, path)))
     write_whole(os.path.join(folder, "Makefile"), work, makefile_of(layout, os.path.abspath(plan_folder)))
     sync_folder(folder)

@@ -2,14 +2,16 @@
 import json
 import os
 
+import pace
 import page
 from documents import DOCUMENTS, described
 from durable import alone, digest_of, make_folder, remove_temporaries, sync_folder, write_whole
 from layout import WORK
 from plan import ROOT, kind_of, read_json
-from shard import BEGUN, MANIFEST, record_path
+from shard import MANIFEST, record_path
 
 PAGE, FRAME = "README.md", "frame"
+MEDIA = {"jsonl": "application/jsonl", "csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
 
 
 def frame_fields():
@@ -32,21 +34,21 @@ def schemas_of(layout):
     of_tables = read_json(os.path.join(ROOT, "schemas", "tables.json")) if layout["plan"].get("tables") else {}
     for schema in of_tables.values():
         schema.pop("foreignKeys", None)
-    return {schema_path(name): schema for name, schema in {FRAME: frame_fields(), **of_tables}.items()}
+    of_lines = {} if layout["plan"].get("lines") == "none" else {FRAME: frame_fields()}
+    return {schema_path(name): schema for name, schema in {**of_lines, **of_tables}.items()}
 
 
 def kind_of_file(path):
     """What Frictionless says of a file of lines, or of a table."""
-    if path.endswith(".jsonl.gz"):
-        return {"format": "jsonl", "mediatype": "application/jsonl", "encoding": "utf-8", "compression": "gz",
-                "schema": schema_path(FRAME)}
-    return {"format": "csv", "mediatype": "text/csv", "encoding": "utf-8", "compression": "gz",
-            "schema": schema_path(os.path.basename(path).removesuffix(".csv.gz"))}
+    name, form, *compression = os.path.basename(path).split(".")
+    kind = {"format": form, "mediatype": MEDIA[form]}
+    kind |= {"encoding": "utf-8", "compression": compression[0]} if compression else {}
+    return kind | {"schema": schema_path(FRAME if form == "jsonl" else name)}
 
 
 def resource_of(file, shard):
     """A shard's file, in the words of Frictionless and our own."""
-    name = file["path"].lower().removesuffix(".gz").removesuffix(".jsonl").removesuffix(".csv")
+    name = file["path"].lower().split(".")[0]
     return {"name": name, "path": file["path"], "profile": "data-resource", **kind_of_file(file["path"]),
             "split": shard["split"], "suite": shard["suite"],
             **{member: file[member] for member in ("rows", "bytes", "hash", "content_bytes", "content_hash")},
@@ -73,7 +75,7 @@ def package_of(layout, records, documents):
     return {"profile": "data-package", "name": plan["name"], "description": plan["origin"],
             **origins_of(plan["sources"]),
             "program": layout["program"], "identity": layout["identity"], "plan": plan,
-            "frames": sum(record["files"][0]["rows"] for record in records),
+            "frames": sum(record["frames"] for record in records),
             "rows": sum(resource["rows"] for resource in resources),
             "bytes": sum(resource["bytes"] for resource in resources),
             "content_bytes": sum(resource["content_bytes"] for resource in resources),
@@ -102,8 +104,8 @@ def finish(layout, folder):
             write_whole(os.path.join(folder, path), work, json.dumps(fields, indent=1, ensure_ascii=False) + "\n")
         write_whole(os.path.join(folder, PAGE), work, page.page_of(layout, records))
         package = package_of(layout, records, documents_of(layout, folder))
-        if os.path.exists(os.path.join(work, BEGUN)):
-            os.remove(os.path.join(work, BEGUN))
+        if os.path.exists(os.path.join(folder, pace.PATH)):
+            os.remove(os.path.join(folder, pace.PATH))
         remove_temporaries(work, of_all=True)
         sync_folder(work)
         write_whole(os.path.join(folder, MANIFEST), work, manifest_of(package))

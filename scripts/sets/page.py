@@ -1,8 +1,9 @@
 """The README.md of a data set: what is in it, its conventions, and how to load it."""
 import collections
-import os
+import shlex
 
 from plan import kind_of, scene_of
+from traffic import shell_of
 
 PAGE = """\
 # {name}
@@ -25,21 +26,23 @@ Targets are made by glint from models: no radar has measured them. The traffic:
 
 ## Conventions
 
-- A shard is `SPLIT/SUITE/NUMBER.jsonl.gz`: gzip, one frame a line. `documents/schemas/` lists members and columns.{tables}
+- {lines} `documents/schemas/` lists members and columns.{tables}
 - SI units and radians; the unit is in the name of a member. Axes follow ISO 8855: x forward, y left, angles
   counter-clockwise. Azimuth counts from boresight, left positive; range rate is positive when receding.
 - A frame is known by `scene` and `frame`: a scene's name is unique in the set. `objects` is the truth. A target's
   `contributors` are its label: `object`, `reflector`, `path` and `weight`, 1 in sum; the first is not always the
   strongest. `cell_...` are values without noise.
 - A scan without targets is a frame all the same. `seed` is text, as it may have 64 bits.
-- `documents/` has the radars and vehicles. `GLINT_DATA=documents glint -c '...'` repeats a command line; paths of recordings
-  are from the folder of the plan.
+- `documents/` has the radars and vehicles. `GLINT_DATA=documents {shell} '...'` repeats a command line; paths of
+  recordings and of stages are from the folder of the plan.
 - {leak}
 
 ## Loading
 
 Run in the folder of the set.
 
+{loading}"""
+OF_GZIP = """\
 pandas (tested):
 
 ```python
@@ -85,7 +88,7 @@ class Frames(torch.utils.data.IterableDataset):
                 for frame in map(json.loads, lines):
                     rows = [[target["range_m"], target["azimuth_rad"], target["range_rate_mps"], target["amplitude_db"]]
                             for target in frame["targets"]]
-                    yield torch.tensor(rows).reshape(-1, 4), frame["objects"]
+                    yield torch.tensor(rows).reshape(-1, 4), frame.get("objects")
 
 
 loader = torch.utils.data.DataLoader(Frames("{split}/*/*.jsonl.gz"), batch_size=None, num_workers=2)
@@ -106,14 +109,20 @@ end
 printed = sprintf("%d %d", numel(lines), count)
 ```
 """
+OF_ZSTD = "`zstd -dc {split}/*/*.jsonl.zst` prints the lines; DuckDB's `read_json` reads them as they are.\n"
+OF_TABLES = "`pandas.read_{reader}(\"{first}\")`; DuckDB reads CSV by glint's `schemas/tables.sql`, and Parquet as it is.\n"
+LINES = {"gzip": "A shard is `SPLIT/SUITE/NUMBER.jsonl.gz`: gzip, one frame a line.",
+         "zstd": "A shard is `SPLIT/SUITE/NUMBER.jsonl.zst`: zstd, one frame a line.", None: "A shard is its tables."}
+BARE = " Lines have no `objects`; tables have them."
 TABLES = """
-- The tables of a shard (CSV, gzip) are in `SPLIT/SUITE/NUMBER/`. Whole numbers that are unique in the set join
+- The tables of a shard ({form}) are in `SPLIT/SUITE/NUMBER/`. Whole numbers that are unique in the set join
   them: `frame_key` is a row of `frames`, `scan_key` of `scans`, `object_key` of `objects`, `detection_key` of
   `detections`."""
 LEAKS = {None: "The set is one split.",
          "scene": "Splits share no scene: scenes were drawn one by one.",
          "time": "Splits are blocks of time; {gap_s} s between two of them are left out.",
-         "recording": "Splits share no recording."}
+         "recording": "Splits share no recording.",
+         "kind": "Splits share no scene and no recorded time."}
 
 
 def split_table(layout, records):
@@ -121,7 +130,7 @@ def split_table(layout, records):
     sums = collections.defaultdict(lambda: [0, 0, 0, 0])
     for record in records:
         shard = layout["shards"][record["part"]]
-        for i, count in enumerate((1, record["files"][0]["rows"], sum(record["targets"].values()),
+        for i, count in enumerate((1, record["frames"], sum(record["targets"].values()),
                                    sum(file["bytes"] for file in record["files"]))):
             sums[shard["split"], shard["suite"]][i] += count
     rows = [f"| `{split}/{suite}` | {' | '.join(f'{count:,}' for count in row)} |" for (split, suite), row in sums.items()]
@@ -155,12 +164,16 @@ def traffic_of(source):
 def page_of(layout, records):
     plan, counts = layout["plan"], classes_by_split(layout, records)
     splits = plan.get("splits", {})
-    first = layout["shards"][0]
+    first, parquet = layout["shards"][0], plan.get("tables") == "parquet"
+    compression = plan.get("compression", "gzip") if first["lines"] else None
+    loading = {"gzip": OF_GZIP, "zstd": OF_ZSTD, None: OF_TABLES}[compression]
     return PAGE.format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
-        rows=sum(record["files"][0]["rows"] for record in records),
+        rows=sum(record["frames"] for record in records),
         targets=sum(sum(record["targets"].values()) for record in records),
         table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
         classes=class_table(counts), traffic="\n".join(map(traffic_of, plan["sources"])),
         leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
-        tables=TABLES if plan.get("tables") else "", first=first["path"], split=os.path.dirname(os.path.dirname(first["path"])))
+        lines=LINES[compression] + BARE * (plan.get("lines") == "without_objects"), shell=shlex.join(shell_of(plan)),
+        tables=TABLES.format(form="Parquet" if parquet else "CSV, gzip") if plan.get("tables") else "",
+        loading=loading.format(first=first["lines"] or first["tables"][0], split=first["split"], reader="parquet" if parquet else "csv"))

@@ -3,22 +3,25 @@ import json
 import os
 import re
 import shlex
+import shutil
 
 import glint
 import schema
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-USAGE, BAD_DATA, NO_INPUT, CANNOT_CREATE, IO = 64, 65, 66, 73, 74
+USAGE, BAD_DATA, NO_INPUT, UNAVAILABLE, CANNOT_CREATE, IO = 64, 65, 66, 69, 73, 74
 
-# What a kind of source needs, and what it takes besides `program` and `options`.
+# What a kind of source needs, and what it takes besides `program`, `options` and `split`.
 KINDS = {"random": ({"random", "frames"}, set()),
          "moving": ({"random", "seconds", "scenes"}, {"rate_hz"}),
          "scenario": ({"scenario"}, {"scenes"}),
          "recording": ({"recording", "egos", "licence", "source"},
-                       {"scene", "from_s", "to_s", "block_s", "rate_hz", "split"})}
+                       {"scene", "from_s", "to_s", "block_s", "rate_hz"})}
 FROM_FILES = ("scenario", "recording")
 # How a kind can be split.
-SPLIT_BY = {"random": {"scene"}, "moving": {"scene"}, "scenario": {"scene"}, "recording": {"time", "recording"}}
+SPLIT_BY = {"random": {"scene", "kind"}, "moving": {"scene", "kind"}, "scenario": {"scene", "kind"},
+            "recording": {"time", "recording", "kind"}}
+HIGHEST_LEVEL = {"gzip": 9, "zstd": 19}
 OWN_FOLDERS = ("documents", "work")
 # Options of sources that the plan's own members give.
 OWN_OPTIONS = {"--first", "--frames", "--density", "--seed", "--scene", "--scenes", "--ego", "--from-s", "--to-s",
@@ -76,7 +79,7 @@ def check_source(source, path):
     needed, taken = KINDS[kind]
     for name in sorted(needed - source.keys()):
         refuse(True, path, f"{name} is missing: a {kind} source needs it")
-    for name in source.keys() - needed - taken - {"program", "options"}:
+    for name in source.keys() - needed - taken - {"program", "options", "split"}:
         refuse(True, f"{path}/{name}", f"a {kind} source has none")
     for word in words_of(source.get("options", ""), f"{path}/options"):
         refuse(word.split("=")[0] in OWN_OPTIONS or word in "|<>&;", f"{path}/options", f"{word} is the plan's to say")
@@ -89,15 +92,44 @@ def check_source(source, path):
     refuse(scenes[0] >= scenes[1], f"{path}/scenes", "expected a first scene before the last")
 
 
+def stages_of(chain):
+    return [stage.strip() for stage in chain.split("|")]
+
+
+def is_own(stage):
+    """Is it a stage of one's own, and none of glint's?"""
+    return not stage.startswith("glint-")
+
+
 def check_chain(chain):
     refuse("{suite}" not in chain, "/chain", "names no suite; write --sensors {suite}")
-    programs = [part.split()[0] if part.split() else "" for part in chain.split("|")]
-    for program in programs:
-        refuse(not program.startswith("glint-"), "/chain", f"{program!r} is no program of glint")
+    for stage in filter(is_own, stages_of(chain)):
+        words = words_of(stage, "/chain")
+        refuse(not any("/" in word for word in words), "/chain",
+               f"{(words or [''])[0]!r} is no program of glint, and no file of your own: name that by a path, as ./mud.py")
     refuse(">" in chain or "<" in chain, "/chain", "redirects")
     refuse("#" in chain, "/chain", "has a comment, which would hide what follows it")
-    for word in words_of(chain, "/chain"):
-        refuse(word.split("=")[0] in OPTIONS_OF_CHAIN, "/chain", f"{word} is not the chain's to say")
+    for stage in stages_of(chain):
+        for word in words_of(stage, "/chain"):
+            refuse(word.split("=")[0] in OPTIONS_OF_CHAIN and not is_own(stage), "/chain", f"{word} is not the chain's to say")
+
+
+def check_files(plan):
+    """What a shard is to have, and the programs that make it."""
+    lines, compression = plan.get("lines", "whole"), plan.get("compression", "gzip")
+    refuse(lines != "whole" and not plan.get("tables"), "/lines", f'"{lines}" needs tables')
+    for name in ("compression", "level"):
+        refuse(lines == "none" and name in plan, f"/{name}", "a set without lines has none")
+    highest = HIGHEST_LEVEL[compression]
+    refuse(plan.get("level", 1) > highest, "/level", f"{plan.get('level')}; expected at most {highest} for {compression}")
+    for name, value, needed in (("compression", "zstd", "zstd"), ("tables", "parquet", "duckdb")):
+        if plan.get(name) == value and not shutil.which(needed):
+            raise Fault(UNAVAILABLE, f'/{name}: "{value}" needs the program {needed}, which is not in PATH')
+
+
+def split_of(plan, source):
+    """The split that has all of a source; None: its scenes or times are shared."""
+    return source.get("split") if "splits" in plan else "all"
 
 
 def check_splits(plan):
@@ -107,17 +139,21 @@ def check_splits(plan):
         path, kind = f"/sources/{i}", kind_of(source)
         refuse(by and by not in SPLIT_BY[kind], path,
                f"a {kind} source cannot be split by {by}, but by {' or '.join(sorted(SPLIT_BY[kind]))}")
-        refuse((by == "recording") != ("split" in source), path,
-               "split is missing" if by == "recording" else "split is for splits by recording")
-        refuse(by == "scene" and kind == "scenario" and "scenes" not in source, path,
-               "it is one scene, which cannot be split; scenes are missing")
-        refuse(by == "time" and not {"from_s", "to_s"} <= source.keys(), path, "splits by time need from_s and to_s")
-    refuse(by in ("scene", "time") and not shares, "/splits", "shares is missing")
+        refuse(by == "recording" and "split" not in source, path, "split is missing")
+        refuse(by not in ("recording", "kind") and "split" in source, path, "split is for splits by recording or kind")
+        refuse(shares and source.get("split", [*shares][0]) not in shares, f"{path}/split",
+               f"{source.get('split')!r}; expected one of {', '.join(shares)}")
+        refuse(by and split_of(plan, source) is None and kind == "scenario" and "scenes" not in source, path,
+               "it is one scene, which cannot be split; scenes are missing" + ", or a split" * (by == "kind"))
+        refuse(by and split_of(plan, source) is None and kind == "recording" and not {"from_s", "to_s"} <= source.keys(), path,
+               "splits by time need from_s and to_s")
+    refuse(by in ("scene", "time", "kind") and not shares, "/splits", "shares is missing")
     refuse(by == "recording" and shares, "/splits/shares", "the sources say their splits")
+    timed = any(kind_of(source) == "recording" and split_of(plan, source) is None for source in plan["sources"])
     whole = sum(shares.values())
     refuse(shares and abs(whole - 1) > 1e-9, "/splits/shares", f"{whole} in sum; expected 1")
-    refuse((by == "time") != ("gap_s" in splits) and by, "/splits/gap_s",
-           "missing: without a gap, traffic of one split is in the next" if by == "time" else "is for splits by time")
+    refuse(timed != ("gap_s" in splits) and by, "/splits/gap_s",
+           "missing: without a gap, traffic of one split is in the next" if timed else "is for splits by time")
     for name in [*shares, *(source["split"] for source in plan["sources"] if "split" in source)]:
         refuse(not re.fullmatch("[a-z0-9][a-z0-9_-]*", name), "/splits/shares", f"{name!r} is no name of a folder")
         refuse(name in OWN_FOLDERS, "/splits", f"{name!r} is a folder of every set")
@@ -159,6 +195,7 @@ def read_plan(path):
         for i, source in enumerate(plan["sources"]):
             check_source(source, f"/sources/{i}")
         check_chain(plan["chain"])
+        check_files(plan)
         check_splits(plan)
         check_names(plan)
     except Fault as fault:

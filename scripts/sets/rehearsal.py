@@ -7,10 +7,10 @@ import subprocess
 import tempfile
 
 from documents import copy_documents, environment, suite_name
-from plan import Fault, kind_of, refuse
-from tracks import pieces_of, same_traffic
-from traffic import (US, chain_of, command_words, first_scenes, operand, seconds, source_command, stretches_of,
-                     words_of_recording)
+from plan import Fault, kind_of, refuse, split_of
+from tracks import noted, pieces_of, same_traffic
+from traffic import (US, chain_of, command_words, first_scenes, operand, seconds, shell_of, source_command, stretches_of,
+                     times_of, words_of_recording)
 
 FRAMES = 10  # of each source go through the chain of each suite
 
@@ -41,20 +41,23 @@ class Rehearsal:
         """Sends the first frames of a source through the chain."""
         source, rest = source_command(self.plan, stretch, suite), f"{chain_of(self.plan, suite)} | glint-summary"
         frames = b"".join(itertools.islice(self.lines(path, "glint", "-c", source), FRAMES))
-        done = subprocess.run(["glint", "-c", rest], input=frames, cwd=self.folder, env=self.environment,
+        done = subprocess.run([*shell_of(self.plan), rest], input=frames, cwd=self.folder, env=self.environment,
                               stdout=subprocess.DEVNULL, check=False)
         if done.returncode != 0:
-            raise Fault(done.returncode, f"/chain: this fails: glint -c {shlex.quote(f'{source} | {rest}')}")
+            whole = f"{chain_of(self.plan, suite, source)} | glint-summary"
+            raise Fault(done.returncode, f"/chain: this fails: {shlex.join([*shell_of(self.plan), whole])}")
 
-    def check_drawn(self, source, path):
-        """Refuses to split a scenario of which two of the first scenes are alike, as it draws nothing or too little."""
-        stretch, scenes, names = first_scenes(source, self.plan.get("seeds", [1])[0]), {}, {}
+    def check_drawn(self, source, path, known):
+        """Refuses two of the first scenes of scenarios that are alike, unless both are in one split: such a scenario draws
+        nothing or too little. known: the scenes of sources before, by their objects."""
+        stretch, scenes, split = first_scenes(source, self.plan.get("seeds", [1])[0]), {}, split_of(self.plan, source)
         command = source_command(self.plan, stretch, suite_name(self.plan["suites"][0]))
         for frame in map(json.loads, self.lines(path, "glint", "-c", command)):
             scenes.setdefault(frame["scene"], []).append(frame["objects"])
         for name, objects in scenes.items():
-            other = names.setdefault(json.dumps(objects), name)
-            refuse(other != name, path, f"scenes {other} and {name} are alike: in two splits they would leak")
+            other, its_split = known.setdefault(json.dumps(objects), (name, split))
+            refuse(other != name and not split == its_split is not None, path,
+                   f"scenes {other} and {name} are alike: in two splits they would leak")
 
     def check_egos(self, source, blocks, path):
         """Each ego has frames in every block; if all are egos, there is one in every block."""
@@ -70,22 +73,35 @@ class Rehearsal:
             refuse(first == (bisect.bisect_left(at, end) if end is not None else len(at)), f"{path}/egos",
                    f'"{ego}" has no frame in the block' + (f" that begins at {seconds(begin)} s" if begin is not None else ""))
 
+    def check_gap(self, source, stays):
+        """Refuses a body that moves in the frames of two splits, unless it is the only ego."""
+        times = times_of(self.plan, source)
+        longest_s = max((stay.end_s - stay.begin_s for body, stay in stays.items() if stay.moved and [body] != source["egos"] and
+                         sum(stay.begin_s * US < end and stay.end_s * US >= begin for begin, end in times.values()) > 1), default=0)
+        refuse(longest_s, "/splits/gap_s", f'{self.plan["splits"]["gap_s"]}; a body of {source["recording"]} moves in two splits, '
+               f"so it leaks; expected more than the {longest_s:.6g} s that one is there")
+
     def check_recordings(self):
-        """Refuses recordings with the same traffic in two splits."""
-        splits, known = self.plan["splits"], []
+        """Refuses recordings with the same traffic in two splits, and bodies that are in two splits of one."""
+        known = []
         for i, source in enumerate(self.plan["sources"]):
-            pieces = pieces_of(self.egos(source, f"/sources/{i}", [operand(source["recording"]), "--ego", "all"]))
-            for j, other in known:
-                leaks = splits["by"] == "time" or source["split"] != self.plan["sources"][j]["split"]
-                refuse(leaks and same_traffic(other, pieces), f"/sources/{i}",
+            if kind_of(source) != "recording":
+                continue
+            split, stays = split_of(self.plan, source), {}
+            frames = self.egos(source, f"/sources/{i}", [operand(source["recording"]), "--ego", "all"])
+            pieces = pieces_of(noted(frames, stays))
+            if split is None:
+                self.check_gap(source, stays)
+            for j, its_split, other in known:
+                refuse(not split == its_split is not None and same_traffic(other, pieces), f"/sources/{i}",
                        f"its bodies move as those of /sources/{j}: both recordings have the same traffic, in two splits, so it leaks")
-            known.append((i, pieces))
+            known.append((i, split, pieces))
 
 
 def rehearse(plan, folder, copied):
     with tempfile.TemporaryDirectory() as trial:
         copy_documents(copied, trial, trial)
-        rehearsal = Rehearsal(plan, folder, trial)
+        rehearsal, scenes = Rehearsal(plan, folder, trial), {}
         for i, source in enumerate(plan["sources"]):
             path, seed = f"/sources/{i}", plan.get("seeds", [1])[0]
             parts = stretches_of(plan, source, seed, plan["frames_per_shard"], folder)
@@ -94,8 +110,8 @@ def rehearse(plan, folder, copied):
             if kind_of(source) == "recording":
                 rehearsal.check_egos(source, [stretch.block for stretch in stretches], path)
             if kind_of(source) == "scenario" and "splits" in plan:
-                rehearsal.check_drawn(source, path)
+                rehearsal.check_drawn(source, path, scenes)
             for suite in map(suite_name, plan["suites"]):
                 rehearsal.check_chain(stretches[0], suite, path)
-        if plan.get("splits", {}).get("by") in ("time", "recording") and len(plan["sources"]) > 1:
+        if "splits" in plan:
             rehearsal.check_recordings()

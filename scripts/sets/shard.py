@@ -2,60 +2,30 @@
 import collections
 import contextlib
 import fcntl
-import gzip
-import hashlib
 import json
 import os
 import re
 import shlex
 import subprocess
 import sys
-import time
-import zlib
+import tempfile
 
+import pace
 from documents import environment, program_version
-from durable import (alone, digest_of_file, remove_temporaries, sync_folder, temporary_folder, whole_file,
-                     write_whole)
+from durable import alone, digest_of_file, remove_temporaries, temporary_folder, whole_file, write_whole
 from layout import WORK
+from lines import Lines
 from plan import BAD_DATA, IO, NO_INPUT, USAGE, Fault, read_json
-from progress import Progress, line_of
+from progress import Progress
+from tables import PORTION, place_tables, tool_of
+from traffic import shell_of
 
-# The level of glint's own output: it keeps up with the chain. Tables of this size stay in a core's cache: two per cent
-# faster than zlib's own choice, and as small. Bytes depend on the content and on zlib alone.
-LEVEL, GZIP, TABLES = 1, 16 + zlib.MAX_WBITS, 7
-# What goes through a pipe at once: few calls, and what was read is in the cache until all have used it.
-PORTION = 1 << 18
-BEGUN, MANIFEST = "begun", "datapackage.json"
+MANIFEST = "datapackage.json"
+COPY = "/dev/fd/COPY"  # stands for the pipe that takes the lines
 
 
 def record_path(folder, part):
     return os.path.join(folder, WORK, f"part-{part}.json")
-
-
-class Gzip:
-    """Compresses lines into a file, and measures both sides."""
-
-    def __init__(self, file):
-        self.file, self.packer = file, zlib.compressobj(LEVEL, zlib.DEFLATED, GZIP, TABLES)
-        self.packed, self.plain = hashlib.sha256(), hashlib.sha256()
-        self.bytes = self.plain_bytes = 0
-
-    def send(self, packed):
-        self.packed.update(packed)
-        self.bytes += len(packed)
-        self.file.write(packed)
-
-    def write(self, lines):
-        self.plain.update(lines)
-        self.plain_bytes += len(lines)
-        self.send(self.packer.compress(lines))
-
-    def close(self):
-        self.send(self.packer.flush())
-
-    def facts(self, rows):
-        return {"rows": rows, "bytes": self.bytes, "hash": "sha256:" + self.packed.hexdigest(),
-                "content_bytes": self.plain_bytes, "content_hash": "sha256:" + self.plain.hexdigest()}
 
 
 def widen(pipe):
@@ -64,32 +34,36 @@ def widen(pipe):
         fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, PORTION)
 
 
-def run_into(gzip_file, command, folder, plan_folder):
-    """Runs a pipeline and compresses its frames; what glint-summary, at its end, counts in them. Frames that are no
-    target lists are refused, and scenes that are not whole."""
+def runs_of(plan, shard, tool):
+    """The pipelines that make a shard, each of words, with the tool at the end. Tables are of all its frames, in one run."""
+    shell, commands = shell_of(plan), shard["commands"]
+    if not shard["tables"] or len(commands) == 1:
+        return [[*shell, f"{command} | {tool}"] for command in commands]
+    joined = " && ".join(shlex.join([*shell, command]) for command in commands)
+    return [["bash", "-o", "pipefail", "-c", f"{{ {joined}; }} | {tool}"]]
+
+
+def counted(words, lines, folder, plan_folder):
+    """Runs a pipeline whose lines go into `lines`; what the tool at its end counts in them. Frames that are no target
+    lists are refused, and scenes that are not whole."""
     begin, end = os.pipe()
-    counting = f"{command} | glint-summary --complete --copy /dev/fd/{end}"
-    with subprocess.Popen(["glint", "-c", counting], cwd=plan_folder, env=environment(folder), stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, pass_fds=[end], text=True) as process, \
-            open(begin, "rb", buffering=0) as frames:
+    words = [word.replace(COPY, f"/dev/fd/{end}") for word in words]
+    # On a terminal glint would draw a line of progress of its own for each shard.
+    with tempfile.TemporaryFile() as said, open(begin, "rb", buffering=0) as frames, \
+            subprocess.Popen(words, cwd=plan_folder, env=environment(folder), stdin=subprocess.DEVNULL,
+                             stdout=subprocess.PIPE, stderr=said, pass_fds=[end], text=True) as process:
         os.close(end)
         widen(frames)
         room = bytearray(PORTION)
         while count := frames.readinto(room):
-            gzip_file.write(memoryview(room)[:count])
-        counts = process.stdout.read()
+            lines.write(memoryview(room)[:count])
+        counts = process.communicate()[0]
+        said.seek(0)
+        sys.stderr.write(said.read().decode(errors="backslashreplace"))
     if process.returncode != 0:
         code = process.returncode
-        raise Fault(code if code > 0 else 128 - code, f"exit status {code}: glint -c {command!r}")
+        raise Fault(code if code > 0 else 128 - code, f"exit status {code}: {shlex.join(words)}")
     return counts
-
-
-def ask(words, folder):
-    """What a program prints."""
-    done = subprocess.run(words, env=environment(folder), stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        raise Fault(done.returncode, f"exit status {done.returncode}: {shlex.join(words)}")
-    return done.stdout
 
 
 def targets_by_kind(counts):
@@ -97,45 +71,6 @@ def targets_by_kind(counts):
     blocks = re.findall(r"\ntargets (?:by class|that show no object).*\n((?: .*\n)+)", counts)
     rows = re.findall(r" *(\d+) +[\d.]+ % +(.*)\n", "".join(blocks))
     return collections.Counter({name: int(count) for count, name in rows})
-
-
-class Rows:
-    """Counts the rows of a table of CSV. A cell in quotes may hold the end of a line."""
-
-    def __init__(self):
-        self.count, self.quoted = 0, False
-
-    def add(self, text):
-        pieces = text.split(b'"')
-        self.count += sum(piece.count(b"\n") for piece in pieces[self.quoted::2])
-        self.quoted ^= len(pieces) % 2 == 0
-
-
-def facts_of_table(path):
-    """As Gzip's, of a table of any length; the rows are those below the heading."""
-    rows, plain, plain_bytes = Rows(), hashlib.sha256(), 0
-    with gzip.open(path) as file:
-        while text := file.read(PORTION):
-            plain.update(text)
-            plain_bytes += len(text)
-            rows.add(text)
-    return {"rows": rows.count - 1, "bytes": os.path.getsize(path), "hash": digest_of_file(path),
-            "content_bytes": plain_bytes, "content_hash": "sha256:" + plain.hexdigest()}
-
-
-def make_tables(shard, part, lines, folder):
-    """The tables of a shard's lines, each on the disk before it gets its name; their facts."""
-    files = []
-    with temporary_folder(f"part-{part}-tables", os.path.join(folder, WORK)) as place:
-        if shard["tables"]:
-            ask(["glint-tables", "--part", str(part), place, lines], folder)
-        for name in shard["tables"]:
-            made = os.path.join(place, os.path.basename(name))
-            files.append({"path": name, **facts_of_table(made)})
-            os.rename(made, os.path.join(folder, name))
-        if shard["tables"]:
-            sync_folder(os.path.dirname(os.path.join(folder, shard["tables"][0])))
-    return files
 
 
 def check_inputs(layout, shard, folder, plan_folder):
@@ -153,19 +88,22 @@ def check_inputs(layout, shard, folder, plan_folder):
                 raise Fault(BAD_DATA, f"{path}: has changed since the set was begun")
 
 
-def make_files(shard, part, folder, plan_folder):
-    """The files of a shard, and its targets by kind."""
-    frames, targets = 0, collections.Counter()
-    with whole_file(os.path.join(folder, shard["path"]), os.path.join(folder, WORK)) as file:
-        gzip_file = Gzip(file)
-        for command in shard["commands"]:
-            counts = run_into(gzip_file, command, folder, plan_folder)
+def make_files(layout, part, folder, plan_folder):
+    """The files of a shard, how many frames it has, and its targets by kind."""
+    plan, shard, work = layout["plan"], layout["shards"][part], os.path.join(folder, WORK)
+    progress, frames, targets = pace.Pace(folder, part, shard["frames"]), 0, collections.Counter()
+    with contextlib.ExitStack() as whole:
+        file = whole.enter_context(whole_file(os.path.join(folder, shard["lines"]), work)) if shard["lines"] else None
+        made = whole.enter_context(temporary_folder(f"part-{part}-tables", work)) if shard["tables"] else None
+        lines = Lines(plan, file, progress)
+        for words in runs_of(plan, shard, tool_of(plan, part, made and os.path.abspath(made), COPY)):
+            counts = counted(words, lines, folder, plan_folder)
             frames += int(counts.split()[0])
             targets += targets_by_kind(counts)
-        gzip_file.close()
-        file.flush()
-        tables = make_tables(shard, part, file.name, folder)
-    return [{"path": shard["path"], **gzip_file.facts(frames)}, *tables], dict(sorted(targets.items()))
+        files = [{"path": shard["lines"], **lines.facts(frames)}] if file else []
+        files += place_tables(shard["tables"], made, folder)
+    progress.end()
+    return files, frames, dict(sorted(targets.items()))
 
 
 def make(layout, part, folder, plan_folder):
@@ -175,13 +113,12 @@ def make(layout, part, folder, plan_folder):
     shard = layout["shards"][part]
     try:
         check_inputs(layout, shard, folder, plan_folder)
-        files, targets = make_files(shard, part, folder, plan_folder)
-        record = {"identity": layout["identity"], "part": part, "files": files, "targets": targets}
+        files, frames, targets = make_files(layout, part, folder, plan_folder)
+        record = {"identity": layout["identity"], "part": part, "frames": frames, "files": files, "targets": targets}
         write_whole(record_path(folder, part), os.path.join(folder, WORK),
                     json.dumps(record, indent=1, ensure_ascii=False) + "\n")
     except (Fault, OSError) as fault:
-        raise Fault(getattr(fault, "code", IO), f"part-{part}, {shard['path']}: {fault}") from fault
-    show_progress(layout, folder)
+        raise Fault(getattr(fault, "code", IO), f"part-{part}, {shard['lines'] or shard['tables'][0]}: {fault}") from fault
 
 
 def wrong_record(layout, part, folder, by_digest):
@@ -227,27 +164,6 @@ def verify(layout, folder):
         left = missing(layout, folder)
         if left and os.path.exists(os.path.join(folder, MANIFEST)):
             os.remove(os.path.join(folder, MANIFEST))
-        write_whole(os.path.join(work, BEGUN), work, json.dumps({"time_s": time.time(), "missing": len(left)}))
+        with whole_file(os.path.join(folder, pace.PATH), work) as file:
+            file.write(pace.begin(layout, left))
         return left
-
-
-def clear_progress():
-    """Takes the line away that the last shard has left."""
-    if sys.stderr.isatty():
-        print(f"\r{'':72}\r", end="", file=sys.stderr, flush=True)
-
-
-def show_progress(layout, folder):
-    """The line of progress, from the records that are there."""
-    if not sys.stderr.isatty():
-        return
-    try:
-        begun = read_json(os.path.join(folder, WORK, BEGUN))
-    except Fault:
-        return
-    names = os.listdir(os.path.join(folder, WORK))
-    left = len(layout["shards"]) - sum(name.startswith("part-") and name.endswith(".json") for name in names)
-    done, elapsed_s = begun["missing"] - left, time.time() - begun["time_s"]
-    if done > 0 and elapsed_s >= 1:
-        line = line_of("shards", done, elapsed_s, done / begun["missing"])
-        print(f"\r{line:72}", end="", file=sys.stderr, flush=True)

@@ -7,9 +7,8 @@ import sys
 
 from durable import make_folder, write_whole
 from layout import WORK
-from plan import Fault, refuse
+from plan import UNAVAILABLE, Fault, refuse
 
-UNAVAILABLE = 69
 BATCH = """\
 #!/bin/sh
 # Makes a shard: task T of an array that begins at part B makes part B + T.

@@ -5,6 +5,7 @@ import math
 
 STEPS, MOST = 25, 100  # steps of a piece of motion; most bodies kept for one piece: a long column of vehicles moves alike
 STEP_M, SHIFT_M, SHIFT_S = 1e-2, 1, 0.1  # how closely steps agree, and the shifts of all bodies of a copy
+MOVED_M = 1  # from its first place: a body that moves
 SHARE, FEWEST = 1 / 20, 2  # of the bodies of the smaller recording that are in both if they are copies
 
 
@@ -13,13 +14,31 @@ def whole(value, unit):
     return math.floor(value / unit + 0.37)
 
 
+# When a body is in a recording, and whether it moves there.
+Stay = collections.namedtuple("Stay", "begin_s end_s place moved")
+
+
+def place_in(frame):
+    """Where the ego of a frame is."""
+    body = next(one for one in frame["objects"] if one["id"] == frame["ego"])
+    return frame.get("origin_x_m", 0) + body["x_m"], frame.get("origin_y_m", 0) + body["y_m"]
+
+
+def noted(frames, stays):
+    """The frames of each body as an ego, while its stay is noted."""
+    for frame in frames:
+        place = place_in(frame)
+        begin_s, _, first, moved = stays.get(frame["ego"], (frame["time_s"], None, place, False))
+        stays[frame["ego"]] = Stay(begin_s, frame["time_s"], first, moved or math.dist(place, first) > MOVED_M)
+        yield frame
+
+
 def pieces_of(frames):
     """Of frames of each body as an ego: its time and place at pieces of its motion, the first, the last, and one in eight
     of the others."""
     pieces, ways, places, known = collections.defaultdict(dict), {}, {}, set()
     for frame in frames:
-        name, body = frame["scene"], next(one for one in frame["objects"] if one["id"] == frame["ego"])
-        place = frame.get("origin_x_m", 0) + body["x_m"], frame.get("origin_y_m", 0) + body["y_m"]
+        name, place = frame["scene"], place_in(frame)
         dx, dy = (whole(here - there, STEP_M) for here, there in zip(place, places.get(name, place)))
         places[name] = place
         way = ways.setdefault(name, collections.deque(maxlen=STEPS))

@@ -1,11 +1,12 @@
 """The traffic of a data set: which split has which scenes, how they fill shards, and the commands that play them."""
 import collections
+import itertools
 import math
 import re
 import shlex
 
 from documents import path_of
-from plan import BAD_DATA, FROM_FILES, Fault, kind_of, read_json, scene_of
+from plan import BAD_DATA, FROM_FILES, Fault, is_own, kind_of, read_json, scene_of, split_of, stages_of
 
 US = 1_000_000  # of a second
 MOST_BLOCKS = 1_000_000
@@ -28,12 +29,9 @@ def shares_of(plan, first, end):
 
 def times_of(plan, source):
     """From when to when, in microseconds, each split has of a recording: shares of what the gaps leave."""
-    if "from_s" not in source or "to_s" not in source:
-        return {source.get("split", "all"): tuple(round(source[name] * US) if name in source else None
-                                                  for name in ("from_s", "to_s"))}
-    begin, end = round(source["from_s"] * US), round(source["to_s"] * US)
-    if plan.get("splits", {}).get("by") != "time":
-        return {source.get("split", "all"): (begin, end)}
+    begin, end = (round(source[name] * US) if name in source else None for name in ("from_s", "to_s"))
+    if split := split_of(plan, source):
+        return {split: (begin, end)}
     gap = round(plan["splits"]["gap_s"] * US)
     gaps = gap * (len(plan["splits"]["shares"]) - 1)
     if end - begin <= gaps:
@@ -76,12 +74,13 @@ def stretches_of(plan, source, seed, size, plan_folder):
                 for split, times in times_of(plan, source).items()}
     first, end = source.get("scenes", (0, source.get("frames", 1)))
     frames = scene_frames(source, size, plan_folder)
-    parts = shares_of(plan, first, end) if "splits" in plan else {"all": (first, end)}
+    split = split_of(plan, source)
+    parts = {split: (first, end)} if split else shares_of(plan, first, end)
     return {split: [Stretch(source, seed, None, *part, frames)] for split, part in parts.items() if part[0] < part[1]}
 
 
 def first_scenes(source, seed, most=8):
-    first, end = source["scenes"]
+    first, end = source.get("scenes", (0, 1))
     return Stretch(source, seed, None, first, min(end, first + most), 1)
 
 
@@ -165,5 +164,18 @@ def source_command(plan, stretch, suite):
     return shlex.join(command_words(stretch.source, [*words, "--seed", str(stretch.seed)]))
 
 
-def chain_of(plan, suite):
-    return plan["chain"].replace("{suite}", suite)
+def shell_of(plan):
+    """What runs the plan's pipelines: glint in one process, or bash if there are stages of one's own."""
+    return ["bash", "-o", "pipefail", "-c"] if any(map(is_own, stages_of(plan["chain"]))) else ["glint", "-c"]
+
+
+def chain_of(plan, suite, *before):
+    """The pipeline of a source and of the chain behind it, or of the chain alone. Between stages of one's own, those of
+    glint run in one process."""
+    stages = [*before, *stages_of(plan["chain"].replace("{suite}", suite))]
+    if shell_of(plan)[0] == "glint":
+        return " | ".join(stages)
+    pieces = []
+    for own, group in itertools.groupby(stages, is_own):
+        pieces += [shlex.join(shlex.split(stage)) for stage in group] if own else [shlex.join(["glint", "-c", " | ".join(group)])]
+    return " | ".join(pieces)

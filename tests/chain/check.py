@@ -124,6 +124,12 @@ def truth(bin_dir, text):
     plant("an echo's cross section", lambda frames: seen(frames)[1].update(ercs=9), "ercs: 9; recomputed")
     plant("no measurement", lambda frames: frames[0]["sensors"]["list"][0].update(measured=False), "list[0].measured")
     plant("a value out of bounds", lambda frames: seen(frames)[0]["targets"][0].update(range_m=-1), "outside")
+    for due, wanted in ((True, 65), (False, 0)):  # one frame in four, from the first on
+        frames = [json.loads(line) for line in text.splitlines()]
+        number = next(i for i, frame in enumerate(frames) if frame["targets"] and (i % 4 == 0) == due)
+        frames[number]["targets"][0]["contributors"][0]["range_m"] += 1e-3
+        done = run("glint-check --every 4", bin_dir, lines_of(frames))
+        check(done.returncode == wanted, f"frame {number} of --every 4: {done.stderr.decode()}")
     done = run("glint-check --partial", bin_dir, b"".join(reversed(text.splitlines(keepends=True))))
     check(done.returncode == 0, f"--partial: {done.stderr.decode()}")
 

@@ -26,7 +26,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
 sys.dont_write_bytecode = True
 from progress import Progress  # noqa: E402
 
-DATASET = os.path.join(ROOT, "scripts", "dataset")
+DATASET, CHECK_SET = (os.path.join(ROOT, "scripts", name) for name in ("dataset", "check-set"))
 CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections account | glint-sensor | glint-noise"
 SUITE = "corner77-every-frame"
 SHARES = {"train": 0.8, "validation": 0.1, "test": 0.1}
@@ -167,14 +167,14 @@ def tables_have_the_targets_of_their_lines(folder):
 def rows_are_counted_wherever_a_table_is_cut(_):
     """Ends of lines within quotes are no ends of rows."""
     sys.path[:0] = [os.path.join(ROOT, "scripts", "sets"), os.path.join(ROOT, "scripts")]
-    import shard
+    import tables
     cells = ["plain", 'a "word"', "two\nlines", '"', "", "\n", ',"\n"']
     with io.StringIO(newline="") as table:
         csv.writer(table, lineterminator="\n").writerows([cells[i:], cells[:i]] for i in range(len(cells)))
         csv.writer(table, lineterminator="\n").writerows([cells] * 3)
         text = table.getvalue().encode()
     for cut in range(len(text)):
-        rows = shard.Rows()
+        rows = tables.Rows()
         rows.add(text[:cut])
         rows.add(text[cut:])
         assert rows.count == len(cells) + 3, f"cut at {cut}: {rows.count} rows"
@@ -248,6 +248,145 @@ def counts_of_the_page_add_up(folder):
     assert "no radar has measured them" in page and "- `random-dense`: snapshots that glint has drawn" in page
 
 
+def counts_add_up_at_the_edges(folder):
+    """One frame; one shard; a frame a shard; and shards of tables alone: no shard is empty, and the checker agrees."""
+    halves = {"by": "scene", "shares": {"train": 0.5, "test": 0.5}}
+    plans = [(1, 1, {}), (3, 1, {"frames_per_shard": 10 ** 9}), (3, 3, {"frames_per_shard": 1, "tables": True, "lines": "none"}),
+             (2, 2, {"splits": halves, "tables": True, "lines": "without_objects"})]
+    for i, (frames, shards, members) in enumerate(plans):
+        place = made(folder, snapshots(frames, **members), f"edge{i}")
+        package = manifest(place)
+        counting = [one for one in package["resources"] if "/frames.csv" in one["path"] or ".jsonl." in one["path"]]
+        by_shard = {one["path"].split(".")[0].removesuffix("/frames"): one["rows"] for one in counting}
+        assert package["frames"] == sum(by_shard.values()) == frames and len(by_shard) == shards, (members, by_shard)
+        assert min(by_shard.values()) > 0 and package["rows"] == sum(one["rows"] for one in package["resources"])
+        done = run([CHECK_SET, place, "-j2"])
+        assert done.returncode == 0, done.stdout
+
+
+def what_is_kept_is_the_same_however_it_is_packed(folder):
+    """Tables with whole lines, with lines without objects and alone; lines by gzip and zstd."""
+    def by_path(place):
+        return {one["path"]: one["content_hash"] for one in manifest(place)["resources"]}
+
+    whole = made(folder, snapshots(20, tables=True), "whole")
+    tables = {path: content for path, content in by_path(whole).items() if ".csv" in path}
+    lines = frames_of(whole, "all/*")
+    assert by_path(made(folder, snapshots(20, tables=True, lines="none"), "none")) == tables
+    bare = made(folder, snapshots(20, tables=True, lines="without_objects", level=9), "bare")
+    assert tables.items() <= by_path(bare).items() and len(by_path(bare)) == len(tables) + 2
+    expected = [json.loads(line) for line in lines.splitlines()]
+    for frame in expected:
+        del frame["objects"]
+        frame["sections"].remove("objects")
+    assert [json.loads(line) for line in frames_of(bare, "all/*").splitlines()] == expected
+    by_zstd = made(folder, snapshots(20, compression="zstd", level=3), "zstd")
+    unpacked = run(["bash", "-c", f"zstd -dcq {by_zstd}/all/*/*.jsonl.zst"]).stdout
+    assert unpacked.encode() == lines
+    for place in (whole, bare, by_zstd):
+        done = run([CHECK_SET, place, "--all"])
+        assert done.returncode == 0, done.stdout
+    path = glob.glob(f"{by_zstd}/all/*/00001.jsonl.zst")[0]
+    shutil.copy(glob.glob(f"{by_zstd}/all/*/00000.jsonl.zst")[0], path)
+    assert run([CHECK_SET, by_zstd]).returncode == 65
+
+
+def parquet_needs_duckdb(folder):
+    plan = snapshots(20, tables="parquet", lines="none")
+    if not shutil.which("duckdb"):
+        refusals(folder, [(plan, '/tables: "parquet" needs the program duckdb')], 69)
+        print("skipped  tables as Parquet: there is no duckdb")
+        return
+    place, plain = made(folder, plan), made(folder, snapshots(20, tables=True, lines="none"), "plain")
+    assert {one["path"].replace(".csv.gz", ".parquet"): one["rows"] for one in manifest(plain)["resources"]} == {
+        one["path"]: one["rows"] for one in manifest(place)["resources"]}
+    counted = run(["duckdb", "-csv", "-noheader", "-c", f"SELECT count(*) FROM '{place}/all/*/*/detections.parquet'"]).stdout
+    assert int(counted) == sum(one["rows"] for one in manifest(place)["resources"] if "detections" in one["path"])
+    assert run([CHECK_SET, place]).returncode == 0
+    again = made(folder, plan, "again")
+    assert by_content(place) == by_content(again)
+
+
+def by_content(place):
+    return {one["path"]: one["hash"] for one in manifest(place)["resources"]}
+
+
+def own_stage(folder):
+    """The stage of the page, in C, built as the page builds it but with the headers and the library of this build."""
+    with open(os.path.join(ROOT, "stages", "README.md"), encoding="utf-8") as page, \
+            open(os.path.join(folder, "spray.c"), "w", encoding="utf-8") as file:
+        file.write(re.search(r"```c\n(.*?)```", page.read(), re.DOTALL)[1])
+    library = os.path.join(ROOT, os.environ["BUILD"], "libglint.a")
+    done = run(["cc", "-std=c11", "-O2", "-ffp-contract=off", f"-I{ROOT}/lib", "-o", "spray", "spray.c", library, "-ljansson", "-lcsv",
+                "-lz", "-lstdc++", "-lm"], cwd=folder)
+    assert done.returncode == 0, done.stdout
+
+
+def own_stages_stand_in_a_chain(folder):
+    """One of C and one of Python; the frames are those of a pipe of bash, and a stage that has changed makes no shard."""
+    own_stage(folder)
+    shutil.copy(os.path.join(ROOT, "pipelines", "mud.py"), folder)
+    front, back = CHAIN.split(" | glint-sensor ")
+    chain = f"{front} | ./spray --reach-m 30 | python3 ./mud.py -0.2 '0.1' | glint-sensor {back}"
+    for name, more in (("lines", {}), ("tables", {"tables": True}),
+                       ("several", {"tables": True, "sources": [{"random": one, "frames": 8} for one in ("medium", "sparse")]})):
+        plan = snapshots(16, chain=chain, frames_per_shard=20) | more
+        place = made(folder, plan, name)
+        command = " && ".join(f"glint-traffic-random --density {source['random']} --frames {source['frames']}"
+                              for source in plan["sources"])
+        right = run(["bash", "-o", "pipefail", "-c", f"{{ {command}; }} | {chain.format(suite=SUITE)}"], cwd=folder).stdout
+        assert frames_of(place, "all/*") == right.encode() and "absorbed" in right and "covered" in right, name
+        done = run([CHECK_SET, place, "--all"])
+        assert done.returncode == 0, done.stdout
+    assert {one["path"] for one in manifest(place)["inputs"]} == {"./spray", "./mud.py"}
+    place, _ = begin(folder, snapshots(6, chain=chain), "changed")
+    with open(os.path.join(folder, "mud.py"), "a", encoding="utf-8") as file:
+        file.write("\n")
+    assert "mud.py: has changed since the set was begun" in make(place).stdout
+    with open(os.path.join(folder, "mud.py"), "a", encoding="utf-8") as file:
+        file.write("sys.exit(7)\n")
+    place, done = begin(folder, snapshots(6, chain=chain), "failing")
+    assert done.returncode == 7 and "/chain: this fails" in done.stdout and not os.path.exists(place), done.stdout
+
+
+def several_kinds_of_source_share_nothing_between_splits(folder):
+    """Neither scenes nor drawn numbers, nor a vehicle of a recording; what has a split of its own is whole in it."""
+    recorded = {"recording": two_halves(folder), "egos": ["all"], "from_s": 0, "to_s": 10.2, "block_s": 2}
+    sources = [{"random": "medium", "frames": 10, "options": "--draw-conditions"}, {"random": "sparse", "seconds": 0.5, "scenes": [0, 4]},
+               {"scenario": "varied-cut-in", "scenes": [0, 4]}, {"scenario": "cut-in", "split": "test"}, recorded]
+    place = made(folder, plan_of(sources, seeds=[1, 2], frames_per_shard=100,
+                                 splits={"by": "kind", "shares": {"train": 0.6, "test": 0.4}, "gap_s": 1.2}))
+    splits = [[json.loads(line) for line in frames_of(place, f"{split}/*").splitlines()] for split in ("train", "test")]
+    kinds = ("random-medium/", "moving-sparse/", "varied-cut-in/", "cut-in/", "halves/")
+    names = [{frame["scene"] for frame in frames} for frames in splits]
+    assert not names[0] & names[1]
+    found = [{kind for kind in kinds if any(name.startswith(kind) for name in of_split)} for of_split in names]
+    assert found[1] - found[0] == {"cut-in/"} and len(found[0]) == 4, found
+    drawn = [{number for frame in frames if not frame["scene"].startswith(("cut-in/", "halves/")) for number in numbers_of(frame)}
+             for frames in splits]
+    assert not drawn[0] & drawn[1] and min(map(len, drawn)) > 100
+    bodies = [{one["id"] for frame in frames if frame["scene"].startswith("halves/") for one in frame["objects"]} for frames in splits]
+    assert bodies == [{"1001", "1007"}, {"2001", "2007"}], bodies
+
+
+SLOW = """
+import sys, time
+for line in sys.stdin:
+    time.sleep(0.2)
+    print(line, end="", flush=True)
+"""
+
+
+def make_shows_how_far_it_is(folder):
+    """On a terminal, one line for all shards, although shards are made beside each other."""
+    with open(os.path.join(folder, "slow.py"), "w", encoding="ascii") as file:
+        file.write(SLOW)
+    place, _ = begin(folder, snapshots(20, chain=CHAIN.replace(" | glint-sensor", " | python3 ./slow.py | glint-sensor")))
+    done = run(["script", "-qec", f"make -s -C {place} -j2", "/dev/null"], stdin=subprocess.DEVNULL)
+    shown = [int(share) for share in re.findall(r"\[#* *\] +(\d+) %, [\d.]+ frames/s, \d:\d\d:\d\d left", done.stdout)]
+    assert done.returncode == 0 and shown == sorted(shown) and len(shown) > 2 and shown[0] < 100, done.stdout
+
+
 def recordings_tell_licence_and_source(folder):
     source = {"recording": "highway", "egos": ["1"]}
     for name in RECORDED:
@@ -270,13 +409,19 @@ def times_of(place, split):
     return [(frame["scene"], frame["time_s"]) for frame in map(json.loads, lines)]
 
 
+def two_halves(folder, name="halves.csv"):
+    """Vehicles 1 and 7 of the shipped recording, and others in their places from 6 s on."""
+    return copied(folder, name, lambda row: {"track_id": 1000 * (1 + (int(row["timestamp_ms"]) > 6000)) + int(row["track_id"])},
+                  ids=(1, 7), end_s=10.1)
+
+
 def blocks_of_time_keep_their_gap(folder):
-    source = {"recording": "highway", "egos": ["1", "7"], "from_s": 0, "to_s": 10.2, "block_s": 1.5}
+    source = {"recording": two_halves(folder), "egos": ["all"], "from_s": 0, "to_s": 10.2, "block_s": 1.5}
     place = made(folder, plan_of([source], splits={"by": "time", "shares": {"train": 0.6, "test": 0.4}, "gap_s": 1.2}))
     train, test = times_of(place, "train"), times_of(place, "test")
     steps = [round(i / 10, 1) for i in range(1, 102)]
     for ego in "17":
-        of_ego = [[time_s for scene, time_s in split if scene.endswith("/" + ego)] for split in (train, test)]
+        of_ego = [[time_s for scene, time_s in split if scene.endswith(ego)] for split in (train, test)]
         assert of_ego == [[at for at in steps if at < 5.4], [at for at in steps if at >= 6.6]], f"ego {ego}: {of_ego}"
     assert len({scene for scene, _ in train}) == 8 and len({scene for scene, _ in test}) == 6
     assert not {scene for scene, _ in train} & {scene for scene, _ in test}
@@ -343,6 +488,8 @@ def leaks_are_refused(folder):
     medium = {"random": "medium", "frames": 20}
     alike = {"scenario": "cut-in", "scenes": [0, 30]}
     timed = one | {"from_s": 0, "to_s": 10}
+    by_kind = {"by": "kind", "shares": {"a": 0.5, "b": 0.5}}
+    shutil.copy(os.path.join(ROOT, "data", "scenarios", "cut-in.json"), os.path.join(folder, "other.json"))
     cases = [
         (plan_of([one], splits={"by": "ego"}), '/splits/by: "ego" leaks: egos of one recording see the same traffic'),
         (snapshots(9, splits={"by": "seed"}), '/splits/by: "seed" leaks: another seed is the same traffic'),
@@ -354,6 +501,16 @@ def leaks_are_refused(folder):
         (plan_of([one], splits={"by": "scene", "shares": SHARES}), "cannot be split by scene"),
         (plan_of([medium], **by_recording), "cannot be split by recording"),
         (plan_of([timed], splits={"by": "time", "shares": SHARES}), "/splits/gap_s: missing: without a gap"),
+        (plan_of([timed | {"egos": ["1", "7"]}], splits={"by": "time", "shares": {"a": 0.5, "b": 0.5}, "gap_s": 1}),
+         "/splits/gap_s: 1; a body of highway moves in two splits, so it leaks; expected more than the 10 s"),
+        (plan_of([{"scenario": name, "split": split} for name, split in (("cut-in", "a"), ("./other.json", "b"))], splits=by_kind),
+         "/sources/1: scenes cut-in/ego and other/ego are alike"),
+        (plan_of([medium | {"split": "c"}], splits=by_kind), "/sources/0/split: 'c'; expected one of a, b"),
+        (plan_of([medium | {"split": "a"}], splits={"by": "scene", "shares": SHARES}), "split is for splits by recording or kind"),
+        (plan_of([medium, {"scenario": "cut-in"}], splits=by_kind), "/sources/1: it is one scene, which cannot be split"),
+        (plan_of([medium, timed], splits=by_kind), "/splits/gap_s: missing: without a gap"),
+        (plan_of([medium], splits=by_kind | {"gap_s": 1}), "/splits/gap_s: is for splits by time"),
+        (plan_of([medium, one | {"split": "a"}, copied | {"split": "b"}], splits=by_kind), "in two splits, so it leaks"),
         (plan_of([timed], splits={"by": "time", "shares": SHARES, "gap_s": 5}), "gaps fill all of highway"),
         (plan_of([one], splits={"by": "time", "shares": SHARES, "gap_s": 1}), "splits by time need from_s and to_s"),
         (plan_of([{"scenario": "cut-in"}], splits={"by": "scene", "shares": SHARES}), "it is one scene"),
@@ -378,7 +535,12 @@ def what_cannot_be_made_is_refused(folder):
         (snapshots(9, splits={"by": "scene", "shares": {"train": 0.5, "work": 0.5}}), "'work' is a folder of every set"),
         (plan_of([medium | {"options": "'"}]), "/sources/0/options: No closing quotation"),
         (snapshots(9, chain=CHAIN + " > list"), "/chain: redirects"),
-        (snapshots(9, chain="cat | " + CHAIN), "'cat' is no program of glint"),
+        (snapshots(9, chain="cat | " + CHAIN), "'cat' is no program of glint, and no file of your own"),
+        (snapshots(9, lines="none"), '/lines: "none" needs tables'),
+        (snapshots(9, lines="some"), "/lines: 'some'; expected one of ['whole', 'without_objects', 'none']"),
+        (snapshots(9, tables=True, lines="none", level=3), "/level: a set without lines has none"),
+        (snapshots(9, level=10), "/level: 10; expected at most 9 for gzip"),
+        (snapshots(9, tables="excel"), "/tables: 'excel'; expected one of"),
         (plan_of([medium | {"scenario": "cut-in"}]), "expected one of random, scenario, recording"),
         (plan_of([{"random": "medium"}]), "frames is missing"),
         (plan_of([medium | {"options": "--seed 3"}]), "--seed is the plan's to say"),
@@ -399,6 +561,7 @@ def what_cannot_be_made_is_refused(folder):
         (plan_of([{"scenario": f"{ROOT}/schemas/frame.json"}]), "expected a scenario with duration_s and rate_hz"),
     ], 65)
     refusals(folder, [(plan_of([{"recording": "nowhere.csv", "egos": ["1"]}]), "no such file"),
+                      (snapshots(9, chain=CHAIN + " | python3 ./nowhere.py"), "/chain: python3 ./nowhere.py: no such file"),
                       (snapshots(9, suites=["nowhere"]), "no such file")], 66)
     refusals(folder, [(snapshots(9, chain=CHAIN.replace("--sections account", "--acount")), "/chain: this fails: glint -c")], 64)
 
@@ -781,6 +944,8 @@ def jobs_without_a_number_are_refused(folder):
 
 CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
           tables_have_the_targets_of_their_lines, every_table_joins_every_other, counts_of_the_page_add_up,
+          counts_add_up_at_the_edges, what_is_kept_is_the_same_however_it_is_packed, parquet_needs_duckdb,
+          own_stages_stand_in_a_chain, several_kinds_of_source_share_nothing_between_splits, make_shows_how_far_it_is,
           recordings_tell_licence_and_source, rows_are_counted_wherever_a_table_is_cut,
           blocks_of_time_keep_their_gap, blocks_of_a_resampled_recording_have_all_frames, no_two_scenes_share_a_draw,
           leaks_are_refused, copies_of_a_recording_are_known, what_no_frame_of_a_rehearsal_meets_is_refused, what_cannot_be_made_is_refused,

@@ -15,6 +15,15 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import dataset as sets  # noqa: E402
 
+# DuckDB's library for JavaScript, in the place of its program: SQL from standard input or after -c.
+PROGRAM = """
+import { readFileSync } from "node:fs";
+import { DuckDBInstance } from "@duckdb/node-api";
+const at = process.argv.indexOf("-c");
+const connection = await (await DuckDBInstance.create()).connect();
+const rows = (await connection.runAndReadAll(at < 0 ? readFileSync(0, "utf8") : process.argv[at + 1])).getRowsJson();
+if (at >= 0) console.log(rows.map((row) => row.join(",")).join("\\n"));
+"""
 DUCKDB = """
 import { readFileSync } from "node:fs";
 import { DuckDBInstance } from "@duckdb/node-api";
@@ -64,6 +73,12 @@ def main():
             printed = printed_by(reader, place)
             assert printed == list(map(str, wanted)), f"{reader}: {printed}, expected {wanted}"
             print(f"{reader} loads the set", flush=True)
+        path = os.path.join(sets.ROOT, os.environ["BUILD"], "tables", "program.mjs")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(PROGRAM)
+        os.environ.update(sets.program(folder, "duckdb", f'#!/bin/sh\nexec node {path} "$@"\n'))
+        sets.parquet_needs_duckdb(folder)
+        print("DuckDB makes Parquet", flush=True)
 
 
 main()
