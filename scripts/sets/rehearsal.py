@@ -90,12 +90,13 @@ class Rehearsal:
             split, stays = split_of(self.plan, source), {}
             frames = self.egos(source, f"/sources/{i}", [operand(source["recording"]), "--ego", "all"])
             pieces = pieces_of(noted(frames, stays))
-            if split is None:
-                self.check_gap(source, stays)
-            for j, its_split, other in known:
+            for j, its_split, _, other in known:
                 refuse(not split == its_split is not None and same_traffic(other, pieces), f"/sources/{i}",
                        f"its bodies move as those of /sources/{j}: both recordings have the same traffic, in two splits, so it leaks")
-            known.append((i, split, pieces))
+            known.append((i, split, stays, pieces))
+        for i, split, stays, _ in known:
+            if split is None:
+                self.check_gap(self.plan["sources"][i], stays)
 
 
 def rehearse(plan, folder, copied):
