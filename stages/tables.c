@@ -52,6 +52,9 @@ static int open_outputs(struct tables_state *own, struct runner *runner)
 static int open_others(struct tables_state *own, struct runner *runner)
 {
     own->counted.arena = runner_arena(runner);
+    if (own->without_objects && own->copy == NULL)
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--without-objects: there is no copy; expected --copy FILE, too");
     if (own->counts && runner_output(runner) == NULL)
         return -1;
     if (own->copy != NULL && (own->copied = runner_output_beside(runner, own->copy)) == NULL)
