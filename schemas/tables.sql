@@ -115,8 +115,8 @@ FROM read_csv(folder || '/scans.csv*', header = true, auto_detect = false, colum
     "mount_yaw_rad": reals, -- rad: boresight, from the ego's heading
     "field_of_view_rad": reals, -- rad: full width
     "range_max_m": reals, -- m: greatest range
-    "cell_range_m": reals, -- m: resolution cell, full width
-    "cell_range_rate_mps": reals, -- m/s: resolution cell, full width
+    "cell_range_m": reals, -- m: stated cell, full width: the unit of scores
+    "cell_range_rate_mps": reals, -- m/s: stated cell, full width: the unit of scores
     "azimuth_cell_rad": reals, -- rad: cell in azimuth of scores; absent: a twentieth of the field of view
     "carrier_hz": reals, -- Hz: carrier frequency
     "cycle_s": 'DOUBLE', -- s: time from scan to scan; absent: a scan in every frame

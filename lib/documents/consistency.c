@@ -10,25 +10,6 @@ double consistency_fold_mps(const struct sensor *sensor)
     return folds * (double)waveform->repetitions * sensor->cell_range_rate_mps / 2;
 }
 
-double consistency_beam_rad(const struct sensor *sensor)
-{
-    const struct waveform *waveform = &sensor->waveform;
-    if (waveform->elements > 0) /* MODEL 11.5 */
-        return 0.886 / ((double)waveform->elements * waveform->spacing);
-    return antenna_beam_rad(&sensor->antenna);
-}
-
-/* The number of resolution cells of a scan: ranges times range rates of false alarms times
- * azimuths; without an azimuth_cell_rad there is one azimuth. */
-static double cells(const struct sensor *sensor)
-{
-    double ranges = (sensor->range_max_m - sensor->range_min_m) / (2 * sensor->half_range_m);
-    double rates = 2 * sensor->false_alarm_range_rate_mps / (2 * sensor->half_range_rate_mps);
-    double azimuths =
-        sensor->azimuth_cell_rad > 0 ? sensor->field_of_view_rad / sensor->azimuth_cell_rad : 1;
-    return elementary_max(ranges, 1) * elementary_max(rates, 1) * elementary_max(azimuths, 1);
-}
-
 /* The mean number of bins in which noise alone passes the waveform's CFAR in a scan (MODEL 11.4).
  */
 static double signal_alarms(const struct sensor *sensor)
@@ -37,13 +18,6 @@ static double signal_alarms(const struct sensor *sensor)
     double step_m = waveform_range_step_m(waveform, sensor->cell_range_m);
     return (sensor->range_max_m - sensor->range_min_m) / step_m * (double)waveform->repetitions *
            waveform->cfar_false_alarm;
-}
-
-/* The mean number of cells that noise alone carries over the threshold in a scan (MODEL 14.9). */
-static double noise_alarms(const struct sensor *sensor)
-{
-    double ratio = sensor->threshold / sensor->pointer_sigma;
-    return cells(sensor) * elementary_exp(-elementary_min(ratio * ratio, 600));
 }
 
 static double beat_hz(const struct sensor *sensor, double range_m)
@@ -65,6 +39,16 @@ static size_t add(struct consistency *checks, size_t count, const struct consist
                                       left_value, right_value, member})
 #define LIMIT(...) ADD(LIMIT, __VA_ARGS__, NULL)
 
+/* The beam of the waveform's row of elements (MODEL 11.5), if its sensor has a table of the beam.
+ */
+static double row_beam_rad(const struct sensor *sensor)
+{
+    const struct waveform *waveform = &sensor->waveform;
+    if (waveform->elements == 0 || sensor->antenna_pattern != ANTENNA_TABLE)
+        return 0;
+    return 0.886 / ((double)waveform->elements * waveform->spacing);
+}
+
 static size_t add_strict(const struct sensor *sensor, struct consistency *checks)
 {
     size_t count = 0;
@@ -79,6 +63,8 @@ static size_t add_strict(const struct sensor *sensor, struct consistency *checks
         "receiver_bandwidth_hz", sensor->receiver_bandwidth_hz, "range_max_m");
     ADD(STRICT, MPS, "false alarms to false_alarm_range_rate_mps", alarm_rate_mps,
         "unambiguous_rate_mps", sensor->unambiguous_rate_mps, "false_alarm_range_rate_mps");
+    ADD(SAME, RAD, "beam of the row, 0.886/(elements spacing)", row_beam_rad(sensor),
+        "antenna_table's beam", antenna_beam_rad(&sensor->antenna), "waveform.elements");
     return count;
 }
 
@@ -89,7 +75,7 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
     double rate_mps = sensor->unambiguous_rate_mps, dwell_s = sensor->dwell_s;
     double repetition_s =
         rate_mps > 0 ? units_wavelength_m(sensor->carrier_hz) / (4 * rate_mps) : 0;
-    double cell_m = 2 * sensor->half_range_m;
+    double cell_m = sensor->bin_range_m;
     double walk_m = sensor->range_migration == MIGRATION_COMPENSATED ? 0 : rate_mps * dwell_s;
     LIMIT(MPS, "unambiguous_rate_mps", rate_mps, "signal, by repetitions and stagger",
           consistency_fold_mps(sensor));
@@ -108,8 +94,8 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
 
 static size_t add_accuracy(const struct sensor *sensor, struct consistency *checks, size_t count)
 {
-    double cell_m = 2 * sensor->half_range_m;
-    double cell_mps = 2 * sensor->half_range_rate_mps, even = 1 / sqrt(12);
+    double cell_m = sensor->bin_range_m;
+    double cell_mps = sensor->bin_range_rate_mps, even = 1 / sqrt(12);
     double factor = sensor->sigma_law == SIGMA_BY_SNR ? sensor->window_factor : 0;
     LIMIT(M, "range_sigma_m", sensor->range_sigma_m, "cell_range_m/sqrt(12)", cell_m * even);
     LIMIT(MPS, "range_rate_sigma_mps", sensor->range_rate_sigma_mps, "cell_range_rate_mps/sqrt(12)",
@@ -117,15 +103,15 @@ static size_t add_accuracy(const struct sensor *sensor, struct consistency *chec
     LIMIT(RAD, "azimuth_floor_rad", sensor->azimuth_floor_rad, "azimuth_cell_rad/sqrt(12)",
           sensor->azimuth_cell_rad * even);
     LIMIT(ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", sqrt(6) / (2 * PI), "window_factor", factor);
-    LIMIT(RAD, "beam of the antenna", consistency_beam_rad(sensor), "azimuth_cell_rad",
+    LIMIT(RAD, "beam of the antenna", antenna_beam_rad(&sensor->antenna), "azimuth_cell_rad",
           sensor->azimuth_cell_rad);
     if (sensor->waveform.samples > 0 && sensor->pointer_sigma > 0)
         ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
             "noise alone, range bins times repetitions times cfar_false_alarm",
             signal_alarms(sensor), NULL);
-    else
-        ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
-            "noise alone, cells exp(-(threshold/pointer_sigma)^2)", noise_alarms(sensor), NULL);
+    else if (sensor->false_alarms > 0)
+        LIMIT(ONE, "pointer_sigma", sensor->pointer_sigma,
+              "noise of the search, threshold/sqrt(ln(cells/false_alarms))", sensor->search_sigma);
     return count;
 }
 
@@ -140,6 +126,8 @@ bool consistency_holds(const struct consistency *check)
     double ratio = check->left_value / check->right_value;
     if (check->kind == CONSISTENCY_EQUAL)
         return ratio <= 2 && ratio >= 0.5;
+    if (check->kind == CONSISTENCY_SAME)
+        return ratio <= 1.1 && ratio >= 1 / 1.1;
     return ratio <= 1 + 1e-6; /* equal figures may be rounded */
 }
 
@@ -153,8 +141,9 @@ int consistency_check(const struct sensor *sensor, size_t index, struct diag *di
         const char *unit = units[check->unit];
         if (!consistency_holds(check))
             return diag_fail(diag, DIAG_CONFIG,
-                             "sensors[%zu].%s: %s, %g %s; expected at most sensors[%zu].%s, %g %s",
-                             index, check->member, check->left, check->left_value, unit, index,
+                             "sensors[%zu].%s: %s, %g %s; expected %s sensors[%zu].%s, %g %s",
+                             index, check->member, check->left, check->left_value, unit,
+                             check->kind == CONSISTENCY_SAME ? "about" : "at most", index,
                              check->right, check->right_value, unit);
     }
     return 0;

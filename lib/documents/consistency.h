@@ -21,6 +21,7 @@ enum consistency_kind {
     CONSISTENCY_LIMIT,  /* left above right is a doubt */
     CONSISTENCY_STRICT, /* left above right is impossible */
     CONSISTENCY_EQUAL,  /* a factor of more than 2 between them is a doubt */
+    CONSISTENCY_SAME,   /* a factor of more than 1.1 between them is impossible */
 };
 
 struct consistency {
@@ -28,23 +29,19 @@ struct consistency {
     enum consistency_unit unit;
     const char *left, *right; /* formulas of members of the document */
     double left_value, right_value;
-    const char *member; /* strict: the member in the formula `left`; `right` is a member itself */
+    const char *member; /* of an impossible pair: the member in the formula `left` */
 };
 
 enum { CONSISTENCY_MOST = 20 };
 
-/* Writes the checks of a sensor with derived members, if the document has both sides, and returns
- * their number, at most CONSISTENCY_MOST. */
+/* Writes the checks of a sensor with derived members and its tables, if the document has both
+ * sides, and returns their number, at most CONSISTENCY_MOST. */
 size_t consistency_list(const struct sensor *sensor, struct consistency *checks);
 
 bool consistency_holds(const struct consistency *check);
 
-/* Refuses a strict check that does not hold (DIAG_CONFIG). index is the sensor's in its suite. */
+/* Refuses an impossible pair (DIAG_CONFIG). index is the sensor's in its suite. */
 int consistency_check(const struct sensor *sensor, size_t index, struct diag *diag);
 
 /* Range rates within +- this do not fold in the signal (MODEL 11.3); 0 without a waveform. */
 double consistency_fold_mps(const struct sensor *sensor);
-
-/* The 3 dB width of the beam on boresight: of the waveform's row of elements, one way, or without
- * one of the antenna's sum pattern, two ways. */
-double consistency_beam_rad(const struct sensor *sensor);

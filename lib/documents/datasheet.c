@@ -85,7 +85,6 @@ void datasheet_of(const struct sensor *sensor, struct datasheet *sheet)
 }
 
 #define DEGREES (180 / PI)
-#define KMH 3.6
 
 static void add_update(const struct sensor *sensor, struct text *text)
 {
@@ -106,21 +105,28 @@ static void add_ambiguity(const struct sensor *sensor, struct text *text)
     else
         text_add_word(text, "at every range, ");
     if (sensor->unambiguous_rate_mps > 0)
-        text_format(text, "within +-%.4g km/h", KMH * sensor->unambiguous_rate_mps);
+        text_format(text, "within +-%.4g m/s", sensor->unambiguous_rate_mps);
     else
         text_add_word(text, "at every rate");
     if (sensor->waveform.samples > 0)
-        text_format(text, "; the signal within +-%.4g km/h", KMH * consistency_fold_mps(sensor));
+        text_format(text, "; the signal within +-%.4g m/s", consistency_fold_mps(sensor));
     text_add_word(text, "\n");
 }
 
 static void add_resolution(const struct sensor *sensor, struct text *text)
 {
-    text_format(text, "  resolution         %.3g m, %.3g km/h", 2 * sensor->half_range_m,
-                2 * KMH * sensor->half_range_rate_mps);
-    if (sensor->azimuth_cell_rad > 0)
-        text_format(text, ", %.3g degrees", DEGREES * sensor->azimuth_cell_rad);
-    text_format(text, "; beam of %.3g degrees\n", DEGREES * consistency_beam_rad(sensor));
+    double beam = DEGREES * antenna_beam_rad(&sensor->antenna);
+    text_format(text, "  resolution         %.3g m, %.3g m/s; ", sensor->bin_range_m,
+                sensor->bin_range_rate_mps);
+    if (sensor->waveform.elements > 0)
+        text_format(text, "angle separates echoes in glint-sensor-signal only\n");
+    else
+        text_add_word(text, "angle separates nothing\n");
+    text_format(text, "  beam               %.3g degrees wide, ", beam);
+    if (sensor->elevation_half_width_rad > 0)
+        text_format(text, "%.3g degrees high\n", 2 * DEGREES * sensor->elevation_half_width_rad);
+    else
+        text_add_word(text, "without a limit in elevation\n");
 }
 
 static void add_figures(const struct sensor *sensor, const struct datasheet *sheet,
@@ -144,7 +150,7 @@ static void add_figures(const struct sensor *sensor, const struct datasheet *she
 
 static void add_accuracy(const struct datasheet *sheet, struct text *text)
 {
-    text_add_word(text, "\n  accuracy, 1 sigma      range, m   rate, km/h   azimuth, degrees, at");
+    text_add_word(text, "\n  accuracy, 1 sigma      range, m    rate, m/s   azimuth, degrees, at");
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++)
         text_format(text, " %6.3g", DEGREES * sheet->azimuth_rad[i]);
     for (int i = 0; i < DATASHEET_LEVELS; i++) {
@@ -154,7 +160,7 @@ static void add_accuracy(const struct datasheet *sheet, struct text *text)
         else
             text_format(text, "\n  threshold + %2d dB  ", 10 * i);
         text_format(text, "  %12.2g %12.2g%22s", accuracy->range_sigma_m,
-                    KMH * accuracy->range_rate_sigma_mps, "");
+                    accuracy->range_rate_sigma_mps, "");
         for (int k = 0; k < DATASHEET_AZIMUTHS; k++)
             if (isfinite(accuracy->azimuth_sigma_rad[k]))
                 text_format(text, " %6.2g", DEGREES * accuracy->azimuth_sigma_rad[k]);
@@ -195,7 +201,7 @@ static void add_checks(const struct sensor *sensor, struct text *text)
         double per_unit;
     } units[] = {
         [CONSISTENCY_S] = {" ms", 1e3}, [CONSISTENCY_HZ] = {" MHz", 1e-6},
-        [CONSISTENCY_M] = {" m", 1},    [CONSISTENCY_MPS] = {" km/h", KMH},
+        [CONSISTENCY_M] = {" m", 1},    [CONSISTENCY_MPS] = {" m/s", 1},
         [CONSISTENCY_ONE] = {"", 1},    [CONSISTENCY_RAD] = {" degrees", DEGREES},
     };
     struct consistency checks[CONSISTENCY_MOST];
@@ -208,8 +214,9 @@ static void add_checks(const struct sensor *sensor, struct text *text)
         text_format(text, "  %s %s, %.4g%s, %s %s, %.4g%s\n",
                     consistency_holds(check) ? "holds:" : "doubt:", check->left,
                     per_unit * check->left_value, unit,
-                    check->kind == CONSISTENCY_EQUAL ? "about" : "at most", check->right,
-                    per_unit * check->right_value, unit);
+                    check->kind == CONSISTENCY_EQUAL || check->kind == CONSISTENCY_SAME ? "about"
+                                                                                        : "at most",
+                    check->right, per_unit * check->right_value, unit);
     }
 }
 
@@ -227,8 +234,11 @@ static struct text sheet_of(const struct sensor *sensor)
 
 static void add_mount(const struct sensor *sensor, struct text *text)
 {
-    text_format(text, "%s: at x %.4g m, y %.4g m, looking to %.4g degrees\n", sensor->name,
-                sensor->mount_x_m, sensor->mount_y_m, DEGREES * sensor->mount_yaw_rad);
+    text_format(text, "%s: at x %.4g m, y %.4g m, ", sensor->name, sensor->mount_x_m,
+                sensor->mount_y_m);
+    if (sensor->mount_z_m > 0)
+        text_format(text, "z %.4g m, ", sensor->mount_z_m);
+    text_format(text, "looking to %.4g degrees\n", DEGREES * sensor->mount_yaw_rad);
 }
 
 static bool same(const struct text *a, const struct text *b)

@@ -29,6 +29,6 @@ struct datasheet {
 /* The figures of a sensor with its derived members. */
 void datasheet_of(const struct sensor *sensor, struct datasheet *sheet);
 
-/* Adds a sheet for every sensor, in degrees, dBsm, m and km/h. Neighbours that differ only in name
+/* Adds a sheet for every sensor, in degrees, dBsm, m and m/s. Neighbours that differ only in name
  * and mount share one. A check that does not hold is a line that begins with "doubt:". */
 void datasheet_add(const struct suite *suite, struct text *text);

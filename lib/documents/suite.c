@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/elementary.h"
 #include "base/units.h"
 #include "radar/scan_timing.h"
 
@@ -98,12 +99,16 @@ static const struct field sensor_fields[] = {
      .absent = 0.5},
     {OPTIONAL_NAME(struct sensor, amplitude_table,
                    "CSV file with range_m, amplitude: instead of the calibration")},
-    {NEEDS(cell_range_m, 1e-6, 1e6, "size of the resolution cell in range")},
-    {NEEDS(cell_range_rate_mps, 1e-6, 1e5, "size of the resolution cell in range rate")},
+    {NEEDS(cell_range_m, 1e-6, 1e6,
+           "size of the resolution cell in range; with a waveform of its bin")},
+    {NEEDS(cell_range_rate_mps, 1e-6, 1e5,
+           "size of the resolution cell in range rate; with a waveform of its bin")},
     {MAY_HAVE(
         azimuth_cell_rad, 1e-6, 2 * PI,
         "azimuths this far apart count as one cell in scores; absent: a twentieth of the view")},
-    {MAY_CHOOSE(cell_extent, extents, "does the cell's size mean its width or half of it?")},
+    {MAY_CHOOSE(cell_extent, extents,
+                "does the cell's size mean its width or half of it? With a waveform it is a bin's "
+                "width")},
     {MAY_CHOOSE(cell_phase, phases,
                 "do echoes of a cell add in phase, at random or by their paths?")},
     {MAY_CHOOSE(range_migration, migrations,
@@ -189,13 +194,45 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
     return NULL;
 }
 
-void suite_derive(struct sensor *sensor)
+/* The stated cells of a waveform are its bins; half a cell is its resolution (MODEL 6). */
+static void derive_cells(struct sensor *sensor)
 {
+    const struct waveform *waveform = &sensor->waveform;
     sensor->half_range_m = resolution_half_width(sensor->cell_extent, sensor->cell_range_m);
     sensor->half_range_rate_mps =
         resolution_half_width(sensor->cell_extent, sensor->cell_range_rate_mps);
-    sensor->dwell_s = scan_timing_dwell_s(sensor->carrier_hz, 2 * sensor->half_range_rate_mps);
+    sensor->bin_range_m = 2 * sensor->half_range_m;
+    sensor->bin_range_rate_mps = 2 * sensor->half_range_rate_mps;
+    sensor->dwell_s = scan_timing_dwell_s(sensor->carrier_hz, sensor->bin_range_rate_mps);
+    if (waveform->samples == 0)
+        return;
+    sensor->half_range_m = waveform_range_step_m(waveform, sensor->cell_range_m) *
+                           point_response_resolution(waveform_range_response(waveform));
+    sensor->half_range_rate_mps =
+        sensor->cell_range_rate_mps * point_response_resolution(waveform->window);
+}
+
+/* Noise whose power in each of the scan's cells is exponential, and above the threshold in as many
+ * of them as there are false alarms (MODEL 14.9). Bins of a waveform have the pointers' noise. */
+static double search_sigma(const struct sensor *sensor)
+{
+    double ranges = (sensor->range_max_m - sensor->range_min_m) / sensor->bin_range_m;
+    double rates = 2 * sensor->false_alarm_range_rate_mps / sensor->bin_range_rate_mps;
+    double azimuths =
+        sensor->azimuth_cell_rad > 0 ? sensor->field_of_view_rad / sensor->azimuth_cell_rad : 1;
+    double cells =
+        elementary_max(ranges, 1) * elementary_max(rates, 1) * elementary_max(azimuths, 1);
+    if (sensor->waveform.samples > 0 || sensor->false_alarms == 0)
+        return sensor->pointer_sigma;
+    return sensor->threshold /
+           sqrt(elementary_max(elementary_log(cells / sensor->false_alarms), 1));
+}
+
+void suite_derive(struct sensor *sensor)
+{
+    derive_cells(sensor);
     sensor->threshold = units_amplitude_from_db(sensor->threshold_db);
+    sensor->search_sigma = search_sigma(sensor);
     sensor->antenna.pattern = sensor->antenna_pattern;
     sensor->antenna.phase = sensor->phase_reference;
     sensor->amplitude_law.exponent = sensor->exponent;
@@ -273,6 +310,11 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
         return diag_fail(diag, DIAG_CONFIG,
                          "range_migration: \"%s\"; expected waveform.window, or compensated",
                          migrations[sensor->range_migration]);
+    if (sensor->waveform.samples > 0 && sensor->cell_extent != CELL_WIDTH)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "cell_extent: \"%s\"; expected none, as the waveform's window sets how "
+                         "much wider than its bins cells are",
+                         extents[sensor->cell_extent]);
     if (waveform_check(&sensor->waveform, sensor->cell_range_m, sensor->range_max_m, diag) != 0)
         return diag_prefix(diag, "waveform.");
     return check_chirp(sensor, diag);

@@ -85,8 +85,10 @@ struct sensor {
     struct antenna antenna;
     struct measurement_sigma range_error, range_rate_error;
     double threshold;                         /* linear, on the amplitude */
-    double half_range_m, half_range_rate_mps; /* half the width of a cell */
+    double bin_range_m, bin_range_rate_mps;   /* full width of the stated cell */
+    double half_range_m, half_range_rate_mps; /* half the width of a resolution cell */
     double dwell_s;                           /* of a scan's signal */
+    double search_sigma; /* RMS of the noise in which echoes are searched; > 0 with false alarms */
     struct suite_prior prior;
 };
 

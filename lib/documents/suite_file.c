@@ -121,10 +121,10 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
         if (suite_check(sensor, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         suite_derive(sensor);
-        if (consistency_check(sensor, i, diag) != 0)
-            return diag_prefix(diag, "%s: ", path);
         if (add_tables(path, sensor, &digest, arena, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
+        if (consistency_check(sensor, i, diag) != 0)
+            return diag_prefix(diag, "%s: ", path);
         sensor->prior = suite->prior;
     }
     snprintf(suite->digest, sizeof suite->digest, "%016llx", (unsigned long long)digest);

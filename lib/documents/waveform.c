@@ -48,6 +48,11 @@ double waveform_range_step_m(const struct waveform *waveform, double cell_range_
     return waveform->kind == WAVEFORM_PULSE ? cell_range_m / 4 : cell_range_m;
 }
 
+enum point_response waveform_range_response(const struct waveform *waveform)
+{
+    return waveform->kind == WAVEFORM_PULSE ? POINT_RESPONSE_PULSE : waveform->window;
+}
+
 /* The least distance of bins of the transform whose noise is independent. */
 static size_t independent_bins(const struct waveform *waveform)
 {

@@ -26,7 +26,7 @@ static bool described(const struct effect_scan *scan)
 static void begin(const struct effect_scan *scan, double *cells_per_mps)
 {
     const struct sensor *sensor = scan->sensor;
-    *cells_per_mps = sensor->dwell_s / (2 * sensor->half_range_m);
+    *cells_per_mps = sensor->dwell_s / sensor->bin_range_m;
 }
 
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)

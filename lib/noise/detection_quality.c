@@ -29,8 +29,9 @@ double detection_quality_existence(const struct existence *existence, double pow
     if (passed == 0)
         return 0;
     /* ln(f0/f1), as both densities may be below the least double. */
-    double log_odds = elementary_log(existence->false_alarms * mean / existence->echoes / passed) -
-                      (power - least) + power / mean;
+    double search = existence->search_noise, density = existence->false_alarms / search;
+    double log_odds = elementary_log(density * mean / existence->echoes / passed) -
+                      (power - least) / search + power / mean;
     return 1 / (1 + elementary_exp(log_odds));
 }
 
@@ -165,8 +166,10 @@ static void add_strength(const struct detection_source *source,
     }
     if (source->noise == 0)
         return;
+    double search = sensor->search_sigma / sensor->pointer_sigma;
     existence.echoes = sensor->prior.echoes;
     existence.snr = expected * expected;
+    existence.search_noise = search * search;
     quality->snr_db = to_part(units_amplitude_db(ratio / sqrt(existence.rise)), 1e3);
     quality->existence = detection_quality_existence(&existence, ratio * ratio);
     quality->present |= QUALITY_NOISE;

@@ -5,12 +5,13 @@
 
 /* Parameters of the probability of existence. Powers of echoes are exponentially distributed; an
  * echo below first_threshold is lost before noise is added to it, one below least_echo after it.
- * Powers of noise alone are exponentially distributed from least_false_alarm on. All powers are in
- * units of the power of a channel's own noise. */
+ * Powers of noise alone are exponentially distributed from least_false_alarm on, with the mean
+ * excess search_noise. All powers are in units of the power of a channel's own noise. */
 struct existence {
     double echoes;                        /* mean number in a scan, detected or not; > 0 */
     double snr;                           /* mean power of an echo; > 0 */
     double false_alarms;                  /* mean number in a scan */
+    double search_noise;                  /* power of the noise that they are; > 0 */
     double first_threshold;               /* least power without noise; 0: all pass */
     double least_false_alarm, least_echo; /* least powers that pass the thresholds; 0: all pass */
     double rise;                          /* power of the noise with other radars, >= 1 */

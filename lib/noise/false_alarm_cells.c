@@ -65,7 +65,7 @@ struct cell_span false_alarm_cells_of(struct frame *frame, const struct effect_s
         struct contributor contributor = draw_contributor(sensor, (int64_t)i + 1, uniform);
         contributor.time_s = context->time_s;
         double amplitude =
-            false_alarm_cells_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]);
+            false_alarm_cells_amplitude(sensor->threshold, sensor->search_sigma, uniform[3]);
         cells[i] = false_alarm_cells_cell(sensor, &contributor, amplitude, frame->arena);
     }
     if (count > 0)

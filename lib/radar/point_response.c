@@ -46,6 +46,13 @@ double point_response_main_lobe(enum point_response response)
     return response == POINT_RESPONSE_HANN ? 2 : 1;
 }
 
+double point_response_resolution(enum point_response response)
+{
+    if (response == POINT_RESPONSE_PULSE)
+        return 3.5802;
+    return response == POINT_RESPONSE_HANN ? 1.7748 : 0.9967;
+}
+
 double point_response_envelope(enum point_response response, double bins)
 {
     double d = fabs(bins);

@@ -76,8 +76,7 @@ struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *are
         .samples = (size_t)waveform->samples,
         .repetitions = (size_t)waveform->repetitions,
         .channels = waveform->elements > 0 ? (size_t)waveform->elements : 2,
-        .range_response =
-            waveform->kind == WAVEFORM_PULSE ? POINT_RESPONSE_PULSE : waveform->window,
+        .range_response = waveform_range_response(waveform),
         .range_step_m = waveform_range_step_m(waveform, sensor->cell_range_m),
         .rate_step_mps = sensor->cell_range_rate_mps,
         .folds = waveform->stagger > 0 ? (size_t)waveform->stagger : 1,

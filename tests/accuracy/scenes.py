@@ -1,5 +1,6 @@
 """The radars of scripts/accuracy-cost and the frames that they look at."""
 import json
+import math
 import os
 import subprocess
 
@@ -54,6 +55,7 @@ def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=
 def long_range(size):
     """A chirp every 20 us: 256 of them part rates by 0.383 m/s."""
     suite = sensors(f"lrr77-signal-{size}")
+    suite["sensors"][0]["azimuth_cell_rad"] = math.radians(1.6)  # of scores
     return described(suite, suite["sensors"][0]["waveform"]["repetitions"], 256, 97.971392 / 256)
 
 

@@ -281,6 +281,16 @@ def estimate(total, delta, estimator):
     return (-magnitude if imaginary > 0 else magnitude), False, sine
 
 
+def half_cells(sensor):
+    """Half a resolution cell in range and in range rate (MODEL 6)."""
+    waveform, share = sensor.get("waveform"), 1.0 if sensor.get("cell_extent", "width") == "half_width" else 0.5
+    shares = [share, share]
+    if waveform:
+        window = {"hann": 1.7748, "rectangular": 0.9967}[waveform.get("window", "hann")]
+        shares = [3.5802 / 4 if waveform["kind"] == "pulse" else window, window]
+    return shares[0] * sensor["cell_range_m"], shares[1] * sensor["cell_range_rate_mps"]
+
+
 def make_cell(sensor, members):
     reference = sensor["phase_reference"]
     amplitude = math.fsum(m["amplitude"] for m in members)
@@ -308,8 +318,7 @@ def cluster(view, sensor):
         amplitude = reference_amplitude(sensor, echo["range_m"]) * abs(h_s) * echo["ercs"]
         remaining.append(dict(echo, key=key, amplitude=amplitude))
     remaining.sort(key=lambda m: (-m["amplitude"], m["range_m"], m["range_rate_mps"], m["azimuth_rad"], m["key"]))
-    share = 1.0 if sensor.get("cell_extent", "width") == "half_width" else 0.5
-    half_range, half_rate = share * sensor["cell_range_m"], share * sensor["cell_range_rate_mps"]
+    half_range, half_rate = half_cells(sensor)
     limit = threshold(sensor)
     while remaining:
         leader, rest = remaining[0], remaining[1:]

@@ -776,8 +776,7 @@ class Cell:
 
 def resolve(scan, sensor, antenna, rays, limit):
     """Cells by MODEL 6; lost cells go to scan.dark with their amplitude."""
-    share = 1.0 if sensor.get("cell_extent", "width") == "half_width" else 0.5
-    half_range, half_rate = share * sensor["cell_range_m"], share * sensor["cell_range_rate_mps"]
+    half_range, half_rate = oracle.half_cells(sensor)
     left = sorted((ray for ray in rays if ray.amplitude > 0), key=Ray.order)
     while left:
         leader, members, others = left[0], [], []

@@ -105,8 +105,7 @@ def near_tie_in_reach(frame, sensor):
 
 
 def at_spacing(frame, sensor, wanted):
-    share = 1.0 if sensor.get("cell_extent", "width") == "half_width" else 0.5
-    half = {"range_m": share * sensor["cell_range_m"], "range_rate_mps": share * sensor["cell_range_rate_mps"]}
+    half = dict(zip(("range_m", "range_rate_mps"), oracle.half_cells(sensor)))
     [other] = set(half) - {wanted}
     echoes = [e for e in frame["echoes"] if e["sensor"] == sensor["name"]]
     return any(abs(abs(a[wanted] - b[wanted]) / half[wanted] - 1) <= 1e-6 * (1 + 1e-6)

@@ -71,7 +71,7 @@ static void checks_tell_figures_that_agree_from_those_that_do_not(void **state)
     good.false_alarm_range_rate_mps = 49.9;
     /* 99 ranges, 998 rates, 120/46 azimuths. */
     double cells = 99 * 998 * 120 / 46.0;
-    good.pointer_sigma = units_amplitude_from_db(6) / sqrt(log(cells / 0.015));
+    good.pointer_sigma = units_amplitude_from_db(6) / sqrt(log(cells / 0.0099));
     struct sensor bad[14];
     for (size_t i = 0; i < COUNT(bad); i++)
         bad[i] = good;
@@ -84,7 +84,7 @@ static void checks_tell_figures_that_agree_from_those_that_do_not(void **state)
     bad[6].receiver_bandwidth_hz = 2 * 100.2 * 26e3;
     bad[7].unambiguous_rate_mps = 50.1;
     bad[8].latency_s = 0.0099;
-    bad[9].false_alarms = 0.035;
+    bad[9].false_alarms = 0.0098;
     bad[10].range_sigma_m = 0.2888;
     bad[11].range_rate_sigma_mps = 0.02888;
     bad[12].azimuth_cell_rad = 45 * DEGREE;
@@ -98,7 +98,7 @@ static void checks_tell_figures_that_agree_from_those_that_do_not(void **state)
                                         "receiver_bandwidth_hz",
                                         "walk",
                                         "half a dwell",
-                                        "false_alarms",
+                                        "pointer_sigma",
                                         "range_sigma_m",
                                         "range_rate_sigma_mps",
                                         "beam",
@@ -136,6 +136,26 @@ static void half_widths_count_twice(void **state)
     sensor.cell_extent = CELL_HALF_WIDTH;
     suite_derive(&sensor);
     assert_close(sensor.dwell_s, 0.01, 1e-15);
+}
+
+/* A waveform's dwell is that of its bins, however wide its window makes cells. */
+static void cells_of_a_waveform_are_as_wide_as_its_window_resolves(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    sensor.waveform = (struct waveform){.samples = 128, .window = POINT_RESPONSE_HANN};
+    suite_derive(&sensor);
+    double bin_m = sensor.cell_range_m, bin_mps = sensor.cell_range_rate_mps;
+    assert_near(sensor.half_range_m, 1.7748 * bin_m, 1e-6);
+    assert_near(sensor.half_range_rate_mps, 1.7748 * bin_mps, 1e-6);
+    assert_close(sensor.dwell_s, 0.02, 1e-15);
+    sensor.waveform.window = POINT_RESPONSE_RECTANGULAR;
+    suite_derive(&sensor);
+    assert_near(sensor.half_range_m, 0.9967 * bin_m, 1e-6);
+    sensor.waveform.kind = WAVEFORM_PULSE; /* the window is that of the repetitions */
+    suite_derive(&sensor);
+    assert_near(sensor.half_range_m, 0.89505 * bin_m, 1e-6);
+    assert_near(sensor.half_range_rate_mps, 0.9967 * bin_mps, 1e-6);
 }
 
 static void a_signal_has_its_own_limits(void **state)
@@ -180,15 +200,25 @@ static void a_walk_that_is_compensated_is_no_doubt(void **state)
     assert_null(check_of(&sensor, "walk"));
 }
 
-static void a_row_of_elements_has_its_own_beam(void **state)
+/* MODEL 11.5: the beam of 8 elements half a wavelength apart is 12.7 degrees wide. */
+static void a_row_of_elements_has_the_beam_of_the_antenna_table(void **state)
 {
     (void)state;
+    static const struct antenna_row rows[] = {{-0.38, 0, -1}, {0, 1, 0}, {0.38, 0, 1}};
     struct sensor sensor = quiet_sensor();
+    struct diag diag;
+    sensor.waveform = (struct waveform){.samples = 128, .elements = 8, .spacing = 0.5};
     suite_derive(&sensor);
-    /* MODEL 11.5: 8 elements half a wavelength apart. */
-    sensor.waveform.elements = 8;
-    sensor.waveform.spacing = 0.5;
-    assert_close(consistency_beam_rad(&sensor), 12.8025 * DEGREE, 0.15 * DEGREE);
+    assert_int_equal(consistency_check(&sensor, 0, &diag), 0);
+    sensor.antenna_pattern = sensor.antenna.pattern = ANTENNA_TABLE;
+    sensor.antenna.rows = rows;
+    sensor.antenna.row_count = COUNT(rows);
+    assert_int_equal(consistency_check(&sensor, 1, &diag), 0);
+    sensor.waveform.elements = 12;
+    assert_int_equal(consistency_check(&sensor, 1, &diag), -1);
+    assert_string_equal(
+        diag.text, "sensors[1].waveform.elements: beam of the row, 0.886/(elements spacing), "
+                   "0.147667 rad; expected about sensors[1].antenna_table's beam, 0.222619 rad");
 }
 
 /* MODEL 4.1: ranges go with the root of an ERCS, which is 1 at 10 dBsm. */
@@ -281,8 +311,8 @@ static void without_noise_rows_of_accuracy_say_how_strong_an_echo_is(void **stat
     suite_derive(&sensor);
     datasheet_add(&suite, &text);
     text_add(&text, "", 1);
-    assert_non_null(strstr(text.bytes, "\n  threshold +  0 dB             0.1        0.036"));
-    assert_non_null(strstr(text.bytes, "\n  threshold + 20 dB             0.1        0.036"));
+    assert_non_null(strstr(text.bytes, "\n  threshold +  0 dB             0.1         0.01"));
+    assert_non_null(strstr(text.bytes, "\n  threshold + 20 dB             0.1         0.01"));
     assert_null(strstr(text.bytes, "inf"));
     text_free(&text);
 }
@@ -318,10 +348,11 @@ int main(void)
         cmocka_unit_test(checks_tell_figures_that_agree_from_those_that_do_not),
         cmocka_unit_test(figures_that_a_document_leaves_out_are_not_checked),
         cmocka_unit_test(half_widths_count_twice),
+        cmocka_unit_test(cells_of_a_waveform_are_as_wide_as_its_window_resolves),
         cmocka_unit_test(a_signal_has_its_own_limits),
         cmocka_unit_test(false_alarms_of_a_signal_are_those_of_its_cfar),
         cmocka_unit_test(a_walk_that_is_compensated_is_no_doubt),
-        cmocka_unit_test(a_row_of_elements_has_its_own_beam),
+        cmocka_unit_test(a_row_of_elements_has_the_beam_of_the_antenna_table),
         cmocka_unit_test(echoes_are_detected_where_they_meet_the_threshold),
         cmocka_unit_test(ranges_end_at_the_sensors_own),
         cmocka_unit_test(fluctuation_costs_range),

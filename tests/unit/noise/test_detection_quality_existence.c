@@ -15,6 +15,7 @@ static void probabilities_are_those_of_bayes_rule(void **state)
     const struct existence existence = {.echoes = 1,
                                         .snr = 9,
                                         .false_alarms = 0.5,
+                                        .search_noise = 1,
                                         .least_false_alarm = 4,
                                         .least_echo = 4,
                                         .rise = 1};
@@ -30,6 +31,7 @@ static void powers_that_one_cause_alone_can_have_are_certain(void **state)
     struct existence existence = {.echoes = 1,
                                   .snr = 9,
                                   .false_alarms = 0.5,
+                                  .search_noise = 1,
                                   .least_false_alarm = 4,
                                   .least_echo = 8,
                                   .rise = 2};
@@ -49,6 +51,7 @@ static void densities_below_the_least_double_still_compare(void **state)
     const struct existence existence = {.echoes = 1,
                                         .snr = 1e-3,
                                         .false_alarms = 0.5,
+                                        .search_noise = 1,
                                         .least_false_alarm = 0,
                                         .least_echo = 0,
                                         .rise = 1};
@@ -72,6 +75,7 @@ static void echoes_that_fail_the_first_threshold_are_taken_out_of_the_expected_o
         const struct existence existence = {.echoes = 2,
                                             .snr = rows[i].snr,
                                             .false_alarms = 0.5,
+                                            .search_noise = 1,
                                             .least_false_alarm = rows[i].power - 1,
                                             .first_threshold = rows[i].first,
                                             .rise = rows[i].rise};
@@ -95,6 +99,7 @@ static void of_detections_with_a_probability_so_many_are_echoes(void **state)
     const struct existence existence = {.echoes = 3,
                                         .snr = 30,
                                         .false_alarms = 1,
+                                        .search_noise = 1,
                                         .least_false_alarm = 6,
                                         .least_echo = 6,
                                         .rise = 1};

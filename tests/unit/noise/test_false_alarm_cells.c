@@ -11,7 +11,7 @@ static const struct sensor radar = {
     .range_max_m = 25,
     .field_of_view_rad = 2,
     .threshold = 2,
-    .pointer_sigma = 0.5,
+    .search_sigma = 0.5,
     .false_alarm_range_rate_mps = 40,
     .latency_s = 0.05,
 };

@@ -37,6 +37,58 @@ static void a_response_is_a_half_at_its_half_width(void **state)
         assert_close(point_response_value(all[i], half_widths[all[i]]), 0.5, 1e-6);
 }
 
+/* The spectrum of a windowed tone of 64 samples, or a pulse, so many bins from its middle. */
+static double complex tone(enum point_response window, double bins)
+{
+    double complex sum = 0;
+    if (window == POINT_RESPONSE_PULSE)
+        return exp2(-bins * bins / 4);
+    for (int n = 0; n < 64; n++) {
+        double turns = (n - 31.5) / 64;
+        double weight = window == POINT_RESPONSE_HANN ? 1 + cos(2 * PI * turns) : 1;
+        double angle_rad = -2 * PI * bins * turns;
+        sum += weight * (cos(angle_rad) + sin(angle_rad) * (double complex)I) / 64;
+    }
+    return sum;
+}
+
+/* The share of phases, from 0 to half a turn, in which a tone and another of half its amplitude,
+ * `apart` bins from it, show as two peaks. Lower maxima are side lobes. */
+static double share_parted(enum point_response window, double apart)
+{
+    enum { PHASES = 40, PLACES = 400 };
+    double complex one[PLACES], other[PLACES];
+    double beside = window == POINT_RESPONSE_PULSE ? 2.4 : 0.6;
+    int parted = 0;
+    for (int i = 0; i < PLACES; i++) {
+        double bins = -beside + (apart + 2 * beside) * i / PLACES;
+        one[i] = tone(window, bins);
+        other[i] = tone(window, bins - apart) / 2;
+    }
+    for (int k = 0; k < PHASES; k++) {
+        double size[PLACES], phase_rad = PI * (k + 0.5) / PHASES;
+        double complex turned = cos(phase_rad) + sin(phase_rad) * (double complex)I;
+        int peaks = 0;
+        for (int i = 0; i < PLACES; i++)
+            size[i] = cabs(one[i] + turned * other[i]);
+        for (int i = 1; i < PLACES - 1; i++)
+            peaks += size[i] > size[i - 1] && size[i] >= size[i + 1] && size[i] > 0.33;
+        parted += peaks >= 2;
+    }
+    return (double)parted / PHASES;
+}
+
+static void half_of_all_pairs_part_at_the_resolution(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(all); i++) {
+        double resolution = point_response_resolution(all[i]);
+        assert_close(share_parted(all[i], resolution), 0.5, 0.03);
+        assert_true(share_parted(all[i], 0.85 * resolution) < 0.47);
+        assert_true(share_parted(all[i], 1.15 * resolution) > 0.53);
+    }
+}
+
 static void weights_sum_to_one_and_noise_is_their_rms(void **state)
 {
     (void)state;
@@ -368,6 +420,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(responses_have_their_closed_forms),
         cmocka_unit_test(a_response_is_a_half_at_its_half_width),
+        cmocka_unit_test(half_of_all_pairs_part_at_the_resolution),
         cmocka_unit_test(weights_sum_to_one_and_noise_is_their_rms),
         cmocka_unit_test(the_envelope_bounds_the_response_and_falls),
         cmocka_unit_test(the_vertex_is_next_to_an_echo_alone),
