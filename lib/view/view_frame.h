@@ -3,7 +3,6 @@
  * of their class's vehicle document. */
 #pragma once
 
-#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"
 #include "geometry/kinematics.h"

@@ -264,9 +264,9 @@ static void draw_scale(struct drawing *drawing)
                 step);
 }
 
-static void add_note(struct text *text, double y, const char *words)
+static void add_note(struct text *text, double x, double y, const char *words)
 {
-    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">%s</text>\n", y, words);
+    text_format(text, "<text class=\"note\" x=\"%.0f\" y=\"%.0f\">%s</text>\n", x, y, words);
 }
 
 static void draw_legend(struct drawing *drawing)
@@ -295,17 +295,16 @@ static void draw_legend(struct drawing *drawing)
                  {PATH_FALSE_ALARM, 219, "false alarm"}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         add_symbol(text, 0, kinds[i].path, (struct vec2){kinds[i].x, y + 16});
-        text_format(text, "<text class=\"note\" x=\"%.0f\" y=\"%.0f\">%s</text>\n", kinds[i].x + 17,
-                    y + 20, kinds[i].name);
+        add_note(text, kinds[i].x + 17, y + 20, kinds[i].name);
     }
     text_format(text, "<circle class=\"lit\" cx=\"29\" cy=\"%.0f\" r=\"3\"/>\n", y + 36);
-    add_note(text, y + 40, "echo in a target");
+    add_note(text, 46, y + 40, "echo in a target");
     if (!frame_carries(frame, CARRY_ACCOUNT))
         return;
     text_format(text, "<path class=\"lost\" d=\"M24 %.0fl10 10m0 -10l-10 10\"/>\n", y + 51);
-    add_note(text, y + 60, "echo in no target");
+    add_note(text, 46, y + 60, "echo in no target");
     text_format(text, "<circle class=\"centre\" cx=\"29\" cy=\"%.0f\" r=\"2\"/>\n", y + 76);
-    add_note(text, y + 80, "reflector without an echo");
+    add_note(text, 46, y + 80, "reflector without an echo");
 }
 
 static void begin_drawing(struct text *text)

@@ -139,6 +139,11 @@ function sensorOf(scan) {
     return head.sensors[column('scan_sensor')[scan]];
 }
 
+// The full widths of a scan's resolution cell.
+function cellOf(scan) {
+    return head.cells[column('scan_sensor')[scan]];
+}
+
 // Sensors of the same name look alike in all scenes.
 const sensorNames = [...new Set(head.sensors.map(sensor => sensor.name))].sort();
 

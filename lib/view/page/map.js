@@ -389,7 +389,7 @@ function drawCellRing(scan, target) {
     context.setLineDash([3, 3]);
     for (const side of [-0.5, 0.5]) {
         context.beginPath();
-        context.arc(at.x, at.y, Math.max(0, range + side * sensor.cell_range_m) * camera.scale,
+        context.arc(at.x, at.y, Math.max(0, range + side * cellOf(scan).range_m) * camera.scale,
             middle - half, middle + half);
         context.stroke();
     }

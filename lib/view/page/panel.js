@@ -415,13 +415,13 @@ function showTarget() {
     const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
     panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
         ...targetNotes(scan), ...qualitySection(state.target), ...section(`Made of ${plural(order.length, 'reflection centre')}`, rows),
-        ...moreLine(order.length - rows.length), make('p', cellWords(sensorOf(scan)), 'soft'));
+        ...moreLine(order.length - rows.length), make('p', cellWords(cellOf(scan)), 'soft'));
 }
 
 // The resolution cell that is drawn around a chosen target.
-function cellWords(sensor) {
-    return `The radar’s cell: ${metres(sensor.cell_range_m)} m (dashed arcs on the map) by ` +
-        `${metres(sensor.cell_range_rate_mps)} m/s (a box in range over rate, if enlarged enough).`;
+function cellWords(cell) {
+    return `The radar’s cell: ${metres(cell.range_m)} m (dashed arcs on the map) by ` +
+        `${metres(cell.range_rate_mps)} m/s (a box in range over rate, if enlarged enough).`;
 }
 
 function targetNotes(scan) {

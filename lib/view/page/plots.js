@@ -189,15 +189,15 @@ function plotTarget(plot, kind, drawing, size, axes, scan, target) {
 
 // The resolution cell around the target's leader: echoes inside the box become one target.
 function plotCell(kind, drawing, size, axes, scan, target) {
-    const sensor = sensorOf(scan);
+    const cell = cellOf(scan);
     const leader = leaderOf(target);
     if (kind !== 'rate' || state.rates === 'compensated') {
         return;
     }
     const rate = column('contributor_range_rate_mps')[leader];
     const range = column('contributor_range_m')[leader];
-    const low = plotPlace(size, axes, rate - sensor.cell_range_rate_mps / 2, range - sensor.cell_range_m / 2);
-    const high = plotPlace(size, axes, rate + sensor.cell_range_rate_mps / 2, range + sensor.cell_range_m / 2);
+    const low = plotPlace(size, axes, rate - cell.range_rate_mps / 2, range - cell.range_m / 2);
+    const high = plotPlace(size, axes, rate + cell.range_rate_mps / 2, range + cell.range_m / 2);
     if (high.x - low.x >= leastCell && low.y - high.y >= leastCell) {
         drawing.strokeStyle = ink.edge;
         drawing.lineWidth = 1;
