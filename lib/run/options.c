@@ -409,11 +409,15 @@ static void help_usage(const struct stage *stage, struct text *text)
 /* How frames come and go. */
 static void help_frames(const struct stage *stage, struct text *text)
 {
-    if (stage->reads != 0 || stage->writes != 0)
+    if (stage_takes_files(stage) || stage->reads != 0 || stage->writes != 0)
         text_add_word(text, "\n");
     if (stage->reads != 0)
         help_sections("Frames come as JSON lines from the files or standard input; reads",
                       stage->reads, text);
+    else if (stage_takes_files(stage))
+        add_sentence("Frames come as JSON lines from the files or standard input; reads whatever "
+                     "sections they have.",
+                     text);
     if (stage->writes != 0)
         help_sections("Frames go as JSON lines to standard output; writes", stage->writes, text);
     if (stage_kind(stage) == STAGE_FILTER)
