@@ -25,9 +25,10 @@ RUNGS = ("perfect", "gauss", "paper", "all effects", "smear", "signal, small")
 
 
 def weathered(number, drive):
-    """Scenes are dry and in rain in turn."""
+    """Scenes are dry and in rain in turn, and their lists have the quality that trackers use."""
     weather = scenes.RAIN if number % 2 else scenes.DRY
-    return [frame | {"conditions": weather | frame.get("conditions", {}), "seed": "1"} for frame in drive]
+    return [frame | {"conditions": weather | frame.get("conditions", {}), "seed": "1", "sections": ["objects", "quality"]}
+            for frame in drive]
 
 
 def drives(plan):
