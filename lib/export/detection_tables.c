@@ -205,8 +205,6 @@ static void write_row(const struct writing *writing, enum table table, const voi
 {
     struct text *rows = writing->tables->rows[table];
     const struct csv_columns *columns = writing->tables->columns[table];
-    if (rows == NULL)
-        return;
     for (int i = 0; i < DETECTION_TABLES_STRUCTS && columns[i].list.count > 0; i++)
         csv_columns_write(&columns[i], bases[i], rows);
     csv_columns_end_row(rows);

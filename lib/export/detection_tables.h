@@ -43,7 +43,7 @@ extern const char *const detection_tables_primary[][2];
 enum { DETECTION_TABLES_STRUCTS = 5 };
 
 struct detection_tables {
-    struct text *rows[TABLE_COUNT]; /* where the rows go; NULL: the table is not wanted */
+    struct text *rows[TABLE_COUNT]; /* where the rows go; NULL: only the columns are wanted */
     int64_t frame_key, scan_key, object_key, detection_key; /* of the next row */
     int64_t end_key;
     struct csv_columns columns[TABLE_COUNT][DETECTION_TABLES_STRUCTS];

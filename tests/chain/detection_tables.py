@@ -1,4 +1,4 @@
-"""glint-tables and glint-export-csv against the frames that they read.
+"""glint-tables against the frames that they read.
 
 Usage: python3 tests/chain/detection_tables.py BIN_DIR        exit status 1 if any check fails
 
@@ -8,7 +8,6 @@ tell rows apart, and each of them finds the row that it joins.
 """
 import csv
 import gzip
-import io
 import json
 import math
 import os
@@ -209,8 +208,6 @@ def check_stream(stream, schema, bin_dir, seen):
             for row in rows:
                 seen["empty scans"] += row.get("detections") == "0"
                 seen["labels"].add(row.get("radar_ghost_label"))
-        with gzip.open(f"{folder}/detections.csv.gz") as file:
-            check(file.read() == run("glint-export-csv", bin_dir, frames), f"{stream}: glint-export-csv writes others")
 
 
 def check_ways(bin_dir):
@@ -230,8 +227,6 @@ def check_ways(bin_dir):
                 moved = {name: str(int(cell) + 7 * 10**9) if name.endswith("_key") and cell else cell
                          for name, cell in whole.items()}
                 check(part == moved, f"{table}: part 7 has the row {part}, expected {moved}")
-    table = run("bash pipelines/table.sh", bin_dir).decode()
-    check(len(list(csv.DictReader(io.StringIO(table, newline="")))) > 100, "pipelines/table.sh writes no table")
 
 
 def check_one_run(bin_dir):

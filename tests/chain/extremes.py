@@ -28,7 +28,7 @@ SCHEMAS = {name: json.load(open(f"{ROOT}/schemas/{name}.json"), object_hook=with
 CHAIN = ["glint-extract", "glint-ideal --sensors {sensors}", "{sensor}", "{noise}"]
 SENSORS = ["glint-sensor", "glint-sensor", "glint-sensor-perfect", "glint-sensor-smear"]
 NOISES = ["glint-noise", "glint-noise", "glint-noise-gauss", "glint-noise-none"]
-READERS = ["glint-export-csv", "glint-summary", "glint-view"]
+READERS = ["glint-summary", "glint-view"]
 NUMBERS = ("number", "integer")
 
 

@@ -132,21 +132,20 @@ def ways(frames, folder):
 
 
 def sinks(frames, folder):
-    """Tables and scores, which are lines too; the truth of the scores waits as well."""
+    """Scores, which are lines too; their truth waits as well."""
     cells = CHAIN.rpartition(" | ")[0]
     truth = os.path.join(folder, "truth.jsonl")
     with open(truth, "wb") as out:
         out.write(run(["glint", "-c", cells + " | glint-noise-none"], b"".join(frames)))
-    for sink in ("glint-export-csv", f"glint-score --truth {truth}"):
-        text = f"{CHAIN} | {sink}"
-        seen, expected = 0, []
-        for count in range(1, len(frames) + 1):
-            lines = run(["glint", "-c", text.replace("glint-score", "glint-score --partial")],
-                        b"".join(frames[:count])).splitlines()
-            expected.append(lines[seen:])
-            seen = len(lines)
-        for program in ("bash", "glint"):
-            yield f"{sink.split()[0]}, {program}", converse(program, text, through_pipes(None), frames, expected)
+    text = f"{CHAIN} | glint-score --truth {truth}"
+    seen, expected = 0, []
+    for count in range(1, len(frames) + 1):
+        lines = run(["glint", "-c", text.replace("glint-score", "glint-score --partial")],
+                    b"".join(frames[:count])).splitlines()
+        expected.append(lines[seen:])
+        seen = len(lines)
+    for program in ("bash", "glint"):
+        yield f"glint-score, {program}", converse(program, text, through_pipes(None), frames, expected)
 
 
 def late_truth(frames, folder):

@@ -97,7 +97,7 @@ def tracker(path):
 
 
 def read_status(path):
-    return subprocess.run(["glint-export-csv", path], env=ENVIRONMENT, capture_output=True, check=False).returncode
+    return subprocess.run(["glint-summary", path], env=ENVIRONMENT, capture_output=True, check=False).returncode
 
 
 def one_line(path, status, message):

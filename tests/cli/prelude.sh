@@ -84,7 +84,7 @@ frame() { sed -E "$1" objects.jsonl | glint-extract; }
 reflectors() { sed -E "$1" reflectors.jsonl | glint-ideal --sensors suite.json; }
 echoes() { sed -E "$1" echoes.jsonl | glint-sensor; }
 cells() { sed -E "$1" cells.jsonl | glint-noise; }
-targets() { sed -E "$1" targets.jsonl | glint-export-csv; }
+targets() { sed -E "$1" targets.jsonl | glint-summary; }
 # The cells of one column of a CSV table without quotes.
 column() { awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR > 1 { print $at }'; }
 scenario() { sed -E "$1" scene.json >bad.json; glint-traffic bad.json; }

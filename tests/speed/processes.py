@@ -13,7 +13,7 @@ SUITE = "--sensors lrr77-every-frame"
 # What each executable gets to do with one frame: options, and the stage whose output it reads.
 STARTS = {"extract": ("", 0), "ideal": (SUITE, 1), "plan": (SUITE, 1), "sensor": ("", 2),
           "sensor-perfect": ("", 2), "noise": ("", 3), "noise-gauss": ("", 3),
-          "noise-none": ("", 3), "export-csv": ("", 4), "summary": ("", 4), "view": ("", 4)}
+          "noise-none": ("", 3), "summary": ("", 4), "view": ("", 4)}
 TENTHS = 10
 
 

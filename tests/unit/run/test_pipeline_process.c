@@ -60,8 +60,8 @@ static void programs_out_of_place_are_refused(void **state)
          "glint: -c:1: glint-noise reads files, so it can only stand first; run it with bash\n"},
         {"glint-plan --sensors a | glint-noise",
          "glint: -c:1: glint-plan writes no frames, so it can only stand last; run it with bash\n"},
-        {"glint-export-csv | glint-noise", "glint: -c:1: glint-export-csv writes no frames, so it "
-                                           "can only stand last; run it with bash\n"},
+        {"glint-view | glint-noise", "glint: -c:1: glint-view writes no frames, so it can only "
+                                     "stand last; run it with bash\n"},
         {"glint-extract -o a | glint-noise",
          "glint: -c:1: glint-extract writes to a file, so it can "
          "only stand last; run it with bash\n"},
