@@ -80,7 +80,9 @@ test_programs := $(BUILD)/tests/glint $(BUILD)/tests/glint-traffic-adversarial
 hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
 soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
 
+# Programs of an older tree go.
 all: $(programs) $(test_programs)
+	$(Q)rm -f $(filter-out $(programs),$(wildcard $(BUILD)/bin/*))
 
 $(BUILD)/lib/%.c.o: lib/%.c
 	@mkdir -p $(@D)

@@ -12,11 +12,9 @@ static bool superpose(const struct scan *scan, const struct selection *selection
     const struct sensor *sensor = scan->context.sensor;
     bool superposed = effects_forced(selection, EFFECT_SUPERPOSITION) ||
                       (effects_enabled(selection, EFFECT_SUPERPOSITION) && count > 1);
-    int64_t start_ns = effects_clock_ns(selection);
     bool has_angle =
         resolution_cell_of(sensor, members, count, superposed, scan->context.frame->arena, cell);
     effects_note(selection, EFFECT_SUPERPOSITION, superposed);
-    effects_count_time(selection, EFFECT_SUPERPOSITION, start_ns);
     return has_angle;
 }
 

@@ -30,10 +30,8 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     effects_note(selection, EFFECT_THRESHOLD, true);
     scan_account(&scan, frame, "sensor-smear");
     for (size_t first = 0; first < count; first += together) {
-        int64_t start_ns = effects_clock_ns(selection);
         struct smear smear =
             smear_make(sensor, &scan.received.echoes[first], together, frame->arena);
-        effects_count_time(selection, EFFECT_MERGING, start_ns);
         for (size_t number = 0; number < smear.cells; number++)
             report(frame, &context, selection, &smear, number);
     }

@@ -34,14 +34,11 @@ _Static_assert(EFFECT_COUNT < 64, "a set of effects is a uint64_t with a bit for
 
 extern const char *const effects_names[]; /* NULL-terminated */
 
-/* Report of --explain and glint-plan: the scans of a sensor in which each effect was simulated or
- * left out, and the time of its simulation. */
+/* The scans of a sensor in which each effect was simulated or left out, for glint-plan. */
 struct effect_log {
     int64_t scans;
     uint64_t simulated, left_out; /* sets of effects, of the scan that is not yet counted */
     int64_t scans_simulated[EFFECT_COUNT], scans_left_out[EFFECT_COUNT];
-    int64_t spent_ns[EFFECT_COUNT];
-    int64_t (*clock_ns)(void);
 };
 
 struct selection {
@@ -73,20 +70,6 @@ static inline void effects_note(const struct selection *selection, enum effect_i
     simulated = simulated && effects_enabled(selection, effect);
     if (selection->log != NULL)
         *(simulated ? &selection->log->simulated : &selection->log->left_out) |= EFFECT_BIT(effect);
-}
-
-/* The time before an effect is simulated, by the log's clock; 0 without a log. */
-static inline int64_t effects_clock_ns(const struct selection *selection)
-{
-    return selection->log != NULL ? selection->log->clock_ns() : 0;
-}
-
-/* Adds the time since start_ns to the log's time of the effect. */
-static inline void effects_count_time(const struct selection *selection, enum effect_id effect,
-                                      int64_t start_ns)
-{
-    if (selection->log != NULL)
-        selection->log->spent_ns[effect] += selection->log->clock_ns() - start_ns;
 }
 
 /* Counts the scan in the log. An effect that was simulated in a part of the scan counts as

@@ -86,7 +86,6 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
     if (candidate->line_known)
         return;
     const struct obstruction_line line = line_from_sensor(look, candidate);
-    int64_t start_ns = effects_clock_ns(look->selection);
     candidate->line_known = true;
     candidate->line_of_sight = line_of_sight_past_blockers(look, candidate->side, &line, false);
     if (candidate->under_vehicles != 0 && candidate->line_of_sight.factor != 1) {
@@ -97,7 +96,6 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
         candidate->under = under.factor > candidate->line_of_sight.factor;
         candidate->line_of_sight = candidate->under ? under : candidate->line_of_sight;
     }
-    effects_count_time(look->selection, EFFECT_OCCLUSION, start_ns);
 }
 
 /* True if the candidate is out of reach or blocked, by a few products instead of the arctangent of

@@ -490,10 +490,8 @@ void ghost_echoes_add(struct look *look)
     effects_note(selection, EFFECT_GHOSTS, false);
     if (look->sensor->bounces < BOUNCES_ONE_WAY || !effects_enabled(selection, EFFECT_GHOSTS))
         return;
-    int64_t start_ns = effects_clock_ns(selection);
     struct mirror_faces faces = mirror_faces_of(look);
     for (size_t i = 0; i < look->body_count && faces.list.count > 0; i++)
         if (look->bodies[i].set != NULL)
             add_ghosts_of(look, &faces, &look->bodies[i]);
-    effects_count_time(selection, EFFECT_GHOSTS, start_ns);
 }

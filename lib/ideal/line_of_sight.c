@@ -157,7 +157,6 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
                                  const struct look_extent *wanted)
 {
     const struct selection *selection = look->selection;
-    int64_t start_ns = effects_clock_ns(selection);
     look->blocker_count = 0;
     if (!effects_enabled(selection, EFFECT_OCCLUSION))
         return;
@@ -176,7 +175,6 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
     effects_note(selection, EFFECT_OCCLUSION, some);
     effects_note(selection, EFFECT_HEIGHT, look->sees_over && some);
     effects_note(selection, EFFECT_DIFFRACTION, look->wavelength_m > 0 && some);
-    effects_count_time(selection, EFFECT_OCCLUSION, start_ns);
 }
 
 /* True if a body hides everything behind its outline. */

@@ -265,7 +265,6 @@ struct kinematics look_slant(const struct look *look, double reflector_m, struct
     effects_note(selection, EFFECT_ELEVATION, tilted);
     if (!tilted)
         return plane;
-    int64_t start_ns = effects_clock_ns(selection);
     struct slant slant = kinematics_slant(plane.range_m, height_m);
     struct kinematics read = {
         .range_m = slant.range_m,
@@ -278,7 +277,6 @@ struct kinematics look_slant(const struct look *look, double reflector_m, struct
     if (read.range_m != plane.range_m || read.azimuth_rad != plane.azimuth_rad ||
         read.range_rate_mps != plane.range_rate_mps || *gain != 1)
         *effects |= EFFECT_BIT(EFFECT_ELEVATION);
-    effects_count_time(selection, EFFECT_ELEVATION, start_ns);
     return read;
 }
 

@@ -9,7 +9,6 @@
 #include "text/document.h"
 #include "text/input.h"
 #include "text/list_cache.h"
-#include "text/path.h"
 
 struct chain {
     struct runner *runners;
@@ -190,52 +189,9 @@ static void send_on(void *with)
         output_flush(runner->outputs.items[i], &runner->diag);
 }
 
-/* True if an option or the operand of the stage names the file. */
-static bool is_option(const char *path, const struct field *fields, const char *base)
-{
-    for (const struct field *field = fields; field->name != NULL; field++) {
-        const char *name = field->kind == FIELD_NAME ? FIELD_LOAD(const char *, field, base) : NULL;
-        if (name != NULL && path_same_file(path, strcmp(name, "-") == 0 ? "/dev/stdin" : name))
-            return true;
-        if (field->kind == FIELD_RECORD &&
-            is_option(path, field->record->fields, base + field->offset))
-            return true;
-    }
-    return false;
-}
-
-static bool is_input(const char *path, const struct runner *runner, bool first)
-{
-    const struct common_options *common = &runner->common;
-    for (size_t i = 0; i < common->files.count; i++) {
-        const char *file = common->files.items[i];
-        if (path_same_file(path, strcmp(file, "-") == 0 ? "/dev/stdin" : file))
-            return true;
-    }
-    bool standard = first && common->files.count == 0 && stage_takes_files(runner->stage);
-    return (standard && path_same_file(path, "/dev/stdin")) ||
-           is_option(path, runner->stage->options->fields, runner->state);
-}
-
-/* Refuses a file of --explain that one of the runners reads or that the last one writes. */
-static void refuse_used(struct runner *runner, struct runner *runners, size_t count)
-{
-    const char *path = runner->common.explain;
-    const char *use = runner_writes_to(&runners[count - 1], path) ? "the output" : NULL;
-    for (size_t i = 0; i < count && use == NULL; i++)
-        if (is_input(path, &runners[i], i == 0))
-            use = "an input";
-    if (use != NULL)
-        diag_fail(&runner->diag, DIAG_USAGE, "--explain: %s is %s; expected another file", path,
-                  use);
-}
-
 /* Runners whose command line was refused stay in the chain, as programs that fail do in a pipe. */
 static void start(struct chain *chain)
 {
-    for (size_t i = 0; i < chain->count; i++)
-        if (chain->runners[i].common.explain != NULL)
-            refuse_used(&chain->runners[i], chain->runners, chain->count);
     for (size_t i = 0; i < chain->stages; i++)
         if (!failed(&chain->runners[i]))
             runner_start(&chain->runners[i]);

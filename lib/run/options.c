@@ -23,12 +23,6 @@ static const struct field common_fields[] = {
          struct common_options, seed,
          "seed of the random numbers from here on; absent: the frames' own; at a source: 1"),
      FIELD_OPTIONAL, .absent = 1},
-    {OPTIONAL_NAME(
-         struct common_options, explain,
-         "append to this file which effects the stage simulated or left out, why, and their time"),
-     .word = "FILE"},
-    {OPTIONAL_FLAG(struct common_options, text,
-                   "write the lines of --explain as a table for people instead of JSON")},
     {OPTIONAL_FLAG(
         struct common_options, complete,
         "fail unless the stream has a scene, and every scene all its frames from 0 to the last")},
@@ -82,7 +76,6 @@ static bool applies(const struct stage *stage, const struct field *field)
 {
     enum stage_kind kind = stage_kind(stage);
     bool writes_frames = kind == STAGE_SOURCE || kind == STAGE_FILTER;
-    bool simulates = writes_frames && ((stage->reads | stage->writes) & SECTION_SENSORS) != 0;
     switch (field->offset) {
     case offsetof(struct common_options, output):
         return !stage->into_folder;
@@ -90,9 +83,6 @@ static bool applies(const struct stage *stage, const struct field *field)
         return writes_frames;
     case offsetof(struct common_options, seed):
         return kind != STAGE_TOOL || stage_takes_files(stage);
-    case offsetof(struct common_options, explain):
-    case offsetof(struct common_options, text):
-        return simulates;
     case offsetof(struct common_options, complete):
         return stage_takes_files(stage);
     default:
@@ -281,11 +271,6 @@ int options_read(const struct stage *stage, size_t count, const char *const *wor
     common->seed_given = (line.common_seen >> seed & 1) != 0;
     if (result == 0 && !common->help && !common->version)
         result = check_required(&line);
-    if (result == 0 && common->explain != NULL && strcmp(common->explain, "-") == 0)
-        result =
-            diag_fail(diag, DIAG_USAGE, "--explain: - is the stream of frames; expected a file");
-    if (result == 0 && common->text && common->explain == NULL)
-        result = diag_fail(diag, DIAG_USAGE, "--text: only with --explain");
     if (result != 0)
         diag->code = DIAG_USAGE;
     return result;

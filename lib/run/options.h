@@ -14,9 +14,7 @@ struct stage;
 
 /* The options that programs share; each understands those that mean something for it. */
 struct common_options {
-    const char *output; /* NULL: standard output */
-    const char *explain;
-    bool text;            /* the lines of explain are a table for people */
+    const char *output;   /* NULL: standard output */
     const char *sections; /* NULL: what the frames say */
     bool complete;
     uint64_t seed;

@@ -38,11 +38,6 @@ const char *plan_names(uint64_t effects, struct arena *arena)
     return effects == 0 ? "none" : list_names("", ",", effects, arena);
 }
 
-static int64_t no_clock(void)
-{
-    return 0;
-}
-
 static struct runner *trial(const char *program, const struct suite_choice *choice,
                             struct effect_log *log, struct runner *runner)
 {
@@ -70,7 +65,6 @@ int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runn
     for (int i = 0; i < PLAN_POSITIONS; i++) {
         struct plan_position *position = &plan->positions[i];
         *position = chain[i];
-        position->log.clock_ns = no_clock;
         position->tried =
             trial(position->program, i == PLAN_IDEAL ? &planned : NULL, &position->log, runner);
         if (position->stand_in != NULL)

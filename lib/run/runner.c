@@ -1,16 +1,11 @@
 #include "run/runner.h"
 
-#include <errno.h>
-#include <fcntl.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <strings.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/text.h"
 #include "documents/vehicle.h"
-#include "effects/effect.h"
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "run/suite_choice.h"
@@ -110,14 +105,6 @@ struct input *runner_input(struct runner *runner, const char *path)
     return input;
 }
 
-/* Of the times in a log. */
-static int64_t clock_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
 int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
                    const char *const *words)
 {
@@ -125,10 +112,6 @@ int runner_prepare(struct runner *runner, const struct stage *stage, size_t coun
     runner->state = arena_get(&runner->arena, stage->options->size);
     int result = options_read(stage, count, words, runner->state, &runner->common, &runner->arena,
                               &runner->diag);
-    if (runner->common.explain != NULL) {
-        runner->log = arena_get(&runner->arena, sizeof *runner->log);
-        runner->log->clock_ns = clock_ns;
-    }
     if (result == 0 && runner->common.sections != NULL &&
         sections_read(runner->common.sections, &runner->sections, &runner->diag) != 0)
         return diag_prefix(&runner->diag, "--sections: ");
@@ -222,26 +205,9 @@ static int ensure_message(struct runner *runner, int result)
     return result;
 }
 
-/* Also creates the file, so that one that cannot be written is refused before the run. */
-static int append(const char *path, const struct text *text, struct diag *diag)
-{
-    int file = open(path, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0)
-        return diag_fail(diag, diag_code_by_errno(DIAG_CANNOT_CREATE), "%s: %s", path,
-                         strerror(errno));
-    if (output_write_all(file, text->bytes, text->length) != 0)
-        diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
-    if (close(file) != 0)
-        diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
-    return diag->code == DIAG_OK ? 0 : -1;
-}
-
 int runner_start(struct runner *runner)
 {
     const struct stage *stage = runner->stage;
-    if (runner->log != NULL && runner->common.explain != NULL &&
-        append(runner->common.explain, &(struct text){0}, &runner->diag) != 0)
-        return -1;
     return stage->start == NULL ? 0 : ensure_message(runner, stage->start(runner->state, runner));
 }
 
@@ -328,63 +294,6 @@ int runner_try(struct runner *runner, struct runner *trial, struct frame *frame)
     return diag_prefix(&runner->diag, "glint-%s: ", trial->stage->name);
 }
 
-static void write_line(const char *stage, int effect, const struct effect_log *log,
-                       struct text *text)
-{
-    const char *left_out_when = effect_table[effect]->left_out_when;
-    char ns[24] = "null";
-    if (log->spent_ns[effect] > 0)
-        snprintf(ns, sizeof ns, "%" PRId64, log->spent_ns[effect]);
-    text_format(text,
-                "{\"stage\":\"%s\",\"effect\":\"%s\",\"scans\":%" PRId64 ",\"simulated\":%" PRId64
-                ",\"left_out\":%" PRId64 ",\"ns\":%s,\"left_out_when\":",
-                stage, effects_names[effect], log->scans, log->scans_simulated[effect],
-                log->scans_left_out[effect], ns);
-    if (left_out_when != NULL)
-        text_add_json(text, left_out_when, strlen(left_out_when));
-    else
-        text_add_word(text, "null");
-    text_add_word(text, "}\n");
-}
-
-static void write_row(int effect, const struct effect_log *log, struct text *text)
-{
-    const char *left_out_when = effect_table[effect]->left_out_when;
-    text_format(text, "%-17s %10" PRId64 " %10" PRId64, effects_names[effect],
-                log->scans_simulated[effect], log->scans_left_out[effect]);
-    if (log->spent_ns[effect] > 0)
-        text_format(text, " %10.2f", 1e-3 * (double)log->spent_ns[effect] / (double)log->scans);
-    else
-        text_format(text, " %10s", "-");
-    text_format(text, "  %s\n", left_out_when != NULL ? left_out_when : "-");
-}
-
-/* Appends one line for every effect that is at home in the stage or in the one that it stands in
- * for. A time is null or "-" where none was taken: the effect is simulated together with others, or
- * was left out. The lines go out in one write, so stages of one pipeline may share the file. */
-static int explain(struct runner *runner)
-{
-    const struct common_options *common = &runner->common;
-    const char *stage = runner->stage->name;
-    const struct effect_log *log = runner->log;
-    struct text text = {0};
-    if (common->text)
-        text_format(&text, "%-17s %10s %10s %10s  left out when\n", stage, "simulated", "left out",
-                    "us a scan");
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        const char *home = effect_homes[effect_table[i]->home];
-        if (strncmp(stage, home, strlen(home)) != 0)
-            continue;
-        if (common->text)
-            write_row(i, log, &text);
-        else
-            write_line(stage, i, log, &text);
-    }
-    int result = append(common->explain, &text, &runner->diag);
-    text_free(&text);
-    return result;
-}
-
 int runner_finish(struct runner *runner)
 {
     const struct stage *stage = runner->stage;
@@ -392,7 +301,7 @@ int runner_finish(struct runner *runner)
         return -1;
     if (stage->stop != NULL && ensure_message(runner, stage->stop(runner->state, runner)) != 0)
         return -1;
-    return runner->log == NULL ? 0 : explain(runner);
+    return 0;
 }
 
 int runner_run_tool(struct runner *runner)
@@ -427,39 +336,22 @@ struct output *runner_output(struct runner *runner)
     return add_output(runner, runner->common.output != NULL ? runner->common.output : "-");
 }
 
-bool runner_writes_to(const struct runner *runner, const char *path)
-{
-    const char *output = runner->common.output;
-    return path_same_file(path,
-                          output == NULL || strcmp(output, "-") == 0 ? "/dev/stdout" : output);
-}
-
 struct output *runner_output_beside(struct runner *runner, const char *path)
 {
-    if (!runner_writes_to(runner, strcmp(path, "-") == 0 ? "/dev/stdout" : path))
+    const char *output = runner->common.output;
+    const char *beside = strcmp(path, "-") == 0 ? "/dev/stdout" : path;
+    if (!path_same_file(beside,
+                        output == NULL || strcmp(output, "-") == 0 ? "/dev/stdout" : output))
         return add_output(runner, path);
     diag_fail(&runner->diag, DIAG_USAGE, "%s is the output; expected another file", path);
     return NULL;
-}
-
-/* Refuses an output that one of the runners appends its explanations to. */
-static bool refuse_explained(struct runner *runner, const char *path)
-{
-    const struct runner *from = runner;
-    do
-        if (from->common.explain != NULL && path_same_file(path, from->common.explain))
-            diag_fail(&runner->diag, DIAG_USAGE,
-                      "%s: --explain of glint-%s is the same file; expected another one", path,
-                      from->stage->name);
-    while ((from = from->before) != NULL);
-    return runner->diag.code != DIAG_OK;
 }
 
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name)
 {
     const char *path = arena_format(&runner->arena, "%s/%s", folder, name);
     if (document_check_folder("DIR", folder, &runner->diag) == 0)
-        return refuse_explained(runner, path) ? NULL : add_output(runner, path);
+        return add_output(runner, path);
     runner->diag.code = DIAG_CANNOT_CREATE;
     return NULL;
 }

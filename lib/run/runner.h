@@ -34,7 +34,7 @@ struct runner {
     struct frame_sequence sequence; /* of the frames so far, under --complete */
     int64_t expected_frames;        /* 0 if the source does not say */
     int64_t spent_ns;               /* CPU time of its steps; 0 where the chain takes no times */
-    struct effect_log *log;         /* NULL unless --explain was given */
+    struct effect_log *log;         /* of a stage that a tool tries; NULL: none */
     LIST_OF(struct runner *) tried; /* of the stages that a tool tries */
     LIST_OF(struct reference_stream *) reference_streams;
 };
@@ -50,9 +50,6 @@ int runner_next(struct runner *runner, struct frame *frame);
 int runner_step(struct runner *runner, struct frame *frame);
 int runner_finish(struct runner *runner);
 int runner_run_tool(struct runner *runner);
-
-/* True if --output names that file, or standard output is that file and --output names none. */
-bool runner_writes_to(const struct runner *runner, const char *path);
 
 /* Closes the outputs: all are written to the disk, and then take their names. After a failure, or
  * if they are not whole because another runner failed, none does and nothing is left of them. */

@@ -99,7 +99,7 @@ struct diag *runner_diag(struct runner *runner);
 
 const struct stage *runner_stage(const struct runner *runner);
 
-/* Where the stage notes which effects it simulates and leaves out; NULL without --explain. */
+/* Where the stage notes which effects it simulates and leaves out, for a tool; NULL: nowhere. */
 struct effect_log *runner_log(struct runner *runner);
 
 /* The vehicle document of a class (documents/vehicle.h; folder may be NULL), loaded once. Stages

@@ -48,7 +48,6 @@ static void resolve(struct scan *scan, const struct selection *selection)
     double half_range_m = sensor->half_range_m, half_rate_mps = sensor->half_range_rate_mps;
     const struct received_echo *echoes = scan->received.echoes;
     size_t count = scan->received.count;
-    int64_t start_ns = effects_clock_ns(selection);
     struct resolution_echo *places = arena_get(arena, (count + 1) * sizeof *places);
     size_t *cell = arena_get(arena, (count + 1) * sizeof *cell);
     for (size_t i = 0; i < count; i++)
@@ -64,7 +63,6 @@ static void resolve(struct scan *scan, const struct selection *selection)
     scan->received.cell = cell;
     group_by_cell(scan);
     effects_note(selection, EFFECT_MERGING, merge);
-    effects_count_time(selection, EFFECT_MERGING, start_ns);
 }
 
 struct scan scan_make(const struct effect_scan *context, const struct selection *selection)

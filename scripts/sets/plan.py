@@ -25,8 +25,8 @@ HIGHEST_LEVEL = {"gzip": 9, "zstd": 19}
 OWN_FOLDERS = ("documents", "work")
 # Options of sources that the plan's own members give.
 OWN_OPTIONS = {"--first", "--frames", "--density", "--seed", "--scene", "--scenes", "--ego", "--from-s", "--to-s",
-               "--rate-hz", "--seconds", "--output", "-o", "--complete", "--explain"}
-OPTIONS_OF_CHAIN = {"-o", "--output", "--seed", "--vehicles", "--explain"}
+               "--rate-hz", "--seconds", "--output", "-o", "--complete"}
+OPTIONS_OF_CHAIN = {"-o", "--output", "--seed", "--vehicles"}
 LEAKS = {"ego": 'leaks: egos of one recording see the same traffic; split by "recording", or by "time" with a gap',
          "seed": 'leaks: another seed is the same traffic with other noise; split by "scene", "recording" or "time"'}
 

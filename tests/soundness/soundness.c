@@ -105,11 +105,6 @@ static const struct stage soundness = {
     .next = no_frames,
 };
 
-static int64_t no_clock_ns(void)
-{
-    return 0;
-}
-
 static int64_t now_ns(void)
 {
     struct timespec now;
@@ -171,7 +166,6 @@ static int start_planner(struct planner *planner, const struct bench *bench, con
     for (int i = 0; i < STEPS; i++) {
         if (start_step(planner, i, bench->wanted) != 0)
             return -1;
-        planner->logs[i].clock_ns = no_clock_ns;
         planner->runners[i].log = &planner->logs[i];
     }
     return 0;

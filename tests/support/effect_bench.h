@@ -65,17 +65,12 @@ static inline struct echo effect_bench_echo(double range_m)
                          .ercs = 1};
 }
 
-static inline int64_t effect_bench_clock_ns(void)
-{
-    return 0;
-}
-
 /* Begins a scan of the sensor, as its document's members are now, with a set of effects. The
  * bench's log has what the scan notes. */
 static inline struct effect_scan effect_bench_begin(struct effect_bench *bench, uint64_t effects,
                                                     enum effect_home home)
 {
-    bench->log = (struct effect_log){.clock_ns = effect_bench_clock_ns};
+    bench->log = (struct effect_log){0};
     const struct selection selection = {.allowed = effects, .log = &bench->log};
     suite_derive(&bench->sensor);
     return effect_begin(&bench->frame, &bench->sensor, &selection, home);

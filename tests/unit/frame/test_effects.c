@@ -48,15 +48,10 @@ static void an_unknown_effect_is_refused_by_name(void **state)
     }
 }
 
-static int64_t stopped_clock_ns(void)
-{
-    return 0;
-}
-
 static void a_scan_in_which_one_object_needs_an_effect_counts_as_simulated(void **state)
 {
     (void)state;
-    struct effect_log log = {.clock_ns = stopped_clock_ns};
+    struct effect_log log = {0};
     const struct selection selection = {.allowed = EVERY, .automatic = true, .log = &log};
     effects_note(&selection, EFFECT_OCCLUSION, false);
     effects_note(&selection, EFFECT_OCCLUSION, true);

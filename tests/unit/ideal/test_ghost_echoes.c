@@ -545,11 +545,6 @@ static void add_random_bodies(struct scene *scene, uint64_t *sample)
     }
 }
 
-static int64_t stopped_clock_ns(void)
-{
-    return 0;
-}
-
 /* Reach and view end among the bodies, some of which rise high over the sensor. */
 static void limit_sensor(struct scene *scene, uint64_t *sample)
 {
@@ -568,7 +563,7 @@ static void auto_leaves_out_no_ghost(void **state)
     struct scene *scene = *state;
     uint64_t sample = 2;
     size_t ghosts = 0;
-    struct effect_log log = {.clock_ns = stopped_clock_ns};
+    struct effect_log log = {0};
     for (int round = 0; round < 500; round++) {
         clear_scene(scene);
         add_random_bodies(scene, &sample);
@@ -632,7 +627,7 @@ static void auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view(void **stat
         {-10, -2, -20. / 3, 4, 100, 80, 0, false, 0},
     };
     struct scene *scene = *state;
-    struct effect_log log = {.clock_ns = stopped_clock_ns};
+    struct effect_log log = {0};
     for (size_t i = 0; i < COUNT(cases); i++) {
         clear_scene(scene);
         add_object(scene, "o", cases[i].x_m, cases[i].y_m, 0.2, 0.2);

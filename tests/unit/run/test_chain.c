@@ -183,53 +183,6 @@ static void a_program_of_one_stage_prints_what_it_is_or_refuses(void **state)
     assert_string_equal(captured.out, "");
 }
 
-/* Of sensor --explain TOLD FILE | noise -o OUTPUT. */
-struct explained {
-    const char *told, *file, *output;
-};
-
-static int run_explained(const void *with)
-{
-    const struct explained *paths = with;
-    struct runner runners[2];
-    runner_prepare(&runners[0], stage_by_name("sensor"), 3,
-                   WORDS("--explain", paths->told, paths->file));
-    runner_prepare(&runners[1], stage_by_name("noise"), 2, WORDS("-o", paths->output));
-    return chain_run(runners, 2, NULL);
-}
-
-static void expect_explained(const struct explained *paths, const char *refused)
-{
-    static struct captured captured;
-    char message[256];
-    capture(&captured, run_explained, paths);
-    snprintf(message, sizeof message, "glint-sensor: --explain: %s is %s; expected another file\n",
-             paths->told, refused != NULL ? refused : "");
-    assert_int_equal(captured.code, refused != NULL ? DIAG_USAGE : DIAG_NO_INPUT);
-    assert_int_equal(strcmp(captured.err, message) == 0, refused != NULL);
-}
-
-static void no_file_of_the_chain_is_a_place_to_explain_also_through_links(void **state)
-{
-    struct scratch *scratch = *state;
-    const char *told = scratch->path, *none = "/nonexistent";
-    char link[96], longer[96], list[96];
-    snprintf(link, sizeof link, "%s/link", scratch->directory);
-    snprintf(longer, sizeof longer, "%s/longer", scratch->directory);
-    snprintf(list, sizeof list, "%s/list", scratch->directory);
-    assert_int_equal(symlink(SCRATCH_FILE, link), 0);
-    assert_int_equal(symlink(link, longer), 0);
-    for (int there = 0; there < 2; there++) {
-        expect_explained(&(struct explained){told, none, told}, "the output");
-        expect_explained(&(struct explained){told, none, longer}, "the output");
-        expect_explained(&(struct explained){longer, none, told}, "the output");
-        expect_explained(&(struct explained){told, link, list}, "an input");
-        expect_explained(&(struct explained){told, none, list}, NULL); /* leaves told behind */
-    }
-    unlink(link);
-    unlink(longer);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,9 +191,6 @@ int main(void)
         cmocka_unit_test(the_code_is_that_of_the_rightmost_stage_that_fails),
         cmocka_unit_test(frames_and_bytes_are_counted_with_the_times),
         cmocka_unit_test(a_program_of_one_stage_prints_what_it_is_or_refuses),
-        cmocka_unit_test_setup_teardown(
-            no_file_of_the_chain_is_a_place_to_explain_also_through_links, make_scratch,
-            remove_scratch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

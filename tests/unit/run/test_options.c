@@ -237,7 +237,6 @@ static void a_tool_refuses_options_that_would_do_nothing(void **state)
                  {&maker, "a --complete", "unknown option --complete; see --help"},
                  {&tables, "a -o x", "unknown option -o; see --help"},
                  {&tables, "a --sections all", "unknown option --sections; see --help"},
-                 {&tables, "a --explain x", "unknown option --explain; see --help"},
                  {&reader, "--where x --sections all", "unknown option --sections; see --help"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct result result;

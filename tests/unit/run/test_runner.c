@@ -241,87 +241,6 @@ static void a_list_in_place_of_the_documents_is_checked(void **state)
     arena_free(&arena);
 }
 
-/* The file's content, with a NUL at the end. */
-static const char *content(const struct scratch *scratch)
-{
-    static char bytes[1 << 14];
-    FILE *file = fopen(scratch->path, "r");
-    assert_non_null(file);
-    bytes[fread(bytes, 1, sizeof bytes - 1, file)] = '\0';
-    fclose(file);
-    return bytes;
-}
-
-/* Runs a stage to its end that explains into the scratch file, with a log of four scans. */
-static void explain(const char *stage, const struct scratch *scratch, const char *format)
-{
-    struct runner runner;
-    begin_stage(&runner, stage, WORDS("--explain", scratch->path, format));
-    assert_int_equal(runner.log->scans, 0);
-    int64_t before = runner.log->clock_ns();
-    assert_true(before > 0 && runner.log->clock_ns() >= before);
-    runner.log->scans = 4;
-    runner.log->scans_simulated[EFFECT_MERGING] = 3;
-    runner.log->scans_left_out[EFFECT_MERGING] = 1;
-    runner.log->spent_ns[EFFECT_MERGING] = 8000;
-    assert_int_equal(runner_finish(&runner), 0);
-    runner_free(&runner);
-}
-
-static void a_stage_has_a_line_for_each_effect_that_is_at_home_there(void **state)
-{
-    struct scratch *scratch = *state;
-    explain("sensor-smear", scratch, NULL);
-    const char *told = content(scratch);
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        char part[96];
-        snprintf(part, sizeof part, "{\"stage\":\"sensor-smear\",\"effect\":\"%s\",",
-                 effects_names[i]);
-        bool at_home = strcmp(effect_homes[effect_table[i]->home], "sensor") == 0;
-        assert_int_equal(strstr(told, part) != NULL, at_home);
-    }
-    assert_non_null(strstr(told,
-                           "\"effect\":\"merging\",\"scans\":4,\"simulated\":3,\"left_out\":1,"
-                           "\"ns\":8000,\"left_out_when\":\""));
-    assert_non_null(strstr(told, "\"effect\":\"threshold\",\"scans\":4,\"simulated\":0,\"left_out\""
-                                 ":0,\"ns\":null,\"left_out_when\":null}\n"));
-}
-
-static void stages_share_a_file_and_a_table_is_for_people(void **state)
-{
-    struct scratch *scratch = *state;
-    struct runner runner;
-    begin_stage(&runner, "sensor", WORDS("--explain", scratch->path));
-    assert_string_equal(content(scratch), "");
-    runner_free(&runner);
-    explain("sensor", scratch, "--text");
-    size_t length = strlen(content(scratch));
-    explain("noise", scratch, "--text");
-    const char *told = content(scratch);
-    assert_non_null(strstr(told, "\nmerging                    3          1       2.00  "));
-    assert_non_null(strstr(told, "\nthreshold                  0          0          -  -\n"));
-    assert_memory_equal(told, "sensor             simulated   left out  us a scan  left out when\n",
-                        66);
-    assert_memory_equal(told + length, "noise              simulated ", 29);
-}
-
-static void a_file_that_cannot_be_written_is_refused(void **state)
-{
-    (void)state;
-    struct runner runner;
-    assert_int_equal(
-        runner_prepare(&runner, stage_by_name("noise"), 2, WORDS("--explain", "/nonexistent/told")),
-        0);
-    assert_int_equal(runner_start(&runner), -1);
-    assert_int_equal(runner.diag.code, DIAG_CANNOT_CREATE);
-    assert_string_equal(runner.diag.text, "/nonexistent/told: No such file or directory");
-    runner_free(&runner);
-    begin_stage(&runner, "noise", WORDS("--explain", "/dev/full"));
-    assert_int_equal(runner_finish(&runner), -1);
-    assert_int_equal(runner.diag.code, DIAG_IO);
-    runner_free(&runner);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -329,10 +248,6 @@ int main(void)
         cmocka_unit_test(a_change_that_is_not_declared_is_found),
         cmocka_unit_test(a_stage_that_writes_an_invalid_frame_fails_itself),
         cmocka_unit_test(a_list_in_place_of_the_documents_is_checked),
-#define TEST(function) cmocka_unit_test_setup_teardown(function, make_scratch, remove_scratch)
-        TEST(a_stage_has_a_line_for_each_effect_that_is_at_home_there),
-        TEST(stages_share_a_file_and_a_table_is_for_people),
-        TEST(a_file_that_cannot_be_written_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,11 +18,6 @@ struct bench {
     struct effect_log log;
 };
 
-static int64_t stopped_clock_ns(void)
-{
-    return 0;
-}
-
 static int make_bench(void **state)
 {
     struct bench *bench = calloc(1, sizeof *bench);
@@ -39,7 +34,6 @@ static int make_bench(void **state)
                                     .cell_range_rate_mps = 1,
                                     .cell_extent = CELL_WIDTH};
     suite_derive(&bench->sensor);
-    bench->log.clock_ns = stopped_clock_ns;
     bench->selection = (struct selection){.allowed = EVERYTHING, .log = &bench->log};
     *state = bench;
     return 0;
