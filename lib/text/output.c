@@ -20,14 +20,13 @@
 #include "text/path.h"
 
 #define MARK ".glint-"
-enum { DESCRIPTORS = 100 }; /* that are looked at when a signal ends the process */
 
 /* A file without a name in the folder where it will be. Where the file system has no files without
- * names (NFS) it is called .glint-PROCESS-NUMBER@HOST. The process removes it, also when a signal
- * ends it. After SIGKILL the file stays, until the next process of that host that writes into
- * the folder removes it. A lock (flock) tells it from the file of a process that runs; where there
- * are no locks it stays, and so does what other hosts left. A name that is taken is never written
- * or replaced, and no link is followed. */
+ * names (NFS) it is called .glint-PROCESS-NUMBER@HOST. After a signal that ends the process the
+ * file stays, until the next process of that host that writes into the folder removes it. A lock
+ * (flock) tells it from the file of a process that runs; where there are no locks it stays, and so
+ * does what other hosts left. A name that is taken is never written or replaced, and no link is
+ * followed. */
 struct whole_file {
     int fd;
     char *path, *folder;
@@ -48,14 +47,8 @@ static bool has_name(int fd, int folder, const char *name)
            open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
-/* Removes an open temporary file, unless another process holds its lock. */
-static void remove_unlocked(int fd, int folder, const char *name)
-{
-    if (flock(fd, LOCK_EX | LOCK_NB) == 0 && has_name(fd, folder, name))
-        unlinkat(folder, name, 0);
-}
-
-/* Removes what processes of this host that were killed left in the folder. */
+/* Removes what processes of this host that were ended left in the folder: files that none has
+ * locked. */
 static void remove_leftovers(const char *folder)
 {
     struct utsname system;
@@ -66,39 +59,13 @@ static void remove_leftovers(const char *folder)
         bool ours = host != NULL && strncmp(name, MARK, sizeof MARK - 1) == 0 &&
                     strcmp(host + 1, system.nodename) == 0;
         int fd = ours ? openat(dirfd(list), name, O_RDWR | O_NOFOLLOW | O_NONBLOCK) : -1;
-        if (fd >= 0) {
-            remove_unlocked(fd, dirfd(list), name);
+        if (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) == 0 && has_name(fd, dirfd(list), name))
+            unlinkat(dirfd(list), name, 0);
+        if (fd >= 0)
             close(fd);
-        }
     }
     if (list != NULL)
         closedir(list);
-}
-
-/* Removes the temporary files that this process has open, and lets the signal end it. */
-static void end_by(int signal)
-{
-    char link[] = "/proc/self/fd/00", path[PATH_MAX], *digits = strrchr(link, '/') + 1;
-    for (int fd = STDERR_FILENO + 1; fd < DESCRIPTORS; fd++) {
-        digits[0] = (char)('0' + (fd < 10 ? fd : fd / 10));
-        digits[1] = (char)(fd < 10 ? 0 : '0' + fd % 10);
-        ssize_t length = readlink(link, path, sizeof path - 1);
-        path[length > 0 ? length : 0] = '\0';
-        if (strncmp(path_name(path), MARK, sizeof MARK - 1) == 0)
-            remove_unlocked(fd, AT_FDCWD, path);
-    }
-    raise(signal);
-}
-
-/* From here on a signal that would end the process removes its temporary files first. */
-static void expect_signals(void)
-{
-    static const int signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM, SIGXCPU, SIGXFSZ};
-    struct sigaction end = {.sa_handler = end_by, .sa_flags = (int)SA_RESETHAND}, before;
-    sigfillset(&end.sa_mask);
-    for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++)
-        if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler == SIG_DFL)
-            sigaction(signals[i], &end, NULL);
 }
 
 /* Gives the file the first temporary name that is free; makes the file if it is not open yet.
@@ -162,7 +129,6 @@ static int open_file(struct whole_file *file)
     flock(file->fd, LOCK_EX | LOCK_NB);
     if (file->fd < 0) {
         remove_leftovers(file->folder);
-        expect_signals();
         if (name_file(file) != 0)
             return -1;
     }

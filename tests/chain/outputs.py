@@ -124,7 +124,7 @@ def kills(place, frames):
         due = [f".glint-{process.pid}-1@{os.uname().nodename}"]
         if process.returncode != -number or place.content() != b"old" or place.content("twin") != b"old":
             return f"{number.name}: exit {process.returncode}, {place.content()[:50]}"
-        if hidden and (number != signal.SIGKILL or hidden != due):
+        if hidden and hidden != due:
             return f"{number.name} leaves {hidden}"
     running = begin(place, frames)
     again = place.run("glint-extract -o out", frames)
