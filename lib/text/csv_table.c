@@ -20,15 +20,8 @@ struct reader {
     size_t row_begin;         /* the current row's first cell */
     size_t row;               /* number of the current row */
     int last_end;             /* character that ended the row before */
-    bool semicolons;          /* separate the cells */
     const char *const *names; /* csv_table_form.names, or NULL */
 };
-
-static void refuse_semicolons(const struct csv_table *table, struct diag *diag)
-{
-    if (table->columns == 1 && strchr(table->header[0], ';') != NULL)
-        diag_fail(diag, DIAG_DATA, "the columns are separated by semicolons; expected commas");
-}
 
 static void refuse_repeated_names(const struct csv_table *table, struct arena *arena,
                                   struct diag *diag)
@@ -69,8 +62,6 @@ static void take_header(struct reader *reader)
     table->header = header;
     table->columns = columns;
     reader->begins.count = reader->text.length = 0;
-    if (!reader->semicolons)
-        refuse_semicolons(table, reader->diag);
     refuse_repeated_names(table, reader->arena, reader->diag);
 }
 
@@ -223,8 +214,7 @@ static void look_at_first(struct csv_table_rows *rows, const char *line, size_t 
         form != NULL && strncmp(line, form->preamble, strlen(form->preamble)) == 0;
     if (rows->before_header || memchr(line, ',', length) != NULL)
         return;
-    rows->reader.semicolons = memchr(line, ';', length) != NULL;
-    if (rows->reader.semicolons)
+    if (memchr(line, ';', length) != NULL)
         csv_set_delim(&rows->parser, ';');
     else
         rows->blanks = memchr(line, '"', length) == NULL;
