@@ -128,12 +128,20 @@ static const struct field traffic_options[] = {
     {0},
 };
 
-#define INTERACTION(word, class) "\n    INTERACTION  " word " = " class
-#define HIGHD(word, class) "\n    highD        " word " = " class
-#define IND(word, class) "\n    inD          " word " = " class
-#define NGSIM(word, class) "\n    NGSIM        " word " = " class
-#define ESMINI(word, class) "\n    esmini       " word " = " class
-#define SUMO(word, class, length_m, width_m, height_m) "\n    SUMO         " word " = " class
+#define FIRST(format, word, class) "\n    " format class ": " word
+#define NEXT(word) ", " word
+#define INTERACTION_FIRST(word, class) FIRST("INTERACTION  ", word, class)
+#define INTERACTION(word, class) NEXT(word)
+#define HIGHD_FIRST(word, class) FIRST("highD        ", word, class)
+#define HIGHD(word, class) NEXT(word)
+#define IND_FIRST(word, class) FIRST("inD          ", word, class)
+#define IND(word, class) NEXT(word)
+#define NGSIM_FIRST(word, class) FIRST("NGSIM        ", word, class)
+#define NGSIM(word, class) NEXT(word)
+#define ESMINI_FIRST(word, class) FIRST("esmini       ", word, class)
+#define ESMINI(word, class) NEXT(word)
+#define SUMO_FIRST(word, class, length_m, width_m, height_m) FIRST("SUMO         ", word, class)
+#define SUMO(word, class, length_m, width_m, height_m) NEXT(word)
 
 const struct stage stage_traffic = {
     .name = "traffic",

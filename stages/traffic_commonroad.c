@@ -1,7 +1,6 @@
 /* Traffic of CommonRoad: the obstacles of a scenario in XML, 2018b or 2020a. */
 /* needs: expat */
-#include "recorded/recording.h"
-#include "run/stage.h"
+#include "run/recording_source.h"
 
 static const struct field traffic_commonroad_fields[] = {
     RECORDING_SOURCE("a scenario of CommonRoad, plain or gzip; - is standard input"),
@@ -10,27 +9,15 @@ static const struct field traffic_commonroad_fields[] = {
 
 static int traffic_commonroad_start(void *state, struct runner *runner)
 {
-    struct recording *recording = state;
     struct arena *arena = runner_arena(runner);
-    struct diag *diag = runner_diag(runner);
-    struct input *input = runner_input(runner, recording->source);
-    if (input == NULL)
-        return diag_prefix(diag, "%s: ", recording->source);
-    return recording_open(recording, recorded_commonroad_open(input, arena), arena, diag);
+    struct input *input = recording_source_input(state, runner);
+    return input == NULL ? -1
+                         : recording_open(state, recorded_commonroad_open(input, arena), arena,
+                                          runner_diag(runner));
 }
 
-static int traffic_commonroad_next(void *state, struct frame *frame, struct runner *runner)
-{
-    return recording_next(state, frame, runner_diag(runner));
-}
-
-static int traffic_commonroad_locate_fault(void *state, const struct frame *frame,
-                                           struct runner *runner)
-{
-    return recording_check(state, frame, runner_diag(runner));
-}
-
-#define COMMONROAD(word, class) "\n    " word " = " class
+#define COMMONROAD_FIRST(word, class) "\n    " class ": " word
+#define COMMONROAD(word, class) ", " word
 
 const struct stage stage_traffic_commonroad = {
     .name = "traffic-commonroad",
@@ -53,7 +40,7 @@ const struct stage stage_traffic_commonroad = {
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_commonroad_start,
-    .next = traffic_commonroad_next,
-    .locate_fault = traffic_commonroad_locate_fault,
+    .next = recording_source_next,
+    .locate_fault = recording_source_locate_fault,
     .release = recording_close,
 };

@@ -1,7 +1,6 @@
 /* Traffic of OSI: the ground truth of a trace, message by message, also while it is written. */
 /* needs: libprotobuf-c */
-#include "recorded/recording.h"
-#include "run/stage.h"
+#include "run/recording_source.h"
 
 struct traffic_osi {
     struct recording recording; /* first: its options are the stage's */
@@ -24,9 +23,9 @@ static int traffic_osi_start(void *state, struct runner *runner)
     struct recording *recording = state;
     struct arena *arena = runner_arena(runner);
     struct diag *diag = runner_diag(runner);
-    struct input *input = runner_input(runner, recording->source);
+    struct input *input = recording_source_input(state, runner);
     if (input == NULL)
-        return diag_prefix(diag, "%s: ", recording->source);
+        return -1;
     const char *host = NULL;
     struct recorded_reader reader =
         recorded_osi_open(input, own->rear_axle_velocity, &host, arena, diag);
@@ -35,17 +34,8 @@ static int traffic_osi_start(void *state, struct runner *runner)
     return recording_open(recording, reader, arena, diag);
 }
 
-static int traffic_osi_next(void *state, struct frame *frame, struct runner *runner)
-{
-    return recording_next(state, frame, runner_diag(runner));
-}
-
-static int traffic_osi_locate_fault(void *state, const struct frame *frame, struct runner *runner)
-{
-    return recording_check(state, frame, runner_diag(runner));
-}
-
-#define OSI(kind, number, word, class) "\n    " word " = " class
+#define OSI_FIRST(kind, number, word, class) "\n    " class ": " word
+#define OSI(kind, number, word, class) ", " word
 
 const struct stage stage_traffic_osi = {
     .name = "traffic-osi",
@@ -65,7 +55,7 @@ const struct stage stage_traffic_osi = {
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_osi_start,
-    .next = traffic_osi_next,
-    .locate_fault = traffic_osi_locate_fault,
+    .next = recording_source_next,
+    .locate_fault = recording_source_locate_fault,
     .release = recording_close,
 };

@@ -1,7 +1,6 @@
 /* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs. */
 /* needs: expat */
-#include "recorded/recording.h"
-#include "run/stage.h"
+#include "run/recording_source.h"
 
 static const struct field traffic_sumo_fields[] = {
     RECORDING_SOURCE("the XML that sumo --fcd-output writes, plain or gzip; - is standard input"),
@@ -13,26 +12,15 @@ static const struct field traffic_sumo_fields[] = {
 
 static int traffic_sumo_start(void *state, struct runner *runner)
 {
-    struct recording *recording = state;
     struct arena *arena = runner_arena(runner);
-    struct diag *diag = runner_diag(runner);
-    struct input *input = runner_input(runner, recording->source);
-    if (input == NULL)
-        return diag_prefix(diag, "%s: ", recording->source);
-    return recording_open(recording, recorded_sumo_open(input, arena), arena, diag);
+    struct input *input = recording_source_input(state, runner);
+    return input == NULL ? -1
+                         : recording_open(state, recorded_sumo_open(input, arena), arena,
+                                          runner_diag(runner));
 }
 
-static int traffic_sumo_next(void *state, struct frame *frame, struct runner *runner)
-{
-    return recording_next(state, frame, runner_diag(runner));
-}
-
-static int traffic_sumo_locate_fault(void *state, const struct frame *frame, struct runner *runner)
-{
-    return recording_check(state, frame, runner_diag(runner));
-}
-
-#define SUMO(word, class, length_m, width_m, height_m) "\n    " word " = " class
+#define SUMO_FIRST(word, class, length_m, width_m, height_m) "\n    " class ": " word
+#define SUMO(word, class, length_m, width_m, height_m) ", " word
 
 const struct stage stage_traffic_sumo = {
     .name = "traffic-sumo",
@@ -53,7 +41,7 @@ const struct stage stage_traffic_sumo = {
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_sumo_start,
-    .next = traffic_sumo_next,
-    .locate_fault = traffic_sumo_locate_fault,
+    .next = recording_source_next,
+    .locate_fault = recording_source_locate_fault,
     .release = recording_close,
 };

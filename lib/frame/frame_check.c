@@ -315,15 +315,10 @@ static int join_entries(struct account *account, struct arena *arena, struct dia
 }
 
 /* Along the direct path every pair has an entry, whether it made an echo or not. */
-static int64_t due_along(enum path path, const struct count *count)
-{
-    return path == PATH_DIRECT ? count->pairs : frame_counted_echoes(count, path);
-}
-
 static int compare(const int64_t *entries, const struct count *counted, struct diag *diag)
 {
     for (enum path path = 0; path < PATH_COUNT; path++) {
-        int64_t due = due_along(path, counted);
+        int64_t due = path == PATH_DIRECT ? counted->pairs : frame_counted_echoes(counted, path);
         if (entries[path] != due)
             return diag_fail(
                 diag, DIAG_DATA, "account: sensor \"%s\" has %lld entries of path %s; %lld are due",

@@ -308,18 +308,18 @@ static void add_sentence(const char *words, struct text *text)
     add_words(words, strlen(words), 0, text);
 }
 
-/* Paragraphs are filled anew; lines that begin with a blank stay as they are. */
+/* Paragraphs are filled anew, but lines that begin with blanks are paragraphs of their own,
+ * with a hanging indent. */
 static void add_paragraphs(const char *words, struct text *text)
 {
     while (*words != '\0') {
         size_t length = strcspn(words, "\n");
-        bool kept = words[0] == ' ' || length == 0;
-        while (!kept && words[length] == '\n' && strchr(" \n", words[length + 1]) == NULL)
+        size_t indent = strspn(words, " ");
+        while (indent == 0 && length > 0 && words[length] == '\n' &&
+               strchr(" \n", words[length + 1]) == NULL)
             length += 1 + strcspn(words + length + 1, "\n");
-        if (kept)
-            text_format(text, "%.*s\n", (int)length, words);
-        else
-            add_words(words, length, 0, text);
+        text_format(text, "%*s", (int)indent, "");
+        add_words(words + indent, length - indent, indent > 0 ? indent + 4 : 0, text);
         words += length + (words[length] == '\n');
     }
 }

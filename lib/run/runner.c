@@ -1,6 +1,5 @@
 #include "run/runner.h"
 
-#include <stdio.h>
 #include <strings.h>
 #include <unistd.h>
 
