@@ -54,6 +54,7 @@ static int begin(struct cost_state *own, struct runner *runner)
         .suite = own->choice.sensors,
         .reference = own->reference == COST_ALL ? COST_ALL : COST_SIGNAL,
         .brief = own->brief,
+        .bounded = own->error != NULL || own->within != NULL,
         .whole = own->plan.request,
         .allowed = own->plan.allowed,
     };
@@ -85,7 +86,6 @@ static int plan_sample(struct cost_state *own, struct diag *diag)
 static int measure(struct cost_state *own, struct diag *diag)
 {
     struct cost *cost = &own->cost;
-    chain_trials_divide(&cost->sample);
     if (cost->sample.list.count == 0)
         return 0;
     if (plan_sample(own, diag) != 0 || cost_measure(cost) != 0)
@@ -129,11 +129,13 @@ static int cost_run(void *state, struct runner *runner)
 
 static const struct field cost_options[] = {
     SUITE_CHOICE_OF_IDEAL,
-    {OPTIONAL_NAME(struct cost_state, error,
-                   "print the fastest pipeline whose error is at most this: 10%"),
+    {OPTIONAL_NAME(
+         struct cost_state, error,
+         "print the fastest pipeline with at most this error, in per cent as in the table: 30%"),
      .word = "PERCENT"},
-    {OPTIONAL_NAME(struct cost_state, within,
-                   "print the most accurate pipeline that takes at most this for a frame: 100us"),
+    {OPTIONAL_NAME(
+         struct cost_state, within,
+         "print the pipeline with the least error that takes at most this CPU time a frame: 100us"),
      .word = "TIME"},
     {OPTIONAL_INTEGER(
         struct cost_state, sample, 1, 1e6,
@@ -152,13 +154,13 @@ const struct stage stage_cost = {
     .summary = "Print what accuracy costs on these scenes: chains by time and error.",
     .details =
         "Measures chains of stages on a sample of the frames: CPU time, and error. The error is "
-        "the energy distance of a chain's lists from those of a reference, in per cent of that of "
-        "ideal echoes. At 0 % a chain's lists cannot be told from those of the reference. The "
-        "reference is the "
-        "signal, if the suite has a waveform and glint-sensor-signal lies beside this program, "
-        "and else all that the suite describes. Of the frames it reads the objects and, if they "
-        "are there, the reflectors. Prints at the end of the stream. pipelines/README.md says how "
-        "to read the table.",
+        "the distance of a chain's lists from those of a reference, in per cent of that of ideal "
+        "echoes: the root of their energy distances. At 0 % a chain's lists cannot be told from "
+        "those of the reference. The reference is the signal, if the suite has a waveform and "
+        "glint-sensor-signal lies beside this program, and else all that the suite describes. The "
+        "95 % interval is that of the same frames under other seeds; it says nothing of other "
+        "scenes. Of the frames it reads the objects and, if they are there, the reflectors. Prints "
+        "at the end of the stream. pipelines/README.md says how to read the table.",
     .options = STAGE_OPTIONS(struct cost_state, cost_options),
     .reads = SECTION_OBJECTS,
     .run = cost_run,

@@ -13,7 +13,7 @@
 #include "score/target_score.h"
 #include "text/list_cache.h"
 
-enum { SEEDS = CHAIN_TRIALS_SEEDS, ALL = 2 * SEEDS, FEWEST_BLOCKS = 10 };
+enum { SEEDS = CHAIN_TRIALS_SEEDS, ALL = 2 * SEEDS, SPOILED = SEEDS / 2 };
 
 /* Which of two: drawn for a stretch of this length, at this place among those of its length. */
 static int64_t drawn_half(int64_t stretch, int64_t length)
@@ -85,26 +85,6 @@ int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, 
     return frame_stream_parse(sampled->line, sampled->length, frame, diag);
 }
 
-void chain_trials_divide(struct frame_sample *sample)
-{
-    size_t count = sample->list.count, scenes = sample->names.list.count;
-    size_t *frames = arena_get(sample->arena, (scenes + 1) * sizeof *frames);
-    size_t *passed = arena_get(sample->arena, (scenes + 1) * sizeof *passed);
-    size_t *first = arena_get(sample->arena, (scenes + 1) * sizeof *first);
-    for (size_t i = 0; i < count; i++)
-        sample->scenes += frames[sample->list.items[i].scene]++ == 0;
-    size_t length = sample->scenes >= FEWEST_BLOCKS ? count : count / FEWEST_BLOCKS;
-    length += length == 0;
-    for (size_t i = 0; i < scenes; i++)
-        first[i + 1] = first[i] + (frames[i] + length - 1) / length;
-    for (size_t i = 0; i < count; i++) {
-        struct sampled_frame *frame = &sample->list.items[i];
-        size_t blocks = first[frame->scene + 1] - first[frame->scene];
-        frame->block = first[frame->scene] + passed[frame->scene]++ * blocks / frames[frame->scene];
-    }
-    sample->blocks = first[scenes];
-}
-
 /* One run of a chain over the sample. */
 struct pass {
     struct chain_trials *trials;
@@ -156,7 +136,7 @@ static int keep_lists(struct pass *pass, const struct sampled_frame *sampled)
                              view->field_of_view_rad);
         if (pass->seed == 1)
             *list_add(&pass->trials->scans, pass->kept) =
-                (struct trial_scan){.scene = sampled->scene, .block = sampled->block};
+                (struct trial_scan){.scene = sampled->scene};
         *list_add(&pass->lists->scans, pass->kept) = ensemble_embed(frame, view, pass->kept);
     }
     return 0;
@@ -169,22 +149,33 @@ static void show_progress(struct chain_trials *trials)
         progress_show(&trials->progress, (double)trials->progress.count / (double)frames);
 }
 
-static int run_pass(struct pass *pass)
+static void end_pass(struct pass *pass)
+{
+    text_free(&pass->written);
+    arena_free(&pass->arena);
+    arena_free(&pass->cache.arena);
+}
+
+/* The one that runs second finds its line in the CPU's cache, so they take turns in that, too. */
+static int run_pass(struct pass *pass, struct pass *beside)
 {
     const struct frame_sample *sample = pass->trials->sample;
     pass->frame.arena = &pass->arena;
     pass->frame.list_cache = &pass->cache;
+    beside->frame.arena = &beside->arena;
+    beside->frame.list_cache = &beside->cache;
     int result = 0;
     for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
-        if (run_frame(pass, &sample->list.items[i]) != 0 ||
-            keep_lists(pass, &sample->list.items[i]) != 0)
+        const struct sampled_frame *sampled = &sample->list.items[i];
+        bool both = beside->trials != NULL, first = both && i % 2 == 0;
+        if ((first && run_frame(beside, sampled) != 0) || run_frame(pass, sampled) != 0 ||
+            (both && !first && run_frame(beside, sampled) != 0) || keep_lists(pass, sampled) != 0)
             result = -1;
         show_progress(pass->trials);
     }
     progress_end(&pass->trials->progress);
-    text_free(&pass->written);
-    arena_free(&pass->arena);
-    arena_free(&pass->cache.arena);
+    end_pass(pass);
+    end_pass(beside);
     return result;
 }
 
@@ -195,6 +186,13 @@ static double mean_targets(const struct trial_lists *lists)
         for (size_t k = 0; k < lists[i].scans.count; k++)
             targets += (double)lists[i].scans.items[k].targets.count;
     return targets / scans;
+}
+
+/* Sorts the values. */
+static double median(double values[SEEDS], struct arena *arena)
+{
+    sort_numbers(values, SEEDS, arena);
+    return (values[(SEEDS - 1) / 2] + values[SEEDS / 2]) / 2;
 }
 
 /* A pass with stages of its own. */
@@ -216,45 +214,82 @@ static struct pass begin_pass(struct chain_trials *trials, const struct tried_ch
 static int run_chain(struct chain_trials *trials, struct tried_chain *chain, uint64_t first,
                      struct trial_lists *lists, struct arena *kept)
 {
-    struct pass begun = begin_pass(trials, chain);
-    double us[SEEDS];
+    struct pass begun = begin_pass(trials, chain), begun_beside = {0};
+    if (chain->beside != NULL)
+        begun_beside = begin_pass(trials, chain->beside);
+    double us[SEEDS], saved[SEEDS], frames = (double)trials->sample->list.count;
     for (size_t i = 0; i < SEEDS; i++) {
-        struct pass pass = begun;
-        pass.seed = first + 2 * i;
+        struct pass pass = begun, beside = begun_beside;
+        pass.seed = beside.seed = first + 2 * i;
         pass.lists = &lists[i];
         pass.kept = kept;
-        if (run_pass(&pass) != 0)
+        if (run_pass(&pass, &beside) != 0)
             return -1;
-        us[i] = 1e-3 * (double)pass.spent_ns / (double)trials->sample->list.count;
+        us[i] = 1e-3 * (double)pass.spent_ns / frames;
+        saved[i] = beside.spent_ns > 0 ? 1 - (double)pass.spent_ns / (double)beside.spent_ns : 0;
     }
-    sort_numbers(us, SEEDS, runner_arena(trials->runner));
-    chain->us_per_frame = (us[(SEEDS - 1) / 2] + us[SEEDS / 2]) / 2;
+    chain->us_per_frame = median(us, runner_arena(trials->runner));
+    chain->saved = median(saved, runner_arena(trials->runner));
+    chain->saved_least = saved[0];
     chain->targets_per_scan = mean_targets(lists);
     return 0;
 }
 
-/* Counts the scans of scenes and blocks, numbers the blocks that have any, and weighs them. */
-static void weigh_blocks(struct chain_trials *trials)
+/* Counts scenes and their scans, and weighs each scan. */
+static void weigh_scans(struct chain_trials *trials)
 {
-    const struct frame_sample *sample = trials->sample;
     struct arena *arena = runner_arena(trials->runner);
-    size_t scenes = 0, names = sample->names.list.count, count = trials->scans.count;
-    double *of_scene = arena_get(arena, names * sizeof *of_scene);
-    double *of_block = arena_get(arena, sample->blocks * sizeof *of_block);
-    size_t *number = arena_get(arena, sample->blocks * sizeof *number);
-    for (size_t i = 0; i < count; i++) {
+    double *of_scene = arena_get(arena, trials->sample->names.list.count * sizeof *of_scene);
+    for (size_t i = 0; i < trials->scans.count; i++)
+        trials->scenes += of_scene[trials->scans.items[i].scene]++ == 0;
+    for (size_t i = 0; i < trials->scans.count; i++) {
         struct trial_scan *scan = &trials->scans.items[i];
-        scenes += of_scene[scan->scene]++ == 0;
-        if (of_block[scan->block]++ == 0)
-            number[scan->block] = trials->blocks++;
+        scan->share = 1 / (of_scene[scan->scene] * (double)trials->scenes);
     }
-    trials->block_weight = arena_get(arena, trials->blocks * sizeof(double));
-    for (size_t i = 0; i < count; i++) {
-        struct trial_scan *scan = &trials->scans.items[i];
-        scan->share = 1 / of_block[scan->block];
-        scan->block = number[scan->block];
-        trials->block_weight[scan->block] += 1 / (of_scene[scan->scene] * (double)scenes);
+}
+
+static struct embedded_list spoil(const struct embedded_list *list, double lost, double off_cells,
+                                  struct random_sequence *draws, struct arena *arena)
+{
+    struct embedded_list spoiled = {0};
+    for (size_t i = 0; i < list->targets.count; i++) {
+        if (random_sequence_chance(draws, lost))
+            continue;
+        struct embedded_target *target = list_add(&spoiled.targets, arena);
+        *target = list->targets.items[i];
+        target->axis[0] += off_cells;
     }
+    energy_distance_close(&spoiled, arena);
+    return spoiled;
+}
+
+/* The distances of the reference's lists from each other, one half of the seeds spoiled. */
+static void compare_reference(const struct chain_trials *trials, double lost, double off_cells,
+                              double *distance)
+{
+    struct random_sequence draws = random_sequence_at((struct random_address){0}, RANDOM_SAMPLE);
+    struct arena scratch = {0};
+    for (size_t at = 0; at < trials->scans.count; at++) {
+        struct embedded_list spoiled[SPOILED];
+        const struct embedded_list *list[SEEDS];
+        for (size_t i = 0; i < SEEDS; i++) {
+            list[i] = &trials->reference[i].scans.items[at];
+            if (i >= SPOILED)
+                continue;
+            spoiled[i] = spoil(list[i], lost, off_cells, &draws, &scratch);
+            list[i] = &spoiled[i];
+        }
+        energy_distance_add(list, 0, SEEDS, trials->scans.items[at].share, distance);
+        arena_clear(&scratch);
+    }
+    arena_free(&scratch);
+}
+
+double chain_trials_spoiled(const struct chain_trials *trials, double lost, double off_cells)
+{
+    double distance[SEEDS * SEEDS] = {0};
+    compare_reference(trials, lost, off_cells, distance);
+    return energy_distance_of(&(struct energy_sample){distance, SPOILED, SEEDS - SPOILED});
 }
 
 int chain_trials_begin(struct chain_trials *trials, struct tried_chain *reference)
@@ -265,26 +300,29 @@ int chain_trials_begin(struct chain_trials *trials, struct tried_chain *referenc
     if (trials->scans.count == 0)
         return diag_fail(runner_diag(trials->runner), DIAG_DATA,
                          "no sensor of the suite measures in these frames");
-    weigh_blocks(trials);
+    weigh_scans(trials);
+    trials->among_reference =
+        arena_get(runner_arena(trials->runner), sizeof(double) * SEEDS * SEEDS);
+    compare_reference(trials, 0, 0, trials->among_reference);
     return 0;
 }
 
-/* The distances of all lists from each other, by block. */
-static void compare(const struct chain_trials *trials, const struct trial_lists *lists,
-                    struct energy_blocks *blocks)
+/* The distances of all lists from each other. */
+static struct energy_sample compare(const struct chain_trials *trials,
+                                    const struct trial_lists *lists)
 {
-    size_t size = trials->blocks * ALL * ALL * sizeof(double);
-    double *distance = arena_get(runner_arena(trials->runner), size);
+    double *distance = arena_get(runner_arena(trials->runner), sizeof(double) * ALL * ALL);
+    for (size_t i = 0; i < SEEDS; i++)
+        memcpy(distance + i * ALL, trials->among_reference + i * SEEDS, SEEDS * sizeof *distance);
     for (size_t at = 0; at < trials->scans.count; at++) {
-        const struct trial_scan *scan = &trials->scans.items[at];
         const struct embedded_list *list[ALL];
         for (size_t i = 0; i < SEEDS; i++) {
             list[i] = &trials->reference[i].scans.items[at];
             list[SEEDS + i] = &lists[i].scans.items[at];
         }
-        energy_distance_add(list, ALL, scan->share, distance + scan->block * ALL * ALL);
+        energy_distance_add(list, SEEDS, ALL, trials->scans.items[at].share, distance);
     }
-    *blocks = (struct energy_blocks){distance, trials->block_weight, trials->blocks, SEEDS, SEEDS};
+    return (struct energy_sample){distance, SEEDS, SEEDS};
 }
 
 int chain_trials_run(struct chain_trials *trials, struct tried_chain *chain)
@@ -293,7 +331,7 @@ int chain_trials_run(struct chain_trials *trials, struct tried_chain *chain)
     struct arena kept = {0};
     int result = run_chain(trials, chain, 2, lists, &kept);
     if (result == 0)
-        compare(trials, lists, &chain->blocks);
+        chain->lists = compare(trials, lists);
     arena_free(&kept);
     return result;
 }

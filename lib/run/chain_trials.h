@@ -6,7 +6,8 @@
  * draw them.
  *
  * The time of a frame is the CPU time to read and check its line, to run all stages, and to write
- * it. */
+ * it. A chain may run beside another one, both in turn on every frame, so that what slows the
+ * machine down slows both. */
 #pragma once
 
 #include "base/intern.h"
@@ -15,7 +16,7 @@
 #include "score/energy_distance.h"
 #include "score/relative_error.h"
 
-enum { CHAIN_TRIALS_SEEDS = 4 };
+enum { CHAIN_TRIALS_SEEDS = 6 };
 
 enum { CHAIN_TRIALS_ENERGY = 1 << 0, CHAIN_TRIALS_ERROR = 1 << 1 };
 
@@ -23,8 +24,8 @@ struct sampled_frame {
     const char *line; /* without its newline */
     size_t length;
     uint64_t seed;
-    int64_t place;       /* in the stream, from 0 */
-    size_t scene, block; /* numbers; the block is set by chain_trials_divide */
+    int64_t place; /* in the stream, from 0 */
+    size_t scene;  /* its number */
 };
 
 /* A sample of a stream's frames, spread evenly over it. All frames are kept until there are more
@@ -37,16 +38,10 @@ struct frame_sample {
     int64_t most; /* of the frames that are kept; at least 1 */
     int64_t seen, stride;
     LIST_OF(struct sampled_frame) list;
-    struct intern names;   /* of scenes, with their seeds */
-    size_t scenes, blocks; /* of the frames that are kept; set by chain_trials_divide */
+    struct intern names; /* of scenes, with their seeds */
 };
 
 int chain_trials_sample(struct frame_sample *sample, const struct frame *frame, struct diag *diag);
-
-/* After the last frame: divides the sample into blocks. A block is a scene if there are 10 or more;
- * else each scene is cut into stretches, 10 in all or a few more, or as many as there are frames.
- */
-void chain_trials_divide(struct frame_sample *sample);
 
 /* Reads a frame of the sample, in canonical order and checked. */
 int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag);
@@ -54,18 +49,22 @@ int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, 
 /* A chain, as it was measured. The first group of members says what it is, chain_trials_run
  * measures the second, and cost.h the third. */
 struct tried_chain {
-    const char *chain;              /* what tables call it: "auto, no ghosts" */
-    const char *effects;            /* for glint-ideal */
-    LIST_OF(const char *) programs; /* after glint-ideal: "glint-sensor", "glint-noise" */
+    const char *chain;                /* what tables call it: "auto, no ghosts" */
+    const char *effects;              /* for glint-ideal */
+    LIST_OF(const char *) programs;   /* after glint-ideal: "glint-sensor", "glint-noise" */
+    const struct tried_chain *beside; /* runs beside it; NULL: it runs alone */
 
-    double us_per_frame;         /* the median over seeds */
-    double targets_per_scan;     /* the mean */
-    struct energy_blocks blocks; /* distances from the reference's lists; not of the reference */
+    double us_per_frame;        /* the median over seeds */
+    double targets_per_scan;    /* the mean */
+    struct energy_sample lists; /* the reference's and its own; not of the reference */
+    double saved, saved_least;  /* share of the time of the chain beside it: the median and the
+                                 * least over seeds */
 
-    struct relative_error energy, error; /* D from the reference; over that of ideal echoes */
-    unsigned present;                    /* CHAIN_TRIALS_ENERGY: it is not the reference itself;
-                                          * CHAIN_TRIALS_ERROR: ideal echoes are told from it */
-    bool automatic;                      /* the whole chain, but for some effects */
+    struct relative_error energy;            /* D from the reference */
+    struct relative_error relative_distance; /* root of D over that of ideal echoes */
+    unsigned present;                        /* CHAIN_TRIALS_ENERGY: it is not the reference itself;
+                                              * CHAIN_TRIALS_ERROR: ideal echoes are told from it */
+    bool automatic;                          /* the whole chain, but for some effects */
     uint64_t left_out; /* EFFECT_BITs of the effects that the frames call for and it leaves out */
 };
 
@@ -75,8 +74,8 @@ struct trial_lists {
 };
 
 struct trial_scan {
-    size_t scene, block;
-    double share; /* of its block */
+    size_t scene;
+    double share; /* in the mean over the scans of its scene, and then over scenes */
 };
 
 /* The first group of members is the caller's, the rest zeroed. */
@@ -89,8 +88,8 @@ struct chain_trials {
     struct progress progress; /* in frames of all chains and seeds */
     struct trial_lists reference[CHAIN_TRIALS_SEEDS];
     LIST_OF(struct trial_scan) scans;
-    size_t blocks;        /* that have a scan */
-    double *block_weight; /* of each: scans over those of its scene, over scenes */
+    size_t scenes;           /* that have a scan */
+    double *among_reference; /* the distances of its lists */
 };
 
 /* Runs the reference. Refuses (DIAG_DATA) frames in which no sensor measures, and cells without a
@@ -99,3 +98,7 @@ int chain_trials_begin(struct chain_trials *trials, struct tried_chain *referenc
 
 /* Runs a chain and compares it with the reference. */
 int chain_trials_run(struct chain_trials *trials, struct tried_chain *chain);
+
+/* D between the reference's lists and lists of its law that are spoiled: of all targets this share
+ * is lost, and the others are off by so many cells in range. */
+double chain_trials_spoiled(const struct chain_trials *trials, double lost, double off_cells);

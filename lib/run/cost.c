@@ -1,6 +1,7 @@
 #include "run/cost.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 
 #include "base/elementary.h"
 #include "base/sort.h"
@@ -8,9 +9,6 @@
 #include "run/plan.h"
 
 enum { FRAMES = 250, FEWEST_FRAMES = 16, SIGNAL_SAMPLES = 32000000 };
-
-/* How far times of equal chains may lie apart. */
-static const double SCATTER = 0.02;
 
 /* The model of Buehren and Yang. Folding is the waveform's, which all chains have. */
 static const uint64_t PAPER = EFFECT_BIT(EFFECT_VISIBILITY) | EFFECT_BIT(EFFECT_PLANE_REFLECTION) |
@@ -48,8 +46,9 @@ static const struct field chain_fields[] = {
     {OPTIONAL_RECORD(struct tried_chain, energy, &interval_record,
                      "energy distance from the reference, absent for itself"),
      .section = CHAIN_TRIALS_ENERGY},
-    {OPTIONAL_RECORD(struct tried_chain, error, &interval_record,
-                     "energy over that of ideal echoes, absent where that may be 0"),
+    {OPTIONAL_RECORD(struct tried_chain, relative_distance, &interval_record,
+                     "the error: root of energy over that of ideal echoes, absent where that may "
+                     "be 0; 0 where it is not told from 0"),
      .section = CHAIN_TRIALS_ERROR},
     {0},
 };
@@ -58,6 +57,17 @@ static const struct record chain_record = {
     FIELD_TABLE(struct tried_chain, chain_fields, "cost_chain", "A chain, as it was measured."),
     .present_offset = offsetof(struct tried_chain, present)};
 
+static const struct field scale_fields[] = {
+    {FIELD_REAL_IN(struct cost_scale, lost_30_percent, 0, 1e300, "of all targets")},
+    {FIELD_REAL_IN(struct cost_scale, lost_half, 0, 1e300, "of all targets")},
+    {FIELD_REAL_IN(struct cost_scale, one_cell_off, 0, 1e300, "all ranges")},
+    {0},
+};
+
+static const struct record scale_record = {
+    FIELD_TABLE(struct cost_scale, scale_fields, "cost_scale",
+                "The relative distance of the reference's own lists, spoiled; 0 without errors.")};
+
 static const struct field cost_fields[] = {
     {FIELD_NAME_OF(struct cost, suite, "as --sensors names it")},
     {FIELD_CHOICE_OF(struct cost, reference, cost_references,
@@ -65,7 +75,9 @@ static const struct field cost_fields[] = {
     {FIELD_INTEGER_IN(struct cost, frames, 0, 0x1p53, "of the sample")},
     {FIELD_INTEGER_IN(struct cost, seen_frames, 0, 0x1p53, "of the stream")},
     {FIELD_INTEGER_IN(struct cost, scenes, 0, 0x1p53, "of the sample")},
-    {FIELD_INTEGER_IN(struct cost, blocks, 0, 0x1p53, "which the intervals resample")},
+    {FIELD_INTEGER_IN(struct cost, seeds, 0, 0x1p53,
+                      "of every chain; the intervals are for these frames under others")},
+    {FIELD_RECORD_OF(struct cost, scale, &scale_record, "to read errors by")},
     {OPTIONAL_NAME(struct cost, chosen, "the chain that was found for a bound")},
     {FIELD_LIST_OF(struct cost, chains, &chain_record, "in the order in which they were measured")},
     {0},
@@ -137,13 +149,16 @@ static struct tried_chain *try_chain(struct cost *cost, struct tried_chain chain
     struct arena *arena = runner_arena(cost->runner);
     if (chain_trials_run(&cost->trials, &chain) != 0)
         return NULL;
+    if (chain.beside != NULL)
+        chain.us_per_frame = (1 - chain.saved) * chain.beside->us_per_frame;
     struct tried_chain *added = list_add(&cost->chains, arena);
     *added = chain;
     added->left_out = left_out;
-    added->energy = relative_error_of(&added->blocks, NULL, arena);
+    added->energy = relative_error_of(&added->lists, NULL);
     added->present = CHAIN_TRIALS_ENERGY;
     if (ideal(cost)->energy.low > 0) {
-        added->error = relative_error_of(&added->blocks, &ideal(cost)->blocks, arena);
+        added->relative_distance =
+            relative_error_root(relative_error_of(&added->lists, &ideal(cost)->lists));
         added->present |= CHAIN_TRIALS_ERROR;
     }
     return added;
@@ -171,6 +186,8 @@ static const struct tried_chain *try_without(struct cost *cost, uint64_t left_ou
     const char *effects = plan_request(cost->allowed & ~left_out, arena);
     struct tried_chain chain = chain_of(cost, name, effects, SENSOR, NOISE);
     chain.automatic = true;
+    if (left_out != 0 && cost->bounded)
+        chain.beside = whole(cost);
     return try_chain(cost, chain, left_out);
 }
 
@@ -213,6 +230,13 @@ static size_t expected_chains(const struct cost *cost)
     return count;
 }
 
+/* The relative distance of the reference's lists, spoiled. */
+static double spoiled(const struct cost *cost, double lost, double off_cells)
+{
+    double energy = chain_trials_spoiled(&cost->trials, lost, off_cells);
+    return sqrt(elementary_max(energy, 0) / ideal(cost)->energy.value);
+}
+
 int cost_measure(struct cost *cost)
 {
     bool signal = cost->reference == COST_SIGNAL;
@@ -228,18 +252,21 @@ int cost_measure(struct cost *cost)
         *list_add(&cost->chains, runner_arena(cost->runner)) = reference;
     cost->frames = (int64_t)cost->sample.list.count;
     cost->seen_frames = cost->sample.seen;
-    cost->scenes = (int64_t)cost->sample.scenes;
-    cost->blocks = (int64_t)cost->trials.blocks;
+    cost->scenes = (int64_t)cost->trials.scenes;
+    cost->seeds = CHAIN_TRIALS_SEEDS;
+    if ((ideal(cost)->present & CHAIN_TRIALS_ERROR) != 0)
+        cost->scale =
+            (struct cost_scale){spoiled(cost, 0.3, 0), spoiled(cost, 0.5, 0), spoiled(cost, 0, 1)};
     return 0;
 }
 
 struct relative_error cost_added(const struct cost *cost, const struct tried_chain *chain)
 {
-    return relative_error_added(&chain->blocks, &whole(cost)->blocks, &ideal(cost)->blocks,
+    return relative_error_added(&chain->lists, &whole(cost)->lists, &ideal(cost)->lists,
                                 runner_arena(cost->runner));
 }
 
-/* An effect that may be left out, and the error that it adds for each microsecond that it saves. */
+/* An effect that may be left out, and the squared error that it adds for the time that it saves. */
 struct saving {
     uint64_t effect;
     double price;
@@ -255,17 +282,23 @@ static int cheaper(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* The effects without which the chain is faster by more than times scatter, the cheapest first. */
+/* True unless the chain leaves out effects and is not faster with every seed. Of 64 effects that
+ * save nothing, one passes this sign test. */
+static bool saves_time(const struct tried_chain *chain)
+{
+    return !chain->automatic || chain->left_out == 0 || chain->saved_least > 0;
+}
+
+/* The effects whose time is told from nothing, the cheapest first. */
 static struct savings savings_of(const struct cost *cost)
 {
     struct arena *arena = runner_arena(cost->runner);
     struct savings savings = {0};
     for (size_t i = 0; i < cost->chains.count; i++) {
         const struct tried_chain *chain = &cost->chains.items[i];
-        double saved_us = whole(cost)->us_per_frame - chain->us_per_frame;
-        if (chain->automatic && saved_us > SCATTER * whole(cost)->us_per_frame)
+        if (chain->automatic && chain->left_out != 0 && saves_time(chain))
             *list_add(&savings.list, arena) = (struct saving){
-                chain->left_out, elementary_max(cost_added(cost, chain).value, 0) / saved_us};
+                chain->left_out, elementary_max(cost_added(cost, chain).value, 0) / chain->saved};
     }
     sort_list(&savings.list, cheaper, arena);
     return savings;
@@ -279,18 +312,18 @@ static bool is_reference(const struct cost *cost, const struct tried_chain *chai
     return chain == whole(cost) && strcmp(chain->effects, REFERENCE) == 0;
 }
 
-/* What the bound is on, and what is to be least among the chains that hold it. Estimates of errors
- * may be negative, and yet no chain is more accurate than the reference. */
+/* What the bound is on, and what is to be least among the chains that hold it. Estimates of
+ * energies may be negative, and yet no chain is more accurate than the reference. */
 static double bounded(const struct tried_chain *chain, enum cost_bound bound)
 {
-    return bound == COST_BOUND_US ? chain->us_per_frame : chain->error.high;
+    return bound == COST_BOUND_US ? chain->us_per_frame : chain->relative_distance.high;
 }
 
 static double rival(const struct cost *cost, const struct tried_chain *chain, enum cost_bound bound)
 {
     if (bound == COST_BOUND_ERROR)
         return chain->us_per_frame;
-    return is_reference(cost, chain) ? -(double)INFINITY : chain->error.value;
+    return is_reference(cost, chain) ? -(double)INFINITY : chain->energy.value;
 }
 
 /* Measures chains without more and more effects. For a time they stay out, until the chain is fast
@@ -330,6 +363,8 @@ const struct tried_chain *cost_find(struct cost *cost, enum cost_bound bound, do
     const struct tried_chain *best = NULL, *nearest = ideal(cost);
     for (size_t i = 0; i < cost->chains.count; i++) {
         const struct tried_chain *chain = &cost->chains.items[i];
+        if (!saves_time(chain))
+            continue;
         if (bounded(chain, bound) < bounded(nearest, bound))
             nearest = chain;
         if (bounded(chain, bound) <= most &&
@@ -340,48 +375,53 @@ const struct tried_chain *cost_find(struct cost *cost, enum cost_bound bound, do
         diag_fail(diag, DIAG_DATA,
                   "no chain holds the bound; the nearest, %s, takes %.1f us a frame and has an "
                   "error of up to %.1f %%",
-                  nearest->chain, nearest->us_per_frame, 100 * nearest->error.high);
+                  nearest->chain, nearest->us_per_frame, 100 * nearest->relative_distance.high);
     else
         cost->chosen = best->chain;
     return best;
 }
 
-static void write_reference(const struct cost *cost, const char *mark, struct text *text)
+static void write_head(const struct cost *cost, const char *mark, struct text *text)
 {
     text_format(text,
-                "%sErrors are from %s with other seeds, in %% of those of ideal echoes, with 95 %% "
-                "intervals.\n",
-                mark,
-                cost->reference == COST_SIGNAL ? "the signal" : "all that the suite describes");
-}
-
-static void write_sample(const struct cost *cost, const char *mark, struct text *text)
-{
-    text_format(text,
-                "%s%" PRId64 " of %" PRId64 " frames of %" PRId64 " scene%s in %" PRId64
-                " block%s, seen by %s, with %d seeds.\n",
+                "%s%" PRId64 " of %" PRId64 " frames of %" PRId64 " scene%s, seen by %s, with %d "
+                "seeds.\n",
                 mark, cost->frames, cost->seen_frames, cost->scenes, cost->scenes == 1 ? "" : "s",
-                cost->blocks, cost->blocks == 1 ? "" : "s", cost->suite, CHAIN_TRIALS_SEEDS);
+                cost->suite, CHAIN_TRIALS_SEEDS);
+    text_format(
+        text,
+        "%sErrors are distances from %s, in %% of those of ideal echoes (roots of energies)."
+        "\n%sTheir 95 %% intervals are for these frames under other seeds; they say "
+        "nothing of other scenes.\n",
+        mark, cost->reference == COST_SIGNAL ? "the signal" : "all that the suite describes", mark);
+    if ((ideal(cost)->present & CHAIN_TRIALS_ERROR) != 0)
+        text_format(text,
+                    "%sFor scale: 30 %% of all targets lost is %.0f %%, half of them lost %.0f %%, "
+                    "all ranges off by a cell %.0f %%.\n",
+                    mark, 100 * cost->scale.lost_30_percent, 100 * cost->scale.lost_half,
+                    100 * cost->scale.one_cell_off);
 }
 
-/* In per cent with one digit behind the point, and no minus before a 0. */
-static double percent(double share)
-{
-    return rint(1000 * share) / 10 + 0.0;
-}
+enum { CELL = 32 };
 
-static void write_error(struct relative_error error, struct text *text)
+/* "3.1 %", or "<3.1 %" for an error that is not told from 0. */
+static const char *error_cell(struct relative_error root, char cell[CELL])
 {
-    text_format(text, "%.1f %% (%.1f to %.1f)", percent(error.value), percent(error.low),
-                percent(error.high));
+    if (root.low > 0)
+        snprintf(cell, CELL, "%.1f %%", 100 * root.value);
+    else
+        snprintf(cell, CELL, "<%.1f %%", 100 * root.high);
+    return cell;
 }
 
 static void write_chain(const struct tried_chain *chain, int width, struct text *text)
 {
     text_format(text, "%-*s %11.1f", width, chain->chain, chain->us_per_frame);
+    struct relative_error root = chain->relative_distance;
+    char cell[CELL];
     if ((chain->present & CHAIN_TRIALS_ERROR) != 0)
-        text_format(text, " %7.1f %% %8.1f to %5.1f", percent(chain->error.value),
-                    percent(chain->error.low), percent(chain->error.high));
+        text_format(text, " %9s %8.1f to %5.1f", error_cell(root, cell), 100 * root.low,
+                    100 * root.high);
     else
         text_format(text, " %9s %17s",
                     (chain->present & CHAIN_TRIALS_ENERGY) != 0 ? "-" : "reference", "");
@@ -390,8 +430,7 @@ static void write_chain(const struct tried_chain *chain, int width, struct text 
 
 void cost_write_table(const struct cost *cost, struct text *text)
 {
-    write_sample(cost, "", text);
-    write_reference(cost, "", text);
+    write_head(cost, "", text);
     if ((ideal(cost)->present & CHAIN_TRIALS_ERROR) == 0)
         text_format(text,
                     "There are none: ideal echoes are not told from the reference (D %.3g, %.3g to "
@@ -409,29 +448,39 @@ void cost_write_table(const struct cost *cost, struct text *text)
         text_format(text, "%-*s left out: %s\n", width, "signal", cost->no_signal);
 }
 
+/* In per cent with one digit behind the point, and no minus before a 0. */
+static double percent(double share)
+{
+    return rint(1000 * share) / 10 + 0.0;
+}
+
 static void write_left_out(const struct cost *cost, int effect, struct text *text)
 {
     const struct tried_chain *chain = find_without(cost, EFFECT_BIT(effect));
     if (chain == NULL)
         return;
-    text_format(text, "# %-17s off: saves %.1f us, adds ", effects_names[effect],
-                whole(cost)->us_per_frame - chain->us_per_frame);
-    write_error(cost_added(cost, chain), text);
-    text_add_word(text, "\n");
+    struct relative_error added = cost_added(cost, chain);
+    text_format(text, "# %-17s off: saves %.1f us, adds %.1f (%.1f to %.1f)\n",
+                effects_names[effect], whole(cost)->us_per_frame - chain->us_per_frame,
+                percent(added.value), percent(added.low), percent(added.high));
 }
 
 void cost_write_pipeline(const struct cost *cost, const struct tried_chain *chain,
                          struct text *text)
 {
-    write_sample(cost, "# ", text);
-    write_reference(cost, "# ", text);
+    write_head(cost, "# ", text);
     text_format(text, "# This takes %.1f us a frame instead of %.1f, with an error of ",
                 chain->us_per_frame, whole(cost)->us_per_frame);
+    struct relative_error root = chain->relative_distance;
+    char cell[CELL];
     if ((chain->present & CHAIN_TRIALS_ERROR) != 0)
-        write_error(chain->error, text);
+        text_format(text, "%s (%.1f to %.1f).\n", error_cell(root, cell), 100 * root.low,
+                    100 * root.high);
     else
-        text_add_word(text, "0 by definition");
-    text_add_word(text, ".\n");
+        text_add_word(text, "0 by definition.\n");
+    if (chain->left_out != 0)
+        text_add_word(text, "# What effects add is in points of the squared error, which sum up; "
+                            "10 % squared is 1 point.\n");
     for (int i = 0; i < EFFECT_COUNT; i++)
         if ((chain->left_out & EFFECT_BIT(i)) != 0)
             write_left_out(cost, i, text);

@@ -12,14 +12,22 @@
 enum cost_reference { COST_SIGNAL, COST_ALL };
 extern const char *const cost_references[];
 
+/* What the reference's own lists are off, as roots, if 30 % of all targets are lost, half of them,
+ * or every range is off by one cell. 0 without errors. */
+struct cost_scale {
+    double lost_30_percent, lost_half, one_cell_off;
+};
+
 struct cost {
     const char *suite;
     enum cost_reference reference;
     const char *no_signal; /* why the reference is another; NULL: it is the signal */
-    int64_t frames, seen_frames, scenes, blocks;
+    int64_t frames, seen_frames, scenes, seeds;
+    struct cost_scale scale;
     LIST_OF(struct tried_chain) chains; /* the first is that of ideal echoes */
     const char *chosen;                 /* the name of the one that was found; NULL: none was */
     bool brief;                         /* no chains that leave out an effect */
+    bool bounded;                       /* a bound will be given: chains run beside the whole one */
     const char *whole;        /* what tables call the chain with all effects that are allowed */
     uint64_t allowed, needed; /* EFFECT_BITs of what was asked for, and of what frames call for */
     struct runner *runner;
@@ -31,19 +39,20 @@ extern const struct record cost_record;
 
 /* Before the first frame: finds the reference, and how many frames the sample has at most: those
  * that are given or, for 0, 250, and fewer where a signal has more than 128,000 samples a frame.
- * Runner, suite, reference and brief are set. Fails without the suite. */
+ * Runner, suite, reference, brief and bounded are set. Fails without the suite. */
 int cost_begin(struct cost *cost, int64_t frames);
 
 /* After the last frame: measures the chains. allowed and needed are set. */
 int cost_measure(struct cost *cost);
 
-/* How much more error a chain has than the whole chain; only where ideal echoes have one. */
+/* How much more squared error a chain has than the whole chain; only where ideal echoes have one.
+ */
 struct relative_error cost_added(const struct cost *cost, const struct tried_chain *chain);
 
 /* Finds the fastest chain whose error is at most this with its whole interval, or the chain of the
- * least error that takes at most this time. Effects are left out one by one, first those that save
- * the most time for the error that they add, and every chain is measured. NULL after a message: no
- * chain holds the bound (DIAG_DATA). */
+ * least error that takes at most this time. Effects that save time with every seed are left out one
+ * by one, first those that save the most for the squared error that they add, and every chain is
+ * measured. NULL after a message: no chain holds the bound (DIAG_DATA). */
 enum cost_bound { COST_BOUND_ERROR, COST_BOUND_US };
 const struct tried_chain *cost_find(struct cost *cost, enum cost_bound bound, double most);
 

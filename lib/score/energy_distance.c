@@ -45,10 +45,10 @@ double energy_distance_of_lists(const struct embedded_list *one, const struct em
     return sqrt(elementary_max(one->square + other->square - 2 * inner(one, other), 0));
 }
 
-void energy_distance_add(const struct embedded_list *const *lists, size_t count, double share,
-                         double *distance)
+void energy_distance_add(const struct embedded_list *const *lists, size_t known, size_t count,
+                         double share, double *distance)
 {
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = known; i < count; i++)
         for (size_t j = 0; j < i; j++) {
             double apart = share * energy_distance_of_lists(lists[i], lists[j]);
             distance[i * count + j] += apart;
@@ -89,23 +89,4 @@ double energy_distance_without(const struct energy_sample *sample, size_t list)
 double energy_distance_of(const struct energy_sample *sample)
 {
     return energy_distance_without(sample, NONE);
-}
-
-/* The variance over the lists of one law: (n - 1)/n times the sum of squares about their mean. */
-static double jackknife(const struct energy_sample *sample, struct range lists)
-{
-    double count = (double)(lists.end - lists.first), middle = 0, squares = 0;
-    for (size_t i = lists.first; i < lists.end; i++)
-        middle += energy_distance_without(sample, i) / count;
-    for (size_t i = lists.first; i < lists.end; i++) {
-        double apart = energy_distance_without(sample, i) - middle;
-        squares += apart * apart;
-    }
-    return (count - 1) / count * squares;
-}
-
-double energy_distance_variance(const struct energy_sample *sample)
-{
-    struct range ones = {0, sample->ones}, others = {sample->ones, sample->ones + sample->others};
-    return jackknife(sample, ones) + jackknife(sample, others);
 }

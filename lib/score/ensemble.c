@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "base/sort.h"
 #include "score/reference_stream.h"
+#include "score/relative_error.h"
 #include "score/target_score.h"
 
 #define LEVEL_DB 3
@@ -245,11 +246,12 @@ static struct ensemble_scene_score score_scene(const struct ensemble_scene *trut
             embedded[i] = embed(&seed->lists.items[k], &unit, &scratch);
             list[i] = &embedded[i];
         }
-        energy_distance_add(list, all, 1 / (double)lists, distance);
+        energy_distance_add(list, 0, all, 1 / (double)lists, distance);
         arena_clear(&scratch);
     }
     arena_free(&scratch);
     const struct energy_sample sample = {distance, ones, all - ones};
+    struct relative_error energy = relative_error_of(&sample, NULL);
     return (struct ensemble_scene_score){
         .scene = truth->name,
         .lists = (int64_t)lists,
@@ -257,8 +259,10 @@ static struct ensemble_scene_score score_scene(const struct ensemble_scene *trut
         .listed_seeds = (int64_t)(all - ones),
         .true_targets = mean_count(truth),
         .listed_targets = mean_count(listed),
-        .energy = energy_distance_of(&sample),
-        .energy_error = sqrt(energy_distance_variance(&sample)),
+        .energy = energy.value,
+        .energy_error = energy.deviation,
+        .low = energy.low,
+        .high = energy.high,
     };
 }
 
@@ -303,13 +307,10 @@ int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, doub
     }
     for (size_t i = 0; i < score->scenes.count; i++)
         score->energy += score->scenes.items[i].energy / (double)score->scenes.count;
-    if (score->scenes.count > 1) {
+    score->low = score->scenes.items[0].low;
+    score->high = score->scenes.items[0].high;
+    if (score->scenes.count > 1)
         bootstrap(score, arena);
-        return 0;
-    }
-    double margin = 1.96 * score->scenes.items[0].energy_error;
-    score->low = score->energy - margin;
-    score->high = score->energy + margin;
     return 0;
 }
 

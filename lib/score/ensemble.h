@@ -27,13 +27,14 @@ struct ensemble_scene_score {
     double true_targets, listed_targets; /* mean number in a list */
     double energy;                       /* D, dimensionless, of embedded lists */
     double energy_error;                 /* its standard error, by the jackknife over seeds */
+    double low, high;                    /* its 95 % interval over seeds; not written */
 };
 
 struct ensemble_score {
     LIST_OF(struct ensemble_scene_score) scenes;
     double energy;    /* mean of the scenes' energies */
-    double low, high; /* 95 % interval of energy: bootstrap over scenes; for one scene 1.96 standard
-                       * errors */
+    double low, high; /* 95 % interval of energy: bootstrap over scenes; for one scene over its
+                       * seeds */
 };
 
 extern const struct record ensemble_score_record;

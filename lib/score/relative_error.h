@@ -1,38 +1,34 @@
 /* A chain's error relative to ideal echoes, and its interval.
  *
  * The lists of a reference, of a chain and of ideal echoes are samples of random lists, over the
- * same scans. The error is D of the chain over D of ideal echoes (MODEL 11.2), D being the energy
- * distance from the reference: 1 for ideal echoes, 0 for a chain with the law of the reference. The
- * interval covers 95 %.
+ * same scans. D is the energy distance from the reference, and the squared error is D of the chain
+ * over D of ideal echoes (MODEL 11.2): 1 for ideal echoes, 0 for a chain with the law of the
+ * reference. Its root is what people read; effects add up in the square alone.
  *
- * Scans that follow each other are alike, so they are counted in blocks: whole scenes, or stretches
- * of one. The bootstrap resamples numerator and denominator together (Hesterberg, The American
- * Statistician 69, 2015, has the factor), and a jackknife adds the scatter over seeds. Both parts
- * contain the scatter of single draws, so the interval is too wide where nothing else scatters. */
+ * The interval covers 95 %: Student's t times the standard error of the jackknife over the seeds of
+ * both laws, with the degrees of freedom of Welch and Satterthwaite. It is that of the same frames
+ * under other seeds, and says nothing of other frames. */
 #pragma once
 
 #include "base/arena.h"
+#include "score/energy_distance.h"
 
-/* The distances of all lists from each other, by block: matrices as energy_distance.h has them,
- * first the lists of the reference and then those of a chain, each a mean over the scans of its
- * block. weight is the share of each block in the mean; the weights sum to 1. */
-struct energy_blocks {
-    const double *distance, *weight;
-    size_t blocks, references, seeds; /* at least 3 references and 3 seeds */
-};
-
-/* A figure with its 95 % interval. */
+/* A figure with its 95 % interval and its standard error. */
 struct relative_error {
-    double value, low, high;
+    double value, low, high, deviation;
 };
 
-/* The error of the chain, for an ideal with the same blocks and seeds; without an ideal, which is
- * NULL, D of the chain itself. There is an error only where the low end of the ideal's own D is
- * above 0. */
-struct relative_error relative_error_of(const struct energy_blocks *chain,
-                                        const struct energy_blocks *ideal, struct arena *arena);
+/* The squared error of the chain, for an ideal of the same reference; without an ideal, which is
+ * NULL, D of the chain itself. Estimates are unbiased, so they may be negative. Every law has at
+ * least 3 lists. There is an error only where the low end of the ideal's own D is above 0. */
+struct relative_error relative_error_of(const struct energy_sample *chain,
+                                        const struct energy_sample *ideal);
 
-/* How much more error the chain has than another one. */
-struct relative_error relative_error_added(const struct energy_blocks *chain,
-                                           const struct energy_blocks *other,
-                                           const struct energy_blocks *ideal, struct arena *arena);
+/* How much more squared error the chain has than another one of the same reference. */
+struct relative_error relative_error_added(const struct energy_sample *chain,
+                                           const struct energy_sample *other,
+                                           const struct energy_sample *ideal, struct arena *arena);
+
+/* The root of a squared error. Value and low are 0 where the square is not above 0; high then is
+ * the root of the upper half of its interval. */
+struct relative_error relative_error_root(struct relative_error square);

@@ -33,7 +33,6 @@ static inline struct frame_sample sample_of_traffic(const char *frames, struct a
     begin_stage(&source, "traffic-random", WORDS("--density", "dense", "--frames", frames));
     while (runner_next(&source, &frame) == 1)
         assert_int_equal(chain_trials_sample(&sample, &frame, &diag), 0);
-    chain_trials_divide(&sample);
     runner_free(&source);
     arena_free(&scratch);
     return sample;

@@ -44,17 +44,7 @@ static struct tried_chain usual(struct bench *bench)
     return chain_of(bench, "auto", "glint-sensor", "glint-noise");
 }
 
-/* D of the chain from the reference. */
-static double energy(const struct tried_chain *chain)
-{
-    double sum[MATRIX] = {0};
-    for (size_t block = 0; block < chain->blocks.blocks; block++)
-        for (size_t i = 0; i < MATRIX; i++)
-            sum[i] += chain->blocks.weight[block] * chain->blocks.distance[block * MATRIX + i];
-    return energy_distance_of(&(struct energy_sample){sum, SEEDS, SEEDS});
-}
-
-static void every_scan_counts_in_its_scene_and_the_weights_sum_to_1(void **state)
+static void every_scan_counts_in_its_scene_and_the_shares_sum_to_1(void **state)
 {
     (void)state;
     struct bench bench;
@@ -62,13 +52,10 @@ static void every_scan_counts_in_its_scene_and_the_weights_sum_to_1(void **state
     struct tried_chain reference = usual(&bench);
     assert_int_equal(chain_trials_begin(&bench.trials, &reference), 0);
     assert_int_equal(bench.trials.scans.count, 24); /* of two sensors */
-    assert_int_equal(bench.trials.blocks, 12);
-    double sum = 0, targets = 0;
-    for (size_t i = 0; i < 12; i++)
-        sum += bench.trials.block_weight[i];
-    assert_close(sum, 1, 1e-12);
+    assert_int_equal(bench.trials.scenes, 12);
+    double targets = 0;
     for (size_t i = 0; i < 24; i++) {
-        assert_close(bench.trials.scans.items[i].share, 0.5, 0);
+        assert_close(bench.trials.scans.items[i].share, 1.0 / 24, 1e-15);
         for (size_t seed = 0; seed < SEEDS; seed++)
             targets += (double)bench.trials.reference[seed].scans.items[i].targets.count;
     }
@@ -87,15 +74,13 @@ static void distances_are_symmetric_and_the_same_in_every_run(void **state)
     assert_int_equal(chain_trials_begin(&bench.trials, &reference), 0);
     assert_int_equal(chain_trials_run(&bench.trials, &one), 0);
     assert_int_equal(chain_trials_run(&bench.trials, &other), 0);
-    assert_int_equal(one.blocks.blocks, 12);
-    assert_memory_equal(one.blocks.distance, other.blocks.distance, 12 * MATRIX * sizeof(double));
-    for (size_t block = 0; block < 12; block++)
-        for (size_t i = 0; i < ALL; i++)
-            for (size_t j = 0; j < ALL; j++) {
-                const double *distance = one.blocks.distance + block * MATRIX;
-                assert_close(distance[i * ALL + j], distance[j * ALL + i], 0);
-                assert_true(i != j || distance[i * ALL + j] == 0);
-            }
+    const double *distance = one.lists.distance;
+    assert_memory_equal(distance, other.lists.distance, MATRIX * sizeof *distance);
+    for (size_t i = 0; i < ALL; i++)
+        for (size_t j = 0; j < ALL; j++) {
+            assert_close(distance[i * ALL + j], distance[j * ALL + i], 0);
+            assert_int_equal(distance[i * ALL + j] == 0, i == j);
+        }
     end(&bench);
 }
 
@@ -112,16 +97,50 @@ static void other_seeds_make_other_lists_of_the_same_law(void **state)
     assert_int_equal(chain_trials_run(&bench.trials, &ideal), 0);
     for (size_t i = 0; i < SEEDS; i++)
         for (size_t j = 0; j < SEEDS; j++) {
-            double between = 0, within = 0;
-            for (size_t block = 0; block < 12; block++) {
-                between += same.blocks.distance[block * MATRIX + i * ALL + SEEDS + j];
-                within += ideal.blocks.distance[block * MATRIX + (SEEDS + i) * ALL + SEEDS + j];
-            }
-            assert_true(between > 0);
-            assert_close(within, 0, 0); /* ideal lists draw nothing */
+            assert_true(same.lists.distance[i * ALL + SEEDS + j] > 0);
+            /* ideal lists draw nothing */
+            assert_close(ideal.lists.distance[(SEEDS + i) * ALL + SEEDS + j], 0, 0);
         }
-    assert_true(fabs(energy(&same)) < 0.1 * energy(&ideal));
+    double far = energy_distance_of(&ideal.lists);
+    assert_true(fabs(energy_distance_of(&same.lists)) < 0.1 * far);
     assert_true(ideal.targets_per_scan > same.targets_per_scan);
+    end(&bench);
+}
+
+/* Lists that lose all their targets are farther off than those that lose a half, and the sum over
+ * the reference's own lists is near 0. */
+static void spoiled_lists_are_the_farther_off_the_more_is_lost(void **state)
+{
+    (void)state;
+    struct bench bench;
+    begin(&bench, "srr24-pair-every-frame");
+    struct tried_chain reference = usual(&bench);
+    assert_int_equal(chain_trials_begin(&bench.trials, &reference), 0);
+    double none = chain_trials_spoiled(&bench.trials, 0, 0);
+    double some = chain_trials_spoiled(&bench.trials, 0.3, 0);
+    double half = chain_trials_spoiled(&bench.trials, 0.5, 0);
+    double all = chain_trials_spoiled(&bench.trials, 1, 0);
+    assert_true(fabs(none) < 0.2 * some);
+    assert_true(some < 0.6 * half && half < 0.5 * all);
+    assert_true(chain_trials_spoiled(&bench.trials, 0, 1) > 5 * fabs(none));
+    end(&bench);
+}
+
+/* Beside a chain that simulates more, a chain saves time; its lists are those that it has alone. */
+static void a_chain_has_the_same_lists_beside_another_one(void **state)
+{
+    (void)state;
+    struct bench bench;
+    begin(&bench, "srr24-pair-every-frame");
+    struct tried_chain reference = usual(&bench), alone = usual(&bench), beside = usual(&bench);
+    struct tried_chain other = chain_of(&bench, "none", "glint-sensor-perfect", "glint-noise-none");
+    beside.beside = &other;
+    assert_int_equal(chain_trials_begin(&bench.trials, &reference), 0);
+    assert_int_equal(chain_trials_run(&bench.trials, &alone), 0);
+    assert_int_equal(chain_trials_run(&bench.trials, &beside), 0);
+    assert_memory_equal(alone.lists.distance, beside.lists.distance, MATRIX * sizeof(double));
+    assert_close(alone.saved, 0, 0);
+    assert_true(beside.saved_least <= beside.saved && beside.saved != 0);
     end(&bench);
 }
 
@@ -165,7 +184,6 @@ static struct frame_sample sample_of(int frames, int scenes, int64_t most, struc
         assert_int_equal(chain_trials_sample(&sample, &frame, &diag), 0);
     }
     arena_free(&scratch);
-    chain_trials_divide(&sample);
     return sample;
 }
 
@@ -209,48 +227,19 @@ static void a_sample_is_in_step_with_no_cycle(void **state)
     arena_free(&arena);
 }
 
-static void many_scenes_are_blocks(void **state)
-{
-    (void)state;
-    struct arena arena = {0};
-    struct frame_sample sample = sample_of(60, 12, 100, &arena);
-    assert_int_equal(sample.blocks, 12);
-    for (size_t i = 0; i < 60; i++)
-        assert_int_equal(sample.list.items[i].block, i / 5);
-    arena_free(&arena);
-}
-
-static void few_scenes_are_cut_into_stretches(void **state)
-{
-    (void)state;
-    struct arena arena = {0};
-    struct frame_sample one = sample_of(50, 1, 100, &arena);
-    struct frame_sample three = sample_of(60, 3, 100, &arena);
-    struct frame_sample short_one = sample_of(4, 1, 100, &arena);
-    assert_int_equal(one.blocks, 10);
-    assert_int_equal(three.blocks, 12);
-    assert_int_equal(short_one.blocks, 4);
-    assert_int_equal(sample_of(62, 1, 100, &arena).blocks, 11);
-    for (size_t i = 0; i < 50; i++)
-        assert_int_equal(one.list.items[i].block, i / 5);
-    for (size_t i = 0; i < 60; i++)
-        assert_int_equal(three.list.items[i].block, i / 5);
-    arena_free(&arena);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_scan_counts_in_its_scene_and_the_weights_sum_to_1),
+        cmocka_unit_test(every_scan_counts_in_its_scene_and_the_shares_sum_to_1),
         cmocka_unit_test(distances_are_symmetric_and_the_same_in_every_run),
         cmocka_unit_test(other_seeds_make_other_lists_of_the_same_law),
+        cmocka_unit_test(spoiled_lists_are_the_farther_off_the_more_is_lost),
+        cmocka_unit_test(a_chain_has_the_same_lists_beside_another_one),
         cmocka_unit_test(frames_without_a_scan_are_refused),
         cmocka_unit_test(a_stage_that_fails_names_itself_and_the_frame),
         cmocka_unit_test(all_frames_are_kept_while_they_are_few),
         cmocka_unit_test(of_many_frames_one_of_each_stretch_is_kept),
         cmocka_unit_test(a_sample_is_in_step_with_no_cycle),
-        cmocka_unit_test(many_scenes_are_blocks),
-        cmocka_unit_test(few_scenes_are_cut_into_stretches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
