@@ -211,27 +211,27 @@ def around(one, other):
 def front(rows):
     """The chains than which no cheaper one has a smaller error, cheapest first."""
     kept = []
-    for row in sorted(rows, key=lambda row: (row["us"], row["error"])):
-        if not kept or row["error"] < kept[-1]["error"]:
+    for row in sorted(rows, key=lambda row: (row["us"], row["root"])):
+        if not kept or row["root"] < kept[-1]["root"]:
             kept.append(row)
     return kept
 
 
 def models_panel(rows, radar, size, frame):
     own = [row for row in pick(rows, radar=radar)
-           if row["group"] in ("models", "reference") and "us" in row and "error" in row]
+           if row["group"] in ("models", "reference") and "us" in row and "root" in row]
     panel = Panel(size, frame, Logarithmic([row["us"] for row in own]),
-                  Logarithmic([row[key] for row in own for key in ("error", "low", "high")], 0.1),
+                  Logarithmic([row[key] for row in own for key in ("root", "root_low", "root_high")], 1),
                   (f"What accuracy costs: radar of {radar} range", "CPU time of a frame, µs",
-                   "error: energy distance from the signal, 100 % is that of ideal echoes"), ("", " %%"))
+                   "error: distance from the signal, 100 % is that of ideal echoes"), ("", " %%"))
     best = front(own)
     steps = [point for one, after in zip(best, best[1:]) for point in
-             ((one["us"], one["error"]), (after["us"], one["error"]))] + [(best[-1]["us"], best[-1]["error"])]
+             ((one["us"], one["root"]), (after["us"], one["root"]))] + [(best[-1]["us"], best[-1]["root"])]
     panel.series(steps, GREY, "lines lw 1 dt 2", "no cheaper chain is nearer the signal")
-    bars = panel.bars([(row["us"], row["error"], row["low"], row["high"]) for row in own], BLUE, True)
+    bars = panel.bars([(row["us"], row["root"], row["root_low"], row["root_high"]) for row in own], BLUE, True)
     bars += [around(panel.pixel(*one), panel.pixel(*after)) for one, after in zip(steps, steps[1:])]
-    panel.series([(row["us"], row["error"]) for row in own], BLUE, title="chain, with its 95 % interval")
-    panel.names([(row["us"], row["error"], row["chain"], "black") for row in own], bars)
+    panel.series([(row["us"], row["root"]) for row in own], BLUE, title="chain, with its 95 % interval")
+    panel.names([(row["us"], row["root"], row["chain"], "black") for row in own], bars)
     return panel
 
 
@@ -258,7 +258,7 @@ def effect_panels(rows, radar, size, frames):
     names = sorted(best, key=lambda name: -best[name])
     ends = [row[key] for row in own for key in ("gain_low", "gain_high")]
     gains = Panel(size, frames[0], Signed(ends), Rows(names),
-                  ("Error that an effect takes away, with its 95 % interval", f"percentage points; {Signed.SCALE}", ""))
+                  ("Squared error that an effect takes away, with its 95 % interval", f"points; {Signed.SCALE}", ""))
     cost = {id(row): spent_more(rows, row) for row in own}
     costs = Panel(size, frames[1], Logarithmic(list(cost.values()), 1), Rows(["" for _ in names]),
                   ("Time that it takes", "CPU time of a frame, µs", ""))
@@ -282,12 +282,12 @@ def knob_panel(rows, group, x, y, least, size, frame, texts):
     """One series for each radar, every setting labelled."""
     own = [row for row in pick(rows, group=group) if x in row and y in row]
     panel = Panel(size, frame, Logarithmic([row[x] for row in own]),
-                  Logarithmic([row[key] for row in own for key in (y, "low", "high") if key in row], least), texts)
+                  Logarithmic([row[key] for row in own for key in (y, "root_low", "root_high") if key in row], least), texts)
     bars, names = [], []
     for radar, colour in zip(RADARS if own[0]["radar"] else [""], (BLUE, ORANGE)):
         of = pick(own, radar=radar)
         names += [(row[x], row[y], row["setting"], colour) for row in of]
-        bars += panel.bars([(row[x], row[y], row["low"], row["high"]) for row in of if "low" in row], colour, True)
+        bars += panel.bars([(row[x], row[y], row["root_low"], row["root_high"]) for row in of if "root" in row], colour, True)
         panel.series([(row[x], row[y]) for row in of], colour, title=f"{radar} range" if radar else None)
     panel.names(names, bars)
     return panel
@@ -325,7 +325,7 @@ def knobs_page(rows, path):
     size = (WIDTH, 960)
     frames = [Box(80, 415, 560, 895), Box(515, 845, 560, 895), Box(80, 415, 60, 395), Box(515, 845, 60, 395)]
     panels = [("table", "us", "off", 0, ("Angle by a table of so many entries", ANGLE, "greatest error, rad")),
-              ("spacing", "us", "off", 1e-6, ("Spacing of a contour", FRAME, "error against 0.05 m, %")),
+              ("spacing", "us", "root", 1e-6, ("Spacing of a contour", FRAME, "error from 0.05 m, %")),
               ("digits", "bytes", "off", 1e-6, ("Digits from stage to stage", "bytes of a frame",
                                                 "GOSPA from all digits, cells")),
               ("plumbing", "us", "bytes", 1e-6, ("Plumbing: the same targets", FRAME, "bytes of a frame"))]

@@ -1,9 +1,11 @@
-"""Errors of chains: energy distances from the reference, as parts of that of ideal echoes.
+"""Errors of chains: distances from the reference in per cent of that of ideal echoes.
 
-The error of a chain is the mean of its scenes' energy distances (glint-score --ensemble, MODEL 11.2) over
-that of `perfect`. Its interval is the bootstrap's over whole scenes, which draws the same scenes for both
+The squared error of a chain is the mean of its scenes' energy distances (glint-score --ensemble, MODEL 11.2) over
+that of `perfect`; the error is its root. Squares add up, so differences of chains are in points of the square,
+100 of which are ideal echoes. Intervals are the bootstrap's over whole scenes, which draws the same scenes for both
 means. A scene's distance holds the noise of its seeds, so the spread over scenes holds both.
 """
+import gzip
 import json
 import os
 import random
@@ -60,6 +62,19 @@ def refuse_empty(lists, radar):
                  "expected one in every frame")
 
 
+def spoiled(cache, lists, lost, off_m):
+    """The file of lists that lose this share of their targets, and have all ranges off by this."""
+    def write(path):
+        source = random.Random(1)
+        with gzip.open(path, "wt", compresslevel=1) as out:
+            for line in chains.content(lists).splitlines():
+                frame = json.loads(line)
+                frame["targets"] = [target | {"range_m": target["range_m"] + off_m} for target in frame["targets"]
+                                    if source.random() >= lost]
+                out.write(json.dumps(frame) + "\n")
+    return cache.file(".jsonl.gz", ["spoiled", os.path.basename(lists), lost, off_m], write)
+
+
 class Resamples:
     """Draws of as many scenes with replacement as there are."""
 
@@ -78,9 +93,14 @@ def interval(values):
     return ordered[cut], ordered[-1 - cut]
 
 
+def root(square, low, high):
+    """In per cent, of points of the square; 0 where it is not above 0, and high then of the interval's upper half."""
+    above = max(square, 0)
+    return tuple(10 * end ** 0.5 for end in (above, max(low, 0), above + high - square))
+
+
 class Errors:
-    """Turns distances by scene into errors in per cent of those of ideal echoes. All chains have the
-    scenes of `ideal` in its order."""
+    """Turns distances by scene into errors. All chains have the scenes of `ideal` in its order."""
 
     def __init__(self, ideal, resamples=None):
         self.scenes = list(ideal)
@@ -93,18 +113,18 @@ class Errors:
         return [distances[scene][0] for scene in self.scenes]
 
     def ratio(self, values):
-        """The sum over scenes in per cent of that of ideal echoes, with its interval."""
+        """The sum over scenes in points, 100 for ideal echoes, with its interval."""
         ratios = [100 * total / whole for total, whole in zip(self.resamples.totals(values), self.totals)]
         return (100 * sum(values) / self.whole, *interval(ratios))
 
     def error(self, distances):
-        return self.ratio(self.values(distances))
+        return root(*self.ratio(self.values(distances)))
 
     def difference(self, one, other):
-        """How much the first is off beyond the second, on the same scenes."""
+        """How much the first is off beyond the second, on the same scenes, in points of the square."""
         return self.ratio([a - b for a, b in zip(self.values(one), self.values(other))])
 
     def of_seeds(self, distances):
-        """The half of the interval that seeds alone would leave."""
+        """The half of the interval that seeds alone would leave, in points of the square."""
         squares = sum(distances[scene][1] ** 2 for scene in self.scenes)
         return 100 * SIGNIFICANT * squares ** 0.5 / self.whole

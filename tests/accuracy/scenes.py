@@ -6,18 +6,19 @@ import subprocess
 
 import chains
 
-SEEDS = 8  # in a block
+SEEDS = 4  # in a block
 OF_CHAINS = 1000  # seeds of chains begin behind those of the reference
 HIGHWAY = "data/trajectories/highway.csv --radius-m 250 --scene highway"
 
 # Scripted scenes, vehicles of the recorded table that carry the radar, and frames of random traffic.
 LONG = {"scripted": ["corner-approach", "cut-in", "empty-road", "highway-straight", "intersection", "open-road",
                      "shadows", "two-vehicles", "walled-road", "wet-road", "wheels-and-limbs"],
-        "recorded": ["3", "5", "9", "13"], "random": {"sparse": 4, "medium": 8, "dense": 8}}
+        "recorded": ["3", "5", "9", "13"], "random": {"sparse": 12, "medium": 26, "dense": 26}}
 SHORT = {"scripted": ["corner-approach", "cut-in", "empty-road", "highway-straight", "intersection", "open-road",
                       "shadows", "side-crossing", "two-vehicles"],
-         "recorded": ["1", "5", "7", "13"], "random": {"medium": 12, "dense": 12}}
-EACH = 3  # frames of a scripted scene, and of a drive of the recorded table
+         "recorded": ["1", "5", "7", "13"], "random": {"medium": 32, "dense": 32}}
+MOST = 4  # candidates of random traffic for each frame that is taken
+EACH = 2  # frames of a scripted scene, and of a drive of the recorded table
 DRY = {"road": "asphalt", "clutter_per_m2": 1e-3, "clutter_ercs": 0.05}
 RAIN = DRY | {"rain_mmph": 10, "fog_gpm3": 0.1}
 SIZES = ["small", "medium", "large"]
@@ -84,11 +85,11 @@ def recorded(egos):
 
 
 class Radar:
-    """Its suites by size, and frames in which it lists something."""
+    """Its suites by size, and frames in which it lists something; again: others than those of the tables."""
 
-    def __init__(self, name, cache, few=False):
+    def __init__(self, name, cache, few=False, again=False):
         suites, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT)}[name]
-        self.name, self.cache, self.few = name, cache, few
+        self.name, self.cache, self.few, self.again = name, cache, few, again
         self.suites = {size: self.suite_file(suites(size)) for size in SIZES}
         with open(self.suites["large"]) as suite:
             self.cell_range_m = json.load(suite)["sensors"][0]["cell_range_m"]
@@ -114,13 +115,19 @@ class Radar:
         """Candidates are more than what is taken of them: frames in which the smallest signal sees a target."""
         found = []
         for scene in self.plan["scripted"]:
-            found += evenly(self.seen(evenly(played(f"glint-traffic {scene}"), 24)), EACH)
+            found += self.taken(self.seen(evenly(played(f"glint-traffic {scene}"), 24)))
         drives = self.seen(recorded(self.plan["recorded"]))
         for drive in range(len(self.plan["recorded"])):
-            found += evenly([frame for frame in drives if frame["frame"] // 1000 == drive], EACH)
+            found += self.taken([frame for frame in drives if frame["frame"] // 1000 == drive])
         for density, count in self.plan["random"].items():
-            found += self.seen(played(f"glint-traffic-random --density {density} --frames 80"))[:count]
+            first = 1000 if self.again else 0
+            found += self.seen(played(f"glint-traffic-random --density {density} --first {first} --frames {MOST * count}"))[:count]
         return weathered(found)
+
+    def taken(self, candidates):
+        """Of one drive."""
+        kept = evenly(candidates, EACH)
+        return evenly([frame for frame in candidates if frame not in kept], EACH) if self.again else kept
 
     def seen(self, frames):
         """Those in which the smallest signal lists an object in 3 of 4 draws."""

@@ -4,9 +4,9 @@ import os
 
 from chains import BASES
 
-COST = ["radar", "group", "chain", "scenes", "seeds", "us", "error", "low", "high", "gain", "gain_low", "gain_high",
-        "digest"]
-KNOBS = ["radar", "group", "setting", "us", "off", "low", "high", "bytes"]
+COST = ["radar", "group", "chain", "scenes", "seeds", "us", "root", "root_low", "root_high", "gain", "gain_low",
+        "gain_high", "digest"]
+KNOBS = ["radar", "group", "setting", "us", "off", "root", "root_low", "root_high", "bytes"]
 WORDS = ("radar", "group", "chain", "setting", "digest")
 RADARS = ("long", "short")
 BEGIN = "## Tables\n\n"
@@ -47,30 +47,47 @@ def spent(us):
     return f"{us:.3g} µs" if us < 1000 else f"{us / 1000:.3g} ms"
 
 
-def with_interval(row, name, low, high):
-    return f"{row[name]:.2f} ({row[low]:.2f} to {row[high]:.2f})" if name in row else "not told"
+def with_interval(row):
+    """An effect's gain."""
+    return f"{row['gain']:.2f} ({row['gain_low']:.2f} to {row['gain_high']:.2f})" if "gain" in row else "not told"
+
+
+def error(row):
+    """Below the end of its interval where that reaches 0."""
+    if "root" not in row:
+        return "not told"
+    if row["root_low"] <= 0:
+        return f"<{row['root_high']:.1f}"
+    return f"{row['root']:.1f} ({row['root_low']:.1f} to {row['root_high']:.1f})"
+
+
+def scale(rows, radar):
+    """What an error means: lists of the reference itself, spoiled."""
+    own = pick(rows, radar=radar, group="scale")
+    return f"For scale, {radar} range: " + ", ".join(f"{row['chain']} {error(row)} %" for row in own) + ".\n" if own else ""
 
 
 def models(rows):
     """Chains of both radars: error with its interval, and time."""
     text = "".join(f"{radar.capitalize()} range: {row['scenes']:.0f} scenes, {row['seeds']:.0f} seeds of the "
                    "reference.\n" for radar in RADARS for row in pick(rows, radar=radar)[:1])
-    columns = ("error, %", "time", "points less than")
+    text += "".join(scale(rows, radar) for radar in RADARS)
+    columns = ("error, %", "time", "points of the squared error less than")
     text += "\n" + head(["chain", *(f"{what}, {radar} range" for radar in RADARS for what in columns)])
     names = dict.fromkeys(row["chain"] for row in rows if row["group"] in ("models", "reference"))
     for name in names:
         cells = [name]
         for radar in RADARS:
             row = next(row for row in pick(rows, radar=radar, chain=name) if row["group"] in ("models", "reference"))
-            less = f"{BASES[name]}: " + with_interval(row, "gain", "gain_low", "gain_high") if "gain" in row else ""
-            cells += [with_interval(row, "error", "low", "high"), spent(row["us"]) if "us" in row else "", less]
+            less = f"{BASES[name]}: " + with_interval(row) if "gain" in row else ""
+            cells += [error(row), spent(row["us"]) if "us" in row else "", less]
         text += line(cells)
     return text
 
 
 def measured(rows, radar):
     """False where the interval of ideal echoes reaches 0."""
-    return all("error" in row for row in pick(rows, radar=radar))
+    return all("root" in row for row in pick(rows, radar=radar))
 
 
 NEGLIGIBLE = 0.01  # points
@@ -105,7 +122,7 @@ def effect_cells(rows, row):
     rate = ""
     if told(row) and more is not None:
         rate = f"{row['gain'] / more:.2g}" if more > NOISE_US else "free"
-    return [with_interval(row, "gain", "gain_low", "gain_high"), "" if more is None else f"{more:.0f}", rate]
+    return [with_interval(row), "" if more is None else f"{more:.0f}", rate]
 
 
 def effects(rows, radar):
@@ -114,7 +131,7 @@ def effects(rows, radar):
         return ""
     own = [row for row in pick(rows, radar=radar) if row["group"] in ("added", "left out") and changes(row)]
     found = {(row["group"], row["chain"]): row for row in own}
-    text = f"\nEffects, {radar} range: points of error that an effect takes away\n\n"
+    text = f"\nEffects, {radar} range: points of the squared error that an effect takes away\n\n"
     text += head(["effect", "added to the paper's", "µs", "points per µs", "in all others", "µs", "points per µs"])
     gains = {}
     for row in own:
@@ -141,18 +158,18 @@ def verdicts(rows, radar):
     return text
 
 
-UNITS = {"table": "greatest error, rad", "spacing": "error against 0.05 m, %", "digits": "GOSPA, cells",
+UNITS = {"table": "greatest error, rad", "spacing": "error from 0.05 m, %", "digits": "GOSPA, cells",
          "plumbing": ""}
 
 
 def knob(rows, group):
     own = pick(rows, group=group)
-    columns = [key for key in ("off", "us", "bytes") if any(key in row for row in own)]
+    columns = [key for key in ("off", "us", "bytes") if any(key in row or (key == "off" and "root" in row) for row in own)]
     names = {"off": UNITS[group], "us": "time", "bytes": "bytes a frame"}
     text = f"\n{group.capitalize()}\n\n" + head(["radar", group, *(names[key] for key in columns)])
     for row in own:
         cells = {"us": spent(row["us"]) if "us" in row else "", "bytes": f"{row.get('bytes', 0):.0f}",
-                 "off": with_interval(row, "off", "low", "high") if "low" in row else f"{row.get('off', 0):.3g}"}
+                 "off": error(row) if "root" in row else f"{row.get('off', 0):.3g}"}
         text += line([row["radar"] or "any", row["setting"], *(cells[key] for key in columns)])
     return text
 
