@@ -7,13 +7,14 @@ glint-noise), a suite with a waveform also by its signal (glint-sensor-signal). 
 difference from the echo of its greatest weight; false alarms have none. A range rate is compared in its true fold,
 but targets that the signal puts into a wrong one are a group of their own. Misalignment is left out, as the quality
 does not contain it. The other groups are targets of one echo and of several, unmarked and marked by `looks_merged`.
-Each figure has its 95 % interval by resampling whole scenes. Where variances hold, the mean is 1, and 95 % of the
-errors are within 1.96 standard deviations.
+Where variances hold, the mean is 1, and 95 % of the errors are within 1.96 standard deviations. Each figure has its
+95 % interval over scenes. Such intervals of 20 scenes cover 94 % where scenes are alike, and 85 % where few scenes
+have most of the errors.
 """
 import argparse
 import json
+import math
 import os
-import random
 import subprocess
 import sys
 
@@ -28,7 +29,6 @@ CELLS, SIGNAL = "glint-sensor | glint-noise", "glint-sensor-signal"
 COMPONENTS = {"range": ("range_m", "range_sd_m"), "rate": ("range_rate_mps", "range_rate_sd_mps"),
               "azimuth": ("azimuth_rad", "azimuth_sd_rad")}
 GROUPS = {(False, False): "one", (False, True): "one, marked", (True, False): "several", (True, True): "several, marked"}
-RESAMPLES = 1000
 FEWEST = 8  # scenes with such targets, for an interval
 WITHIN = 1.96 ** 2
 
@@ -61,15 +61,18 @@ def scenes_of(source, suite, chain):
 
 
 def ratio(pairs):
-    """The ratio of sums, with the middle 95 % of those of resampled scenes; without it where few scenes have any."""
+    """The ratio of sums with its 95 % interval: the jackknife's over scenes, of its logarithm, by Student's t. Without
+    the interval where few scenes have any."""
     above, below = map(sum, zip(*pairs))
-    if sum(pair[1] > 0 for pair in pairs) < FEWEST:
+    pairs = [pair for pair in pairs if pair[1]]
+    count = len(pairs)
+    if count < FEWEST or any(pair[0] >= above for pair in pairs):
         return f"{above / below:.3g} (few)" if below else "-"
-    draws = random.Random(1)
-    sums = [tuple(map(sum, zip(*draws.choices(pairs, k=len(pairs))))) for _ in range(RESAMPLES)]
-    ratios = sorted(above / below for above, below in sums if below)
-    cut = len(ratios) // 40
-    return f"{above / below:.3g} ({ratios[cut]:.3g} to {ratios[-1 - cut]:.3g})"
+    logs = [math.log((above - one) / (below - other)) for one, other in pairs]
+    middle, z = sum(logs) / count, 1.96
+    student = z + (z ** 3 + z) / (4 * (count - 1))
+    half = student * math.sqrt((count - 1) / count * sum((log - middle) ** 2 for log in logs))
+    return f"{above / below:.3g} ({above / below * math.exp(-half):.3g} to {above / below * math.exp(half):.3g})"
 
 
 def report(title, scenes):
