@@ -2,11 +2,9 @@
 
 #include "base/elementary.h"
 
-/* The 97.5 % quantile of Student's distribution, by its expansion in 1/freedom (Abramowitz and
- * Stegun 26.7.5); off by 7 % with 2 degrees of freedom, by less than 1 % from 4. */
-static double student(double freedom)
+double relative_error_student(double freedom)
 {
-    double z = 1.96, square = z * z;
+    double z = 1.959964, square = z * z;
     double first = (square + 1) / 4;
     double second = ((5 * square + 16) * square + 3) / 96;
     double third = (((3 * square + 19) * square + 17) * square - 15) / 384;
@@ -40,7 +38,7 @@ struct relative_error relative_error_of(const struct energy_sample *chain,
     double freedom =
         variance * variance /
         (one * one / (double)(chain->ones - 1) + other * other / (double)(chain->others - 1));
-    double half = student(freedom) * sqrt(variance);
+    double half = relative_error_student(freedom) * sqrt(variance);
     return (struct relative_error){value, value - half, value + half, sqrt(variance)};
 }
 

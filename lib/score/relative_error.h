@@ -32,3 +32,7 @@ struct relative_error relative_error_added(const struct energy_sample *chain,
 /* The root of a squared error. Value and low are 0 where the square is not above 0; high then is
  * the root of the upper half of its interval. */
 struct relative_error relative_error_root(struct relative_error square);
+
+/* The 97.5 % quantile of Student's distribution with freedom > 0, by its expansion in 1/freedom
+ * (Abramowitz and Stegun 26.7.5); off by 7 % for freedom 2, by less than 1 % from 4 on. */
+double relative_error_student(double freedom);

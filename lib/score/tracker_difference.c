@@ -3,6 +3,7 @@
 #include <inttypes.h>
 
 #include "base/elementary.h"
+#include "score/relative_error.h"
 
 enum { FEWEST = 5 };
 
@@ -50,17 +51,6 @@ void tracker_difference_add(struct tracker_scenes *scenes, const char *scene,
         sums->sums[i] += one[i] - other[i];
 }
 
-/* The 97.5 % quantile of Student's distribution, by its expansion in 1/freedom (Abramowitz and
- * Stegun 26.7.5); off by less than 1 % from 4 degrees of freedom on. */
-static double student(double freedom)
-{
-    double z = 1.959964, square = z * z;
-    double first = (square + 1) / 4;
-    double second = ((5 * square + 16) * square + 3) / 96;
-    double third = (((3 * square + 19) * square + 17) * square - 15) / 384;
-    return z * (1 + ((third / freedom + second) / freedom + first) / freedom);
-}
-
 static struct tracker_interval interval_of(const struct tracker_scenes *scenes, int figure)
 {
     double count = (double)scenes->list.count, sum = 0, squares = 0;
@@ -72,7 +62,7 @@ static struct tracker_interval interval_of(const struct tracker_scenes *scenes, 
         double off = scene->sums[figure] / (double)scene->frames - mean;
         squares += off * off;
     }
-    double half = student(count - 1) * sqrt(squares / (count - 1) / count);
+    double half = relative_error_student(count - 1) * sqrt(squares / (count - 1) / count);
     return (struct tracker_interval){mean, mean - half, mean + half};
 }
 
