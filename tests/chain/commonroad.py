@@ -255,8 +255,9 @@ def shared_options(folder):
     write(folder, "strange.xml", NEW.replace("<type>truck</type>", "<type>unknown</type>"))
     mapped = run(PROGRAM, os.path.join(folder, "strange.xml"), "--ego", "30", "--class-default", "post")
     check(mapped[1]["objects"][1]["class"] == "post", "--class-default")
-    help_text = os.popen(f"{BIN}/{PROGRAM} --help").read()
-    check(all(f"\n    {word} = {class_}\n" in help_text for word, class_ in CLASSES.items()), "--help has the classes")
+    lines = re.findall(r"\n    ([a-z]+): (.*)", os.popen(f"{BIN}/{PROGRAM} --help").read())
+    listed = {word: class_ for class_, words in lines for word in words.split(", ")}
+    check(listed.items() >= CLASSES.items(), "--help has the classes")
 
 
 def flip(match):

@@ -416,14 +416,26 @@ def energy(ones, others):
 
 
 def jackknife(ones, others, mean):
-    """Standard error of the mean over lists of the energy distance, of lists by seed."""
-    variance = 0
+    """The standard error of the mean over lists of the energy distance, of lists by seed, and its degrees of freedom
+    by Welch and Satterthwaite."""
+    variances = []
     for part in (ones, others):
         left_out = [mean([of for of in ones if of is not seed], [of for of in others if of is not seed])
                     for seed in part]
         middle = sum(left_out) / len(part)
-        variance += (len(part) - 1) / len(part) * sum((value - middle) ** 2 for value in left_out)
-    return math.sqrt(variance)
+        variances.append((len(part) - 1) / len(part) * sum((value - middle) ** 2 for value in left_out))
+    freedom = sum(variances) ** 2 / sum(one ** 2 / (len(part) - 1) for one, part in zip(variances, (ones, others)))
+    return math.sqrt(sum(variances)), freedom
+
+
+def student(freedom):
+    """The 97.5 % quantile of Student's distribution: its density, summed up by steps of 1e-4."""
+    density = math.gamma((freedom + 1) / 2) / math.sqrt(freedom * math.pi) / math.gamma(freedom / 2)
+    place, below, step = 0.0, 0.5, 1e-4
+    while below < 0.975:
+        below += step * density * (1 + (place + step / 2) ** 2 / freedom) ** (-(freedom + 1) / 2)
+        place += step
+    return place
 
 
 def check_ensemble(bench):
@@ -451,10 +463,11 @@ def check_ensemble(bench):
         return sum(values) / len(values)
 
     ones, others = by_seed(truth), by_seed(listed)
-    error = jackknife(ones, others, mean)
+    error, freedom = jackknife(ones, others, mean)
     near(score["energy"], mean(ones, others), "ensemble: energy")
     near(scene["energy_error"], error, "ensemble: error")
-    near(score["high"], score["energy"] + 1.96 * error, "ensemble: high")
+    high = score["energy"] + student(freedom) * error
+    check(abs(score["high"] - high) < 0.01 * student(freedom) * error, f"ensemble: high: {score['high']}, expected {high}")
     near(scene["true_targets"], sum(len(of) for seed in ones for of in seed) / len(ones) / len(ones[0]),
          "ensemble: targets")
 

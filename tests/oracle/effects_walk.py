@@ -127,10 +127,10 @@ def one_echo_of_the_signal(bench):
 
 
 def two_echoes(bench):
-    """Two posts are one target of glint-sensor up to half a cell, which grows as the integral's width does:
+    """Two posts are one target of glint-sensor up to the resolution, 1.7748 cells, which grows as the integral's width does:
     2 cells at rest, 2.578 and 5.168 over 4 and 10."""
     for cells, width in ((0, 2.0), (4, 2.578), (10, 5.168)):
-        edge = 0.5 * width / 2
+        edge = 1.7748 * width / 2
         frames = numbered([scene(cells, (0, apart)) for apart in (edge - 0.03, edge + 0.03)])
         counts = [len(one["targets"]) for one in run(bench, frames, [radar("hann")], PLAIN)]
         bench.check(counts == [1, 2], f"{cells} cells: {counts} targets below and above {edge} cells")
