@@ -75,10 +75,10 @@ def accuracy(bench):
     for name in ("steady", "by_snr"):
         document = RADARS[name]
         _, ranges, accuracies = sheet_of(bench, document)
-        far, (_, range_m, rate_kmh, azimuth_deg) = float(ranges[0.0, 10, 0]) / math.sqrt(10), accuracies[2][:4]
+        far, (_, range_m, rate_mps, azimuth_deg) = float(ranges[0.0, 10, 0]) / math.sqrt(10), accuracies[2][:4]
         targets = look(bench, document, "section_10", far, 0.0, DRAWS)
         bench.check(len(targets) == DRAWS, f"{name}: {len(targets)} targets")
-        for key, scale, printed in (("range_m", 1, range_m), ("range_rate_mps", 3.6, rate_kmh),
+        for key, scale, printed in (("range_m", 1, range_m), ("range_rate_mps", 1, rate_mps),
                                     ("azimuth_rad", 180 / math.pi, azimuth_deg)):
             measured = scale * rms([one[key] - one["cell_" + key] for one in targets])
             bench.check(abs(measured / printed - 1) < 0.08, f"{name}: {key} {measured}, printed {printed}")
