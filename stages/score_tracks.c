@@ -18,9 +18,9 @@ struct score_tracks {
     enum track_truth objects;
     double cutoff_m;
     bool partial, summary, text;
-    struct tracker tracker, other; /* of --tracks and --against */
-    int64_t frames, id_switches;
-    struct score_tally tally; /* for the summary */
+    struct tracker tracker, other;            /* of --tracks and --against */
+    int64_t true_frames, frames, id_switches; /* of the truth; of the truth and all trackers */
+    struct score_tally tally;                 /* for the summary */
     struct tracker_scenes scenes;
     struct frame_sequence sequence;
     struct intern seen; /* classes of all objects but the egos, for --classes */
@@ -115,6 +115,7 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
         return -1;
     if (own->classes != NULL)
         note_classes(own, frame, lasting);
+    own->true_frames++;
     int found = read_tracks(tracker, frame, runner),
         matched = read_tracks(&own->other, frame, runner);
     if (found <= 0 || matched <= 0)
@@ -150,7 +151,7 @@ static int score_tracks_stop(void *state, struct runner *runner)
         return 0;
     struct score_summary summary = {
         .frames = own->frames,
-        .true_frames = reference_stream_missing(own->tracker.stream),
+        .true_frames = own->true_frames - own->frames,
         .listed_frames = reference_stream_unmatched(own->tracker.stream),
         .cutoff_m = own->cutoff_m,
         .id_switches = own->id_switches,

@@ -479,8 +479,9 @@ void cost_write_pipeline(const struct cost *cost, const struct tried_chain *chai
     else
         text_add_word(text, "0 by definition.\n");
     if (chain->left_out != 0)
-        text_add_word(text, "# What effects add is in points of the squared error, which sum up; "
-                            "10 % squared is 1 point.\n");
+        text_add_word(text,
+                      "# What each adds if it alone is off is in points of the squared error; "
+                      "10 % squared is 1 point.\n");
     for (int i = 0; i < EFFECT_COUNT; i++)
         if ((chain->left_out & EFFECT_BIT(i)) != 0)
             write_left_out(cost, i, text);

@@ -10,6 +10,7 @@ const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
                                           [TRACK_TRUTH_ALL] = "all",
                                           NULL};
 
+/* The least variance is that of 10 um, so that squares of normalised distances are finite. */
 #define COVARIANCE(member, low, help)                                                              \
     OPTIONAL_REAL(struct track, member, low, 1e14, help ", positive definite together"),           \
         .section = TRACK_COVARIANCE
@@ -24,9 +25,9 @@ static const struct field track_fields[] = {
                    "centre of the object's box, in the frame's coordinates")},
     {FIELD_REAL_IN(struct track, vx_mps, -1e4, 1e4, "velocity over ground")},
     {FIELD_REAL_IN(struct track, vy_mps, -1e4, 1e4, "velocity over ground")},
-    {COVARIANCE(variance_x_m2, 0, "variance of x_m")},
-    {COVARIANCE(covariance_xy_m2, -1e14, "covariance of x_m and y_m")},
-    {COVARIANCE(variance_y_m2, 0, "variance of y_m")},
+    {COVARIANCE(variance_x_m2, 1e-10, "variance of x_m")},
+    {COVARIANCE(covariance_xy_m2, -1e14, "covariance of x_m and y_m (absent: 0)")},
+    {COVARIANCE(variance_y_m2, 1e-10, "variance of y_m")},
     {FIELD_RAW_OF(struct track, extra, "any value, for your own use; not read")},
     {0},
 };
@@ -72,6 +73,9 @@ static int check_covariance(const struct track *track, size_t number, struct dia
 {
     if ((track->present & TRACK_COVARIANCE) == 0 || fabs(correlation(track)) < 1)
         return 0;
+    if (track->variance_x_m2 == 0 || track->variance_y_m2 == 0)
+        return diag_fail(diag, DIAG_DATA, "tracks[%zu]: %s: missing; a covariance needs it", number,
+                         track->variance_x_m2 == 0 ? "variance_x_m2" : "variance_y_m2");
     return diag_fail(diag, DIAG_DATA,
                      "tracks[%zu]: variance_x_m2 %g, covariance_xy_m2 %g and variance_y_m2 %g are "
                      "not positive definite",

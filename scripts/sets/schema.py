@@ -100,7 +100,7 @@ BOUNDS = {"minimum": ("at least", lambda value, bound: value >= bound),
           "maxItems": ("at most this many items:", lambda value, bound: len(value) <= bound),
           "minProperties": ("at least this many members:", lambda value, bound: len(value) >= bound),
           "pattern": ("a text like", lambda value, bound: re.fullmatch(bound, value)),
-          "enum": ("one of", lambda value, bound: value in bound),
+          "enum": ("one of", lambda value, bound: any(value == one and type(value) is type(one) for one in bound)),
           "uniqueItems": ("no item twice:", lambda value, _: len(set(map(str, value))) == len(value))}
 
 

@@ -202,6 +202,7 @@ def forged(module, folder, package):
         record[name] = kept
     lists = {"a shard twice": [*package["resources"], stream], "no stream before its tables": package["resources"][1:],
              "a shard left out": [one for one in package["resources"] if "00000" not in one["path"]],
+             "other rows": [stream, dict(table, rows=table["rows"] + 1), *package["resources"][2:]],
              "another table": [stream, dict(table, path=os.path.dirname(table["path"]) + "/others.csv.gz")]}
     for name, resources in lists.items():
         sums = {one: sum(entry[one] for entry in resources) for one in module.SUMS}

@@ -541,6 +541,7 @@ def what_cannot_be_made_is_refused(folder):
         (snapshots(9, tables=True, lines="none", level=3), "/level: a set without lines has none"),
         (snapshots(9, level=10), "/level: 10; expected at most 9 for gzip"),
         (snapshots(9, tables="excel"), "/tables: 'excel'; expected one of"),
+        (snapshots(9, tables=1), "/tables: 1; expected one of"),
         (plan_of([medium | {"scenario": "cut-in"}]), "expected one of random, scenario, recording"),
         (plan_of([{"random": "medium"}]), "frames is missing"),
         (plan_of([medium | {"options": "--seed 3"}]), "--seed is the plan's to say"),

@@ -315,7 +315,7 @@ static void a_pipeline_is_that_of_its_chain_under_what_it_saves(void **state)
         "a "
         "cell 20 %.\n"
         "# This takes 12.5 us a frame instead of 20.0, with an error of 2.0 % (1.0 to 4.0).\n"
-        "# What effects add is in points of the squared error, which sum up; 10 % squared is 1 "
+        "# What each adds if it alone is off is in points of the squared error; 10 % squared is 1 "
         "point.\n"
         "# ghosts            off: saves 7.5 us, adds 2.0 (2.0 to 2.0)\n"
         "set -o pipefail\n"
