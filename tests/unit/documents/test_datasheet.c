@@ -206,7 +206,7 @@ static void a_row_of_elements_has_the_beam_of_the_antenna_table(void **state)
     (void)state;
     static const struct antenna_row rows[] = {{-0.38, 0, -1}, {0, 1, 0}, {0.38, 0, 1}};
     struct sensor sensor = quiet_sensor();
-    struct diag diag;
+    struct diag diag = {0};
     sensor.waveform = (struct waveform){.samples = 128, .elements = 8, .spacing = 0.5};
     suite_derive(&sensor);
     assert_int_equal(consistency_check(&sensor, 0, &diag), 0);
