@@ -295,7 +295,7 @@ def detections(frame, system="world"):
 
 def write_tracks(frame, tracks, out=None):
     """Writes the tracks of a frame as schemas/tracks.json has them, for glint-score-tracks and glint-view.
-    tracks: (id, x, y, vx, vy) of centres in the world, and perhaps a matrix that begins with the covariance of x and y."""
+    tracks: (id, x, y, vx, vy) of centres in the world, or with a sixth item, a matrix that begins with the covariance of x, y."""
     x, y = frame.get("origin_x_m", 0), frame.get("origin_y_m", 0)
     spread = [{"variance_x_m2": of[0][0], "covariance_xy_m2": of[0][1], "variance_y_m2": of[1][1]} if of else {}
               for of in (one[5] if len(one) > 5 else None for one in tracks)]

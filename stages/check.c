@@ -15,7 +15,7 @@ struct check {
     const char *key;                   /* of ideal's suite and effects */
     struct diag unknown;               /* why echoes of a frame could not be made again */
     struct frame_sequence sequence;
-    struct frame_labels labels; /* that were checked */
+    struct frame_labels labels; /* numbers of checked labels */
     int64_t frames, targets, every;
 };
 
@@ -111,12 +111,11 @@ static int check_run(void *state, struct runner *runner)
 static const struct field check_options[] = {
     {OPTIONAL_FLAG(struct check, partial, "scenes may lack frames and come in any order")},
     {OPTIONAL_NAME(struct check, sensors, "path of the suite, if it is not found by its name")},
-    {OPTIONAL_INTEGER(
-         struct check, every, 0, 1e9,
-         "compute the labels of one frame in so many again, 0: of none; absent: of each"),
-     .absent = 1},
+    {OPTIONAL_INTEGER(struct check, every, 0, 1e9,
+                      "compute the labels of every N-th frame again; 0: of no frame; absent: 1"),
+     .word = "N", .absent = 1},
     {OPTIONAL_NAME(struct check, extract,
-                   "stage that wrote the reflectors, as extract-3gpp; absent: extract")},
+                   "stage that wrote the reflectors: extract-3gpp, for instance; absent: extract")},
     {0},
 };
 
@@ -124,10 +123,10 @@ const struct stage stage_check = {
     .name = "check",
     .summary = "Check that a stream is whole and its labels agree with its truth.",
     .details =
-        "Checks every line against the schema and its bounds, every scene for all its frames from "
-        "0 to the last, and every account for its sums. Then computes the echoes again from the "
-        "objects and compares with them, to a relative 1e-9, the labels, the lost echoes with "
-        "their reasons and places, the counts and the visibility. The first fault ends the check "
+        "Checks every line against the schema and its bounds, that every scene has all its frames "
+        "from 0 to the last, and that every account adds up. Then computes the echoes again from "
+        "the objects and compares the labels, the lost echoes with their reasons and places, the "
+        "counts and the visibility with them, to a relative 1e-9. The first fault ends the check "
         "with status 65. scripts/check-set checks tables and sets.",
     .options = STAGE_OPTIONS(struct check, check_options),
     .reads = SECTION_SENSORS | SECTION_TARGETS,

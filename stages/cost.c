@@ -139,13 +139,13 @@ static const struct field cost_options[] = {
      .word = "TIME"},
     {OPTIONAL_INTEGER(
         struct cost_state, sample, 1, 1e6,
-        "how many frames are measured at most; absent: 250, or fewer where the signal takes long")},
+        "measure at most this many frames; absent: 250, or fewer if the signal takes long")},
     {OPTIONAL_CHOICE(struct cost_state, reference, cost_references,
-                     "what errors are measured from; absent: the signal where there is one"),
+                     "the chain that errors are measured from; absent: signal, if there is one"),
      .absent = -1},
     {OPTIONAL_FLAG(struct cost_state, brief, "measure no chains that leave out an effect")},
     {OPTIONAL_FLAG(struct cost_state, json,
-                   "write a line of JSON, as to an --output that ends in .json")},
+                   "write a line of JSON; an --output that ends in .json does the same")},
     {0},
 };
 
@@ -153,14 +153,14 @@ const struct stage stage_cost = {
     .name = "cost",
     .summary = "Print what accuracy costs on these scenes: chains by time and error.",
     .details =
-        "Measures chains of stages on a sample of the frames: CPU time, and error. The error is "
-        "the distance of a chain's lists from those of a reference, in per cent of that of ideal "
-        "echoes: the root of their energy distances. At 0 % a chain's lists cannot be told from "
-        "those of the reference. The reference is the signal, if the suite has a waveform and "
-        "glint-sensor-signal lies beside this program, and else all that the suite describes. The "
-        "95 % interval is that of the same frames under other seeds; it says nothing of other "
-        "scenes. Of the frames it reads the objects and, if they are there, the reflectors. Prints "
-        "at the end of the stream. pipelines/README.md says how to read the table.",
+        "Measures the CPU time and the error of chains of stages on a sample of the frames. The "
+        "error is the distance of a chain's lists from those of a reference, the root of an energy "
+        "distance, in per cent of the distance of ideal echoes. At 0 %, both have the same "
+        "distribution of lists. The reference is the signal if the suite has a waveform and "
+        "glint-sensor-signal lies beside this program, and otherwise the chain with all effects "
+        "that the suite describes. The 95 % interval holds for the same frames under other seeds, "
+        "not for other scenes. Reflectors in the frames are used as they are. The table is printed "
+        "at the end of the stream; pipelines/README.md explains it.",
     .options = STAGE_OPTIONS(struct cost_state, cost_options),
     .reads = SECTION_OBJECTS,
     .run = cost_run,

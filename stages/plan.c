@@ -31,7 +31,7 @@ static int plan_run(void *state, struct runner *runner)
 
 static const struct field plan_options[] = {
     SUITE_CHOICE_OF_IDEAL,
-    {OPTIONAL_FLAG(struct plan_state, all, "list effects that are off too, each with its reason")},
+    {OPTIONAL_FLAG(struct plan_state, all, "also list effects that are off, each with its reason")},
     {0},
 };
 
@@ -39,12 +39,12 @@ const struct stage stage_plan = {
     .name = "plan",
     .summary = "Print the pipeline that the scenes need.",
     .details =
-        "Runs the chain on every frame, choosing effects as auto does among those that are asked "
-        "for. Prints which effects the frames need and why, which stages a simpler one may "
-        "replace, and the pipeline without the rest. On these scenes the pipeline gives the "
-        "targets of the whole chain, byte for byte. Of the frames it reads the objects and, if "
-        "they are there, the reflectors. Prints at the end of the stream. glint-cost measures how "
-        "much time and accuracy other pipelines save and lose.",
+        "Runs the chain on every frame, and chooses from the effects of --effects as auto does. "
+        "Prints which effects the frames need and why, which stages may be replaced by simpler "
+        "ones, and the pipeline without the rest. On these scenes the pipeline gives the targets "
+        "of the whole chain, byte for byte. Reflectors in the frames are used as they are. The "
+        "plan is printed at the end of the stream. glint-cost measures how much time other "
+        "pipelines save and how much accuracy they lose.",
     .options = STAGE_OPTIONS(struct plan_state, plan_options),
     .reads = SECTION_OBJECTS,
     .run = plan_run,

@@ -36,7 +36,7 @@ static int score_tracks_start(void *state, struct runner *runner)
         return own->tracker.stream != NULL ? 0 : -1;
     if (strcmp(own->tracks, "-") == 0 && strcmp(own->against, "-") == 0)
         return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--tracks and --against are both standard input; name a file");
+                         "--tracks and --against are both standard input; expected a file for one");
     own->other.stream =
         runner_reference_stream(runner, own->against, &track_list_record, own->partial);
     return own->other.stream != NULL ? 0 : -1;
@@ -174,14 +174,14 @@ static const struct field score_tracks_options[] = {
                    "the tracker's tracks, as schemas/tracks.json describes them"),
      .word = "FILE"},
     {OPTIONAL_NAME(struct score_tracks, against,
-                   "another tracker's tracks: the summary has the differences from their scores"),
+                   "another tracker's tracks; the summary has the scores of --tracks less theirs"),
      .word = "FILE"},
     {OPTIONAL_CHOICE(struct score_tracks, objects, track_score_truths,
-                     "which objects a tracker should find; absent: in_view")},
+                     "the objects that a tracker should find; absent: in_view")},
     {OPTIONAL_NAME(struct score_tracks, classes, "only objects of these classes: car,truck"),
      .word = "LIST"},
     {OPTIONAL_REAL(struct score_tracks, cutoff_m, 1e-6, 1e6,
-                   "a track that far from an object is no pair with it; absent: 5 m"),
+                   "a track and an object this far apart are not paired; absent: 5 m"),
      .absent = TRACK_SCORE_CUTOFF_M},
     {OPTIONAL_FLAG(struct score_tracks, partial,
                    "count frames that only one side has instead of refusing them")},
@@ -201,16 +201,15 @@ const struct stage stage_score_tracks = {
         "Writes a JSON line for each frame: GOSPA (order 2, alpha 2) over the distances of "
         "centres in metres, with its parts, OSPA, counts, distances and differences in velocity "
         "of the pairs, and how many objects are paired with another track than last time. Tracks "
-        "with a covariance also have the NEES: the squared distance over it, 2 on average if it "
-        "holds. "
-        "--objects chooses the objects that count: in_view, if their centre is within the range "
-        "and field of view of a sensor; detected, if an echo of theirs is in a target of the "
-        "frame; all. The ego never counts. A frame that one side lacks is an error, unless "
-        "--partial is given. Tracks have no seed, so every scene of the stream must have one seed "
-        "alone.\n\n"
-        "With --against, for instance tracks by another tracker or of another chain's lists, the "
-        "summary has the differences of both scores in a frame, paired by scene, with Student's 95 "
-        "% interval over scenes; it takes at least 5.",
+        "with a covariance P also get the NEES e' P^-1 e of their distance e, 2 on average if P "
+        "is right. --objects chooses the objects that count: in_view, if their centre is within "
+        "the range and field of view of a sensor; detected, if a target of the frame contains one "
+        "of their echoes; all. The ego never counts. A frame that one side lacks is an error, "
+        "unless --partial is given. Tracks have no seed, so each scene of the stream must have a "
+        "single seed.\n\n"
+        "--against has the tracks of another tracker, or those from another chain's lists. The "
+        "summary then has the differences of both scores per frame, paired by scene, with "
+        "Student's 95 % interval over scenes; the stream needs at least 5 scenes.",
     .options = STAGE_OPTIONS(struct score_tracks, score_tracks_options),
     .sink = true,
     .reads = SECTION_OBJECTS,

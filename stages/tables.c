@@ -11,7 +11,7 @@
 
 struct tables_state {
     const char *folder;
-    const char *copy; /* a file that gets the frames, too; NULL: none does */
+    const char *copy; /* file for a copy of the frames; NULL: no copy */
     bool plain, without_objects, counts;
     int64_t part;
     struct output *outputs[TABLE_COUNT], *copied;
@@ -48,13 +48,13 @@ static int open_outputs(struct tables_state *own, struct runner *runner)
     return 0;
 }
 
-/* What goes elsewhere than into the folder. */
+/* Opens the outputs besides the folder: the copy and the counts. */
 static int open_others(struct tables_state *own, struct runner *runner)
 {
     own->counted.arena = runner_arena(runner);
     if (own->without_objects && own->copy == NULL)
         return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--without-objects: there is no copy; expected --copy FILE, too");
+                         "--without-objects: is for a copy; expected --copy FILE, too");
     if (own->counts && runner_output(runner) == NULL)
         return -1;
     if (own->copy != NULL && (own->copied = runner_output_beside(runner, own->copy)) == NULL)
@@ -122,10 +122,10 @@ static const struct field tables_options[] = {
     {FIELD_NAME_OF(struct tables_state, folder,
                    "the folder for the seven tables; it is made if it does not exist")},
     {OPTIONAL_FLAG(struct tables_state, plain, "write .csv instead of .csv.gz")},
-    {OPTIONAL_NAME(struct tables_state, copy, "write the frames to this file, too"),
+    {OPTIONAL_NAME(struct tables_state, copy, "also write the frames to this file"),
      .word = "FILE"},
     {OPTIONAL_FLAG(struct tables_state, without_objects, "leave the objects out of the copy")},
-    {OPTIONAL_FLAG(struct tables_state, counts, "print what glint-summary prints")},
+    {OPTIONAL_FLAG(struct tables_state, counts, "print counts as glint-summary does")},
     {OPTIONAL_INTEGER(struct tables_state, part, 0, 9e6,
                       "number of this part of a set; its keys begin at 1e9 times the number")},
     {0},

@@ -149,14 +149,14 @@ const struct stage stage_traffic = {
     .details =
         "A scenario is a JSON document; a table is CSV, plain or gzip, in the columns of highD,\n"
         "inD, rounD, exiD, uniD, INTERACTION, NGSIM, SUMO or of esmini's log, and needs --ego.\n"
-        "Frame rate and classes are in files beside it, where its maker puts them there.\n"
-        "Coordinates beyond a kilometre are made relative to an origin near the ego, which every\n"
-        "frame names.\n"
+        "Frame rate and classes are read from the files beside it if the format has them there.\n"
+        "Coordinates beyond a kilometre become relative to an origin near the ego; every frame\n"
+        "states this origin.\n"
         "\n"
         "Velocities and yaw rates that a table lacks are centred differences, which wait for\n"
-        "the next step. --rate-hz takes cubic curves between steps.\n"
+        "the next step. --rate-hz interpolates between steps by cubic curves.\n"
         "\n"
-        "What words of tables mean:"
+        "Classes by format, each with the words (of esmini: the sizes) that are read as it:"
 #include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct traffic, traffic_options),

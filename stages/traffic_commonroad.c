@@ -23,17 +23,17 @@ const struct stage stage_traffic_commonroad = {
     .name = "traffic-commonroad",
     .summary = "Play the obstacles of a CommonRoad scenario, frame by frame.",
     .details =
-        "The XML is of version 2018b or 2020a. An ego is an obstacle by its id; planning problems\n"
-        "have no motion. A value is exact or an interval, a position a point or a region: their\n"
-        "middles count. The body is the box around the parts of the shape. Its velocity is that\n"
-        "of the file: velocity along the orientation, velocityY to its left or slipAngle; it is\n"
-        "taken from the places where the box's middle is not the point that positions are of.\n"
-        "Velocities and yaw rates that the file lacks are centred differences. Obstacles that\n"
-        "stand still are there in every step. Obstacles of the environment, phantoms and\n"
-        "occupancy sets are left out. As the XML has one obstacle after the other, it is read\n"
-        "whole before the first frame.\n"
+        "The XML is of version 2018b or 2020a. The ego is the obstacle with the id of --ego;\n"
+        "planning problems are not read. If a value is an interval or a position is a region, its\n"
+        "middle is used. The body is the box around the parts of the shape. Its velocity has the\n"
+        "components velocity, along the orientation, and velocityY, to its left, or the direction\n"
+        "slipAngle. If the file states none, or positions that are not those of the box's middle,\n"
+        "velocities are centred differences of places; so are yaw rates that the file lacks.\n"
+        "Static obstacles are in every frame. Environment obstacles, phantom obstacles and\n"
+        "occupancy sets are left out. The whole XML is read before the first frame, because it\n"
+        "lists the whole motion of one obstacle after the other.\n"
         "\n"
-        "What types of obstacles mean:"
+        "Classes, each with the types of obstacles that are read as it:"
 #include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct recording, traffic_commonroad_fields),

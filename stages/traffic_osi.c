@@ -10,9 +10,8 @@ struct traffic_osi {
 static const struct field traffic_osi_fields[] = {
     RECORDING_SOURCE("an OSI trace (.osi), plain or gzip; - is standard input"),
     {OPTIONAL_FLAG(struct traffic_osi, rear_axle_velocity,
-                   "velocities are those of rear axles, as esmini's; absent: of centres of boxes")},
-    {OPTIONAL_FLAG(struct recording, live,
-                   "write the frame of a message before the next message is there")},
+                   "velocities are those of rear axles, as from esmini; absent: of box centres")},
+    {OPTIONAL_FLAG(struct recording, live, "write each frame before the next message arrives")},
     {0},
 };
 
@@ -41,14 +40,15 @@ const struct stage stage_traffic_osi = {
     .name = "traffic-osi",
     .summary = "Play the ground truth of an OSI trace, frame by frame.",
     .details =
-        "A trace holds messages GroundTruth or SensorView, each behind its length in four bytes.\n"
-        "Without --ego the host vehicle is the ego, if the trace names it. Places are centres of\n"
-        "boxes, yaws counter-clockwise from x; velocities and yaw rates are those of the trace,\n"
-        "else centred differences, which wait for the next message, or with --live differences to\n"
-        "the message before. A trailer is an object of its own. Stationary objects that have a\n"
-        "class stay until a message has others; all others are left out.\n"
+        "A trace holds messages GroundTruth or SensorView, each after its length in four bytes.\n"
+        "Without --ego the host vehicle is the ego, if the trace names it. Places are those of "
+        "box\n"
+        "centres; yaws count counter-clockwise from x. Velocities and yaw rates that the trace\n"
+        "lacks are centred differences, which wait for the next message, or with --live\n"
+        "differences from the message before. A trailer is an object of its own. Stationary\n"
+        "objects of a class below stay until a message has others; other types are left out.\n"
         "\n"
-        "What types of objects mean:"
+        "Classes, each with the types of OSI that are read as it:"
 #include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct traffic_osi, traffic_osi_fields),

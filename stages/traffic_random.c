@@ -128,9 +128,9 @@ static void traffic_random_release(void *state)
 
 static const struct field traffic_random_options[] = {
     {OPTIONAL_CHOICE(struct traffic_random, density, densities,
-                     "how many objects, and how near; absent: medium"),
+                     "number and distance of objects; absent: medium"),
      .absent = TRAFFIC_MEDIUM},
-    {OPTIONAL_INTEGER(struct traffic_random, frames, 0, 1e9, "how many snapshots; absent: 100"),
+    {OPTIONAL_INTEGER(struct traffic_random, frames, 0, 1e9, "number of snapshots; absent: 100"),
      .absent = -1},
     {OPTIONAL_INTEGER(struct traffic_random, first, 0, 1e9,
                       "number of the first snapshot; absent: 0"),
@@ -138,14 +138,14 @@ static const struct field traffic_random_options[] = {
     {OPTIONAL_REAL(struct traffic_random, seconds, 1e-4, 1e5,
                    "make moving scenes of this length in place of snapshots")},
     {OPTIONAL_NAME(struct traffic_random, scene,
-                   "the scenes' name, before seed and number; absent: as moving-medium")},
+                   "first part of scene names; absent: moving-DENSITY or random-DENSITY")},
     {OPTIONAL_NAME(struct traffic_random, scenes, "make moving scenes A to B - 1; absent: 0:10"),
      .word = "A:B"},
     {OPTIONAL_REAL(struct traffic_random, rate_hz, 1, 1e4,
                    "frame number n is at time n / rate; absent: 20 Hz"),
      .absent = 20},
     {OPTIONAL_FLAG(struct traffic_random, draw_conditions,
-                   "draw road, weather and other radars too")},
+                   "also draw road, weather and, in snapshots, other radars")},
     {0},
 };
 
@@ -153,14 +153,15 @@ const struct stage stage_traffic_random = {
     .name = "traffic-random",
     .summary = "Make random traffic: independent snapshots, or moving scenes.",
     .details =
-        "Objects of all classes around an ego: 0 to 3 within 120 m (sparse), 0 to 8 within\n"
-        "60 m (medium, the default), 4 to 15 within 25 m (dense). A snapshot, which is a scene\n"
-        "of one frame, depends on seed, density and its number alone, so --first and --frames\n"
-        "may cut a set anywhere.\n"
+        "A snapshot is a scene of one frame, with objects of all classes around an ego: 0 to 3\n"
+        "within 120 m (sparse), 0 to 8 within 60 m (medium, the default), 4 to 15 within 25 m\n"
+        "(dense). It depends only on seed, density and its number, so --first and --frames may\n"
+        "split a set anywhere.\n"
         "\n"
-        "With --seconds vehicles come and go on roads (scenarios/random-roads.json) without\n"
-        "collisions: with its flows (medium), 0.3 times (sparse) or twice the flows (dense). A\n"
-        "scene has the objects within 250 m of the ego. It ends early if the ego leaves its road.",
+        "With --seconds, vehicles drive without collisions on scenarios/random-roads.json: with\n"
+        "the flows stated there (medium), 0.3 times (sparse) or twice (dense) these flows. A "
+        "scene\n"
+        "has the objects within 250 m of the ego, and ends early if the ego leaves its road.",
     .options = STAGE_OPTIONS(struct traffic_random, traffic_random_options),
     .writes = SECTION_OBJECTS,
     .start = traffic_random_start,

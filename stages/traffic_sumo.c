@@ -5,8 +5,7 @@
 static const struct field traffic_sumo_fields[] = {
     RECORDING_SOURCE("the XML that sumo --fcd-output writes, plain or gzip; - is standard input"),
     RECORDING_TYPES,
-    {OPTIONAL_FLAG(struct recording, live,
-                   "write the frame of a step before the next step is there")},
+    {OPTIONAL_FLAG(struct recording, live, "write each frame before the next step arrives")},
     {0},
 };
 
@@ -28,13 +27,14 @@ const struct stage stage_traffic_sumo = {
     .details =
         "Velocities and yaw rates come from the places, not from SUMO's speeds: while a vehicle\n"
         "changes lanes it does not move along its heading. They are centred differences, which\n"
-        "wait for the next step; with --live they are differences to the step before, a frame\n"
-        "comes before the next step is there, and no frame is marked as the last of its scene.\n"
-        "Give sumo --precision 6: with its two decimals velocities are coarse. Where it writes to\n"
-        "a pipe, also give it --no-step-log: its log would get between the XML.\n"
+        "wait for the next step. With --live they are differences from the step before, a frame "
+        "is\n"
+        "written before the next step arrives, and no frame is marked as the last of its scene.\n"
+        "Give sumo --precision 6: with its default of two decimals velocities are coarse. If it\n"
+        "writes to a pipe, also give it --no-step-log, as its log would mix with the XML.\n"
         "\n"
-        "Classes and sizes are those of the types (--types). Without them the name of a type must\n"
-        "be one of these words, which --class-map adds to:"
+        "Classes and sizes come from the types (--types). Without --types, the name of a type is\n"
+        "in --class-map or here, where each class has the names that are read as it:"
 #include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct recording, traffic_sumo_fields),

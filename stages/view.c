@@ -120,7 +120,7 @@ static int view_stop(void *state, struct runner *runner)
 
 static const struct field view_fields[] = {
     {OPTIONAL_FLAG(struct view, svg,
-                   "write one frame as an SVG still; so does an --output that ends in .svg")},
+                   "write one frame as an SVG still; an --output that ends in .svg does the same")},
     {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53,
                       "number of the frame at which the page opens, or which the still shows"),
      .absent = -1},
@@ -140,12 +140,12 @@ const struct stage stage_view = {
     .summary = "Write an HTML page that plays the stream, or one frame as an SVG still.",
     .details =
         "The page is one file that needs no network: open it in a browser. Without --frame the "
-        "page opens where there is most to see, and the still shows the frame with the most "
+        "page opens at the frame with most to see, and the still shows the frame with the most "
         "targets. If glint-ideal was given --sections account, the page also shows why a reflector "
-        "is in no target. With --truth the page shows the targets of another stream of the same "
-        "scenes beside those of this one, in the pairs of glint-score. With --tracks it shows a "
-        "tracker's tracks, in pairs with the objects in view. The output comes at the end of the "
-        "stream.",
+        "is in no target. With --truth the page also shows the targets of another stream of the "
+        "same scenes, paired with those of this one as glint-score pairs them. With --tracks it "
+        "shows a tracker's tracks, paired with the objects in view. The output is written at the "
+        "end of the stream.",
     .options = STAGE_OPTIONS(struct view, view_fields),
     .sink = true,
     .start = view_start,

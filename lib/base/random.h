@@ -27,8 +27,8 @@ enum random_purpose {
     RANDOM_CLUTTER = 13,        /* per scan: number and places of the points on the ground */
     RANDOM_SIGNAL = 14,         /* per scan: noise on two samples of its signal */
     RANDOM_BOOTSTRAP = 15,      /* which scenes a resample has (glint-score --ensemble) */
-    RANDOM_SAMPLE = 16,         /* which frame of a stretch is in a sample, which targets are lost
-                                 * for scale (glint-cost) */
+    RANDOM_SAMPLE = 16,         /* which frame of a stretch is in a sample; which targets a list
+                                 * loses to give errors a scale (glint-cost) */
     RANDOM_VARIATION = 17,      /* values of a scenario that are distributions */
     RANDOM_ARRIVALS = 18,       /* vehicles that come to a lane: class, size, driver, when */
     RANDOM_OWN = 1 << 16,       /* any number from here to 2^31 - 1, one for each purpose of the

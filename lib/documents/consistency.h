@@ -29,18 +29,18 @@ struct consistency {
     enum consistency_unit unit;
     const char *left, *right; /* formulas of members of the document */
     double left_value, right_value;
-    const char *member; /* of an impossible pair: the member in the formula `left` */
+    const char *member; /* to name in a refusal: the member in the formula `left` */
 };
 
 enum { CONSISTENCY_MOST = 20 };
 
-/* Writes the checks of a sensor with derived members and its tables, if the document has both
- * sides, and returns their number, at most CONSISTENCY_MOST. */
+/* Writes the checks of a sensor with derived members and tables; a check is left out if the
+ * document lacks one of its sides. Returns their number, at most CONSISTENCY_MOST. */
 size_t consistency_list(const struct sensor *sensor, struct consistency *checks);
 
 bool consistency_holds(const struct consistency *check);
 
-/* Refuses an impossible pair (DIAG_CONFIG). index is the sensor's in its suite. */
+/* Refuses an impossible pair (DIAG_CONFIG). index: the place of the sensor in its suite. */
 int consistency_check(const struct sensor *sensor, size_t index, struct diag *diag);
 
 /* Range rates within +- this do not fold in the signal (MODEL 11.3); 0 without a waveform. */

@@ -119,9 +119,9 @@ static void add_resolution(const struct sensor *sensor, struct text *text)
     text_format(text, "  cell               %.3g m, %.3g m/s; ", sensor->bin_range_m,
                 sensor->bin_range_rate_mps);
     if (sensor->waveform.elements > 0)
-        text_add_word(text, "angle separates echoes in glint-sensor-signal only\n");
+        text_add_word(text, "separation in angle in glint-sensor-signal only\n");
     else
-        text_add_word(text, "angle separates nothing\n");
+        text_add_word(text, "no separation in angle\n");
     text_format(text, "  resolution         %.3g m or %.3g m/s from a stronger echo\n",
                 sensor->half_range_m, sensor->half_range_rate_mps);
     text_format(text, "  beam               %.3g degrees wide, ", beam);

@@ -100,15 +100,15 @@ static const struct field sensor_fields[] = {
     {OPTIONAL_NAME(struct sensor, amplitude_table,
                    "CSV file with range_m, amplitude: instead of the calibration")},
     {NEEDS(cell_range_m, 1e-6, 1e6,
-           "size of the resolution cell in range; with a waveform of its bin")},
+           "size of the resolution cell in range; with a waveform that of a bin")},
     {NEEDS(cell_range_rate_mps, 1e-6, 1e5,
-           "size of the resolution cell in range rate; with a waveform of its bin")},
+           "size of the resolution cell in range rate; with a waveform that of a bin")},
     {MAY_HAVE(
         azimuth_cell_rad, 1e-6, 2 * PI,
         "azimuths this far apart count as one cell in scores; absent: a twentieth of the view")},
     {MAY_CHOOSE(cell_extent, extents,
-                "does the cell's size mean its width or half of it? With a waveform it is a bin's "
-                "width")},
+                "whether the size of a cell is its width or half of it; with a waveform it is the "
+                "width of a bin")},
     {MAY_CHOOSE(cell_phase, phases,
                 "do echoes of a cell add in phase, at random or by their paths?")},
     {MAY_CHOOSE(range_migration, migrations,
@@ -194,7 +194,7 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
     return NULL;
 }
 
-/* The stated cells of a waveform are its bins; half a cell is its resolution (MODEL 6). */
+/* With a waveform the stated cells are bins, and half a cell is the resolution (MODEL 6). */
 static void derive_cells(struct sensor *sensor)
 {
     const struct waveform *waveform = &sensor->waveform;
@@ -212,8 +212,8 @@ static void derive_cells(struct sensor *sensor)
         sensor->cell_range_rate_mps * point_response_resolution(waveform->window);
 }
 
-/* Noise whose power in each of the scan's cells is exponential, and above the threshold in as many
- * of them as there are false alarms (MODEL 14.9). Bins of a waveform have the pointers' noise. */
+/* RMS of noise that exceeds the threshold in as many cells of a scan as there are false alarms; its
+ * power is exponential in each cell (MODEL 14.9). With a waveform, that of the pointers' noise. */
 static double search_sigma(const struct sensor *sensor)
 {
     double ranges = (sensor->range_max_m - sensor->range_min_m) / sensor->bin_range_m;
@@ -312,8 +312,8 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
                          migrations[sensor->range_migration]);
     if (sensor->waveform.samples > 0 && sensor->cell_extent != CELL_WIDTH)
         return diag_fail(diag, DIAG_CONFIG,
-                         "cell_extent: \"%s\"; expected none, as the waveform's window sets how "
-                         "much wider than its bins cells are",
+                         "cell_extent: \"%s\"; expected none, as the waveform's window sets the "
+                         "size of cells",
                          extents[sensor->cell_extent]);
     if (waveform_check(&sensor->waveform, sensor->cell_range_m, sensor->range_max_m, diag) != 0)
         return diag_prefix(diag, "waveform.");

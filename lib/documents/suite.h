@@ -88,7 +88,7 @@ struct sensor {
     double bin_range_m, bin_range_rate_mps;   /* full width of the stated cell */
     double half_range_m, half_range_rate_mps; /* half the width of a resolution cell */
     double dwell_s;                           /* of a scan's signal */
-    double search_sigma; /* RMS of the noise in which echoes are searched; > 0 with false alarms */
+    double search_sigma; /* RMS of the noise of the search for echoes; > 0 with false alarms */
     struct suite_prior prior;
 };
 

@@ -29,7 +29,7 @@ extern const struct record waveform_record;
 /* The distance between range bins. */
 double waveform_range_step_m(const struct waveform *waveform, double cell_range_m);
 
-/* The response along range; along range rate it is `window`. */
+/* The point response along range; that along range rate is the member window. */
 enum point_response waveform_range_response(const struct waveform *waveform);
 
 /* Refuses members that contradict each other (DIAG_CONFIG). 0 samples, no waveform, pass. */

@@ -32,7 +32,7 @@ enum table {
     TABLE_COUNT,
 };
 
-/* By enum table: its name, and the columns that tell its rows apart. Lost echoes may be alike. */
+/* By enum table: names, and primary keys. Lost echoes have none, as two may be alike. */
 extern const char *const detection_tables_names[];
 extern const char *const detection_tables_primary[][2];
 
@@ -43,7 +43,7 @@ extern const char *const detection_tables_primary[][2];
 enum { DETECTION_TABLES_STRUCTS = 5 };
 
 struct detection_tables {
-    struct text *rows[TABLE_COUNT]; /* where the rows go; NULL: only the columns are wanted */
+    struct text *rows[TABLE_COUNT]; /* receive the rows; NULL: the columns alone are asked for */
     int64_t frame_key, scan_key, object_key, detection_key; /* of the next row */
     int64_t end_key;
     struct csv_columns columns[TABLE_COUNT][DETECTION_TABLES_STRUCTS];

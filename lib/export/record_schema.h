@@ -7,10 +7,10 @@
 #include "base/text.h"
 #include "text/field.h"
 
-/* Appends the schema of a record's values. drawn: any of them may be a distribution
+/* Appends the schema of a record. If drawn is true, every value may be a distribution
  * (document_draw). */
 void record_schema_add(const struct record *record, bool drawn, struct text *text);
 
 /* Appends an object with the schema of each table of glint-tables: names, types, units and meanings
- * of the columns, the keys that tell its rows apart, and those that join other tables. */
+ * of the columns, the primary key, and the foreign keys. */
 void record_schema_add_tables(struct text *text);

@@ -34,7 +34,7 @@ _Static_assert(EFFECT_COUNT < 64, "a set of effects is a uint64_t with a bit for
 
 extern const char *const effects_names[]; /* NULL-terminated */
 
-/* The scans of a sensor in which each effect was simulated or left out, for glint-plan. */
+/* Numbers of scans in which each effect was simulated and left out, for glint-plan. */
 struct effect_log {
     int64_t scans;
     uint64_t simulated, left_out; /* sets of effects, of the scan that is not yet counted */

@@ -234,7 +234,7 @@ static void add_members(struct account *account, const char *sensor, size_t plac
         *list_add(&account->entries, arena) = (struct entry){sensor, &members[i].id, place};
 }
 
-/* Targets tell which echoes are not lost; where there are none cells do, or else the echoes. */
+/* Takes the echoes that are not lost from the targets, else from the cells, else as they are. */
 static struct account account_of(const struct frame *frame)
 {
     struct account account = {0};
@@ -287,8 +287,8 @@ static uint64_t hash_of(const struct entry *entry)
 }
 
 /* Keeps one entry of each echo, in time linear in their number. An echo may be in several targets;
- * a second entry in one target, or in lost, is a fault: of several, the first in canonical order is
- * told. */
+ * a second entry in one target, or in lost, is a fault. The message names the first faulty echo in
+ * canonical order. */
 static int join_entries(struct account *account, struct arena *arena, struct diag *diag)
 {
     struct entry *entries = account->entries.items, doubled = {0};
@@ -327,7 +327,7 @@ static int compare(const int64_t *entries, const struct count *counted, struct d
     return 0;
 }
 
-/* The number of the sensor's count, or that of counts if it has none; guess is tried first. */
+/* The index of the sensor's count; the number of counts if there is none. guess is tried first. */
 static size_t count_of(const struct frame *frame, const char *sensor, size_t guess)
 {
     const struct count *counts = frame->counts.items;

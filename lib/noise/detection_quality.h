@@ -5,13 +5,13 @@
 
 /* Parameters of the probability of existence. Powers of echoes are exponentially distributed; an
  * echo below first_threshold is lost before noise is added to it, one below least_echo after it.
- * Powers of noise alone are exponentially distributed from least_false_alarm on, with the mean
- * excess search_noise. All powers are in units of the power of a channel's own noise. */
+ * Powers of false alarms exceed least_false_alarm by an exponentially distributed power with the
+ * mean search_noise. All powers are in units of the noise power of a channel. */
 struct existence {
     double echoes;                        /* mean number in a scan, detected or not; > 0 */
     double snr;                           /* mean power of an echo; > 0 */
     double false_alarms;                  /* mean number in a scan */
-    double search_noise;                  /* power of the noise that they are; > 0 */
+    double search_noise;                  /* power of the noise of the search; > 0 */
     double first_threshold;               /* least power without noise; 0: all pass */
     double least_false_alarm, least_echo; /* least powers that pass the thresholds; 0: all pass */
     double rise;                          /* power of the noise with other radars, >= 1 */
@@ -37,9 +37,9 @@ struct detection_source detection_quality_source(const struct sensor *sensor,
                                                  struct cell_span cells,
                                                  const struct effect_scan *scan);
 
-/* Sets looks_merged where the pointers, with noise of this RMS > 0 on each channel, differ from
- * those of a single echo by more than 3 standard deviations. Returns the factor >= 1 by which the
- * standard deviation of the azimuth is then larger; 1 where it is not set. */
+/* Sets looks_merged if the pointers differ from those of a single echo by more than 3 standard
+ * deviations of noise with this RMS > 0 on each channel. Returns the factor by which the standard
+ * deviation of the azimuth grows: > 1 if looks_merged is set, and 1 otherwise. */
 double detection_quality_widening(struct effect_measurement *measurement, double noise);
 
 /* For glint-noise: sets false alarms and thresholds of the source, and the standard deviations of

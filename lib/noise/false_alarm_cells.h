@@ -22,7 +22,7 @@ struct cell false_alarm_cells_cell(const struct sensor *sensor,
 
 /* The amplitude of noise that has passed the threshold, from a uniform draw in (0, 1). Its power is
  * threshold^2 + noise_sigma^2 Exp(1), as an exponential distribution has no memory. noise_sigma is
- * the RMS of the complex noise in which echoes are searched; if it is 0, the amplitude is the
+ * the RMS of the complex noise of the search for echoes; if it is 0, the amplitude is the
  * threshold. */
 double false_alarm_cells_amplitude(double threshold, double noise_sigma, double uniform);
 

@@ -10,7 +10,7 @@
 
 static const struct field recording_fields[] = {
     {OPTIONAL_NAME(struct recording_options, ego,
-                   "the ego; ID,ID,... or all: a scene for each; write \\, for a comma in an id"),
+                   "id of the ego; ID,ID,... or all: a scene for each; \\, is a comma in an id"),
      .word = "ID", .high = 1e6},
     {OPTIONAL_NAME(struct recording_options, scene, "name of the scene; absent: SOURCE/EGO")},
     {OPTIONAL_REAL(struct recording_options, radius_m, 0, 1e6,
@@ -24,14 +24,14 @@ static const struct field recording_fields[] = {
     {OPTIONAL_REAL(struct recording_options, to_s, -9e9, 9e9, "end with this time of the source"),
      .absent = 9e9},
     {OPTIONAL_NAME(struct recording_options, class_map,
-                   "what words of the source mean: WORD=CLASS,WORD=CLASS,..."),
+                   "classes for words of the source: WORD=CLASS,WORD=CLASS,..."),
      .word = "MAP", .high = 1e6},
     {OPTIONAL_NAME(struct recording_options, class_default,
                    "the class of all unknown words; absent: they are refused"),
      .word = "CLASS"},
     {OPTIONAL_NAME(struct recording_options, conditions,
                    "road and weather, in place of the source's own: '{\"rain_mmph\": 20}'; "
-                   "schemas/scenario.json has the words"),
+                   "schemas/scenario.json lists the members"),
      .word = "JSON", .high = 1e6},
     {0},
 };

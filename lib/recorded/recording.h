@@ -29,8 +29,8 @@ extern const struct record recording_options_record;
     {                                                                                              \
         .name = "types", .kind = FIELD_NAMES, .offset = offsetof(struct recording, options.types), \
         .help =                                                                                    \
-            "a file of SUMO's routes with vTypes; may be given several times; absent: SUMO's own " \
-            "sizes of classes",                                                                    \
+            "a file of SUMO with vTypes; may be given several times; absent: SUMO's default size " \
+            "of each class",                                                                       \
         .word = "FILE", FIELD_OPTIONAL                                                             \
     }
 

@@ -156,7 +156,7 @@ static void end_pass(struct pass *pass)
     arena_free(&pass->cache.arena);
 }
 
-/* The one that runs second finds its line in the CPU's cache, so they take turns in that, too. */
+/* Each runs first on every other frame, as the second one finds its line in the CPU's cache. */
 static int run_pass(struct pass *pass, struct pass *beside)
 {
     const struct frame_sample *sample = pass->trials->sample;
@@ -188,7 +188,6 @@ static double mean_targets(const struct trial_lists *lists)
     return targets / scans;
 }
 
-/* Sorts the values. */
 static double median(double values[SEEDS], struct arena *arena)
 {
     sort_numbers(values, SEEDS, arena);
@@ -235,7 +234,7 @@ static int run_chain(struct chain_trials *trials, struct tried_chain *chain, uin
     return 0;
 }
 
-/* Counts scenes and their scans, and weighs each scan. */
+/* Weighs scans: all scenes alike, and in a scene all its scans. */
 static void weigh_scans(struct chain_trials *trials)
 {
     struct arena *arena = runner_arena(trials->runner);
@@ -263,7 +262,7 @@ static struct embedded_list spoil(const struct embedded_list *list, double lost,
     return spoiled;
 }
 
-/* The distances of the reference's lists from each other, one half of the seeds spoiled. */
+/* The distances between the reference's lists, after the first half of them is spoiled. */
 static void compare_reference(const struct chain_trials *trials, double lost, double off_cells,
                               double *distance)
 {
@@ -307,7 +306,7 @@ int chain_trials_begin(struct chain_trials *trials, struct tried_chain *referenc
     return 0;
 }
 
-/* The distances of all lists from each other. */
+/* The distances between all lists, of the reference and of the chain. */
 static struct energy_sample compare(const struct chain_trials *trials,
                                     const struct trial_lists *lists)
 {

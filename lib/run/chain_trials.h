@@ -6,8 +6,8 @@
  * draw them.
  *
  * The time of a frame is the CPU time to read and check its line, to run all stages, and to write
- * it. A chain may run beside another one, both in turn on every frame, so that what slows the
- * machine down slows both. */
+ * it. A chain may run beside another one: both take turns on every frame, so that load on the
+ * machine slows both alike. */
 #pragma once
 
 #include "base/intern.h"
@@ -25,7 +25,7 @@ struct sampled_frame {
     size_t length;
     uint64_t seed;
     int64_t place; /* in the stream, from 0 */
-    size_t scene;  /* its number */
+    size_t scene;  /* number in frame_sample.names */
 };
 
 /* A sample of a stream's frames, spread evenly over it. All frames are kept until there are more
@@ -57,14 +57,14 @@ struct tried_chain {
     double us_per_frame;        /* the median over seeds */
     double targets_per_scan;    /* the mean */
     struct energy_sample lists; /* the reference's and its own; not of the reference */
-    double saved, saved_least;  /* share of the time of the chain beside it: the median and the
-                                 * least over seeds */
+    double saved, saved_least;  /* share of the time of the chain beside it that it saves: the
+                                 * median and the least over seeds */
 
     struct relative_error energy;            /* D from the reference */
     struct relative_error relative_distance; /* root of D over that of ideal echoes */
     unsigned present;                        /* CHAIN_TRIALS_ENERGY: it is not the reference itself;
-                                              * CHAIN_TRIALS_ERROR: ideal echoes are told from it */
-    bool automatic;                          /* the whole chain, but for some effects */
+                                              * CHAIN_TRIALS_ERROR: it has a relative distance */
+    bool automatic;                          /* the whole chain, or that less some effects */
     uint64_t left_out; /* EFFECT_BITs of the effects that the frames call for and it leaves out */
 };
 
@@ -75,7 +75,7 @@ struct trial_lists {
 
 struct trial_scan {
     size_t scene;
-    double share; /* in the mean over the scans of its scene, and then over scenes */
+    double share; /* weight in the mean over scenes of the means over their scans; 1 in sum */
 };
 
 /* The first group of members is the caller's, the rest zeroed. */
@@ -88,8 +88,8 @@ struct chain_trials {
     struct progress progress; /* in frames of all chains and seeds */
     struct trial_lists reference[CHAIN_TRIALS_SEEDS];
     LIST_OF(struct trial_scan) scans;
-    size_t scenes;           /* that have a scan */
-    double *among_reference; /* the distances of its lists */
+    size_t scenes;           /* number of scenes with a scan */
+    double *among_reference; /* distances between the reference's lists */
 };
 
 /* Runs the reference. Refuses (DIAG_DATA) frames in which no sensor measures, and cells without a
@@ -99,6 +99,6 @@ int chain_trials_begin(struct chain_trials *trials, struct tried_chain *referenc
 /* Runs a chain and compares it with the reference. */
 int chain_trials_run(struct chain_trials *trials, struct tried_chain *chain);
 
-/* D between the reference's lists and lists of its law that are spoiled: of all targets this share
- * is lost, and the others are off by so many cells in range. */
+/* The energy distance between half of the reference's lists and the other half after they lost this
+ * share of all targets, and the others were moved by so many cells in range. */
 double chain_trials_spoiled(const struct chain_trials *trials, double lost, double off_cells);

@@ -47,8 +47,8 @@ static const struct field chain_fields[] = {
                      "energy distance from the reference, absent for itself"),
      .section = CHAIN_TRIALS_ENERGY},
     {OPTIONAL_RECORD(struct tried_chain, relative_distance, &interval_record,
-                     "the error: root of energy over that of ideal echoes, absent where that may "
-                     "be 0; 0 where it is not told from 0"),
+                     "the error: root of energy over that of ideal echoes, 0 if energy is not "
+                     "above 0; absent if ideal echoes cannot be told from the reference"),
      .section = CHAIN_TRIALS_ERROR},
     {0},
 };
@@ -58,15 +58,15 @@ static const struct record chain_record = {
     .present_offset = offsetof(struct tried_chain, present)};
 
 static const struct field scale_fields[] = {
-    {FIELD_REAL_IN(struct cost_scale, lost_30_percent, 0, 1e300, "of all targets")},
-    {FIELD_REAL_IN(struct cost_scale, lost_half, 0, 1e300, "of all targets")},
-    {FIELD_REAL_IN(struct cost_scale, one_cell_off, 0, 1e300, "all ranges")},
+    {FIELD_REAL_IN(struct cost_scale, lost_30_percent, 0, 1e300, "30 % of all targets lost")},
+    {FIELD_REAL_IN(struct cost_scale, lost_half, 0, 1e300, "half of all targets lost")},
+    {FIELD_REAL_IN(struct cost_scale, one_cell_off, 0, 1e300, "all ranges moved by one cell")},
     {0},
 };
 
 static const struct record scale_record = {
     FIELD_TABLE(struct cost_scale, scale_fields, "cost_scale",
-                "The relative distance of the reference's own lists, spoiled; 0 without errors.")};
+                "Errors of spoiled lists of the reference; 0 where chains have no errors.")};
 
 static const struct field cost_fields[] = {
     {FIELD_NAME_OF(struct cost, suite, "as --sensors names it")},
@@ -76,8 +76,8 @@ static const struct field cost_fields[] = {
     {FIELD_INTEGER_IN(struct cost, seen_frames, 0, 0x1p53, "of the stream")},
     {FIELD_INTEGER_IN(struct cost, scenes, 0, 0x1p53, "of the sample")},
     {FIELD_INTEGER_IN(struct cost, seeds, 0, 0x1p53,
-                      "of every chain; the intervals are for these frames under others")},
-    {FIELD_RECORD_OF(struct cost, scale, &scale_record, "to read errors by")},
+                      "of every chain; the intervals hold for these frames under other seeds")},
+    {FIELD_RECORD_OF(struct cost, scale, &scale_record, "to compare errors with")},
     {OPTIONAL_NAME(struct cost, chosen, "the chain that was found for a bound")},
     {FIELD_LIST_OF(struct cost, chains, &chain_record, "in the order in which they were measured")},
     {0},
@@ -230,7 +230,7 @@ static size_t expected_chains(const struct cost *cost)
     return count;
 }
 
-/* The relative distance of the reference's lists, spoiled. */
+/* The error of spoiled lists of the reference (chain_trials_spoiled). */
 static double spoiled(const struct cost *cost, double lost, double off_cells)
 {
     double energy = chain_trials_spoiled(&cost->trials, lost, off_cells);
@@ -266,7 +266,7 @@ struct relative_error cost_added(const struct cost *cost, const struct tried_cha
                                 runner_arena(cost->runner));
 }
 
-/* An effect that may be left out, and the squared error that it adds for the time that it saves. */
+/* An effect that may be left out, and the squared error added for the time saved if it is. */
 struct saving {
     uint64_t effect;
     double price;
@@ -282,14 +282,14 @@ static int cheaper(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* True unless the chain leaves out effects and is not faster with every seed. Of 64 effects that
- * save nothing, one passes this sign test. */
+/* False if the chain leaves out effects and is not faster than the whole chain with every seed. By
+ * chance 1 of 64 effects that save nothing passes this sign test. */
 static bool saves_time(const struct tried_chain *chain)
 {
     return !chain->automatic || chain->left_out == 0 || chain->saved_least > 0;
 }
 
-/* The effects whose time is told from nothing, the cheapest first. */
+/* The effects that save time with every seed, in the order of their prices. */
 static struct savings savings_of(const struct cost *cost)
 {
     struct arena *arena = runner_arena(cost->runner);
@@ -312,8 +312,8 @@ static bool is_reference(const struct cost *cost, const struct tried_chain *chai
     return chain == whole(cost) && strcmp(chain->effects, REFERENCE) == 0;
 }
 
-/* What the bound is on, and what is to be least among the chains that hold it. Estimates of
- * energies may be negative, and yet no chain is more accurate than the reference. */
+/* The figure that must be at most the bound, and the figure that must be least among such chains.
+ * Energies of other chains may be negative, so the reference's counts as minus infinity. */
 static double bounded(const struct tried_chain *chain, enum cost_bound bound)
 {
     return bound == COST_BOUND_US ? chain->us_per_frame : chain->relative_distance.high;
@@ -352,7 +352,7 @@ const struct tried_chain *cost_find(struct cost *cost, enum cost_bound bound, do
     struct diag *diag = runner_diag(cost->runner);
     if ((ideal(cost)->present & CHAIN_TRIALS_ERROR) == 0) {
         diag_fail(diag, DIAG_DATA,
-                  "ideal echoes are not told from the reference in these frames (D %.3g, 95 %% "
+                  "ideal echoes cannot be told from the reference in these frames (D %.3g, 95 %% "
                   "interval %.3g to %.3g), so chains have no errors",
                   ideal(cost)->energy.value, ideal(cost)->energy.low, ideal(cost)->energy.high);
         return NULL;
@@ -388,23 +388,23 @@ static void write_head(const struct cost *cost, const char *mark, struct text *t
                 "seeds.\n",
                 mark, cost->frames, cost->seen_frames, cost->scenes, cost->scenes == 1 ? "" : "s",
                 cost->suite, CHAIN_TRIALS_SEEDS);
-    text_format(
-        text,
-        "%sErrors are distances from %s, in %% of those of ideal echoes (roots of energies)."
-        "\n%sTheir 95 %% intervals are for these frames under other seeds; they say "
-        "nothing of other scenes.\n",
-        mark, cost->reference == COST_SIGNAL ? "the signal" : "all that the suite describes", mark);
+    text_format(text,
+                "%sErrors are distances from %s, in %% of those of ideal echoes (roots of energy "
+                "distances).\n%sTheir 95 %% intervals hold for these frames under other seeds, not "
+                "for other scenes.\n",
+                mark, cost->reference == COST_SIGNAL ? "the signal" : "all effects of the suite",
+                mark);
     if ((ideal(cost)->present & CHAIN_TRIALS_ERROR) != 0)
         text_format(text,
-                    "%sFor scale: 30 %% of all targets lost is %.0f %%, half of them lost %.0f %%, "
-                    "all ranges off by a cell %.0f %%.\n",
+                    "%sFor scale: losing 30 %% of all targets gives %.0f %%, losing half of them "
+                    "%.0f %%, moving all ranges by a cell %.0f %%.\n",
                     mark, 100 * cost->scale.lost_30_percent, 100 * cost->scale.lost_half,
                     100 * cost->scale.one_cell_off);
 }
 
 enum { CELL = 32 };
 
-/* "3.1 %", or "<3.1 %" for an error that is not told from 0. */
+/* "3.1 %", or "<3.1 %" with the upper end of an interval that reaches 0. */
 static const char *error_cell(struct relative_error root, char cell[CELL])
 {
     if (root.low > 0)
@@ -433,8 +433,8 @@ void cost_write_table(const struct cost *cost, struct text *text)
     write_head(cost, "", text);
     if ((ideal(cost)->present & CHAIN_TRIALS_ERROR) == 0)
         text_format(text,
-                    "There are none: ideal echoes are not told from the reference (D %.3g, %.3g to "
-                    "%.3g).\n",
+                    "There are none: ideal echoes cannot be told from the reference (D %.3g, %.3g "
+                    "to %.3g).\n",
                     ideal(cost)->energy.value, ideal(cost)->energy.low, ideal(cost)->energy.high);
     int width = 28;
     for (size_t i = 0; i < cost->chains.count; i++)
@@ -448,7 +448,7 @@ void cost_write_table(const struct cost *cost, struct text *text)
         text_format(text, "%-*s left out: %s\n", width, "signal", cost->no_signal);
 }
 
-/* In per cent with one digit behind the point, and no minus before a 0. */
+/* In per cent, rounded to one digit after the point; never -0. */
 static double percent(double share)
 {
     return rint(1000 * share) / 10 + 0.0;
@@ -479,9 +479,8 @@ void cost_write_pipeline(const struct cost *cost, const struct tried_chain *chai
     else
         text_add_word(text, "0 by definition.\n");
     if (chain->left_out != 0)
-        text_add_word(text,
-                      "# What each adds if it alone is off is in points of the squared error; "
-                      "10 % squared is 1 point.\n");
+        text_add_word(text, "# If one effect alone is off, the squared error grows by these points; an "
+                            "error of 10 % is 1 point.\n");
     for (int i = 0; i < EFFECT_COUNT; i++)
         if ((chain->left_out & EFFECT_BIT(i)) != 0)
             write_left_out(cost, i, text);

@@ -12,8 +12,8 @@
 enum cost_reference { COST_SIGNAL, COST_ALL };
 extern const char *const cost_references[];
 
-/* What the reference's own lists are off, as roots, if 30 % of all targets are lost, half of them,
- * or every range is off by one cell. 0 without errors. */
+/* Errors (relative distances) of the reference's own lists after they lost 30 % of all targets,
+ * half of them, or after every range was moved by one cell. 0 where chains have no errors. */
 struct cost_scale {
     double lost_30_percent, lost_half, one_cell_off;
 };
@@ -27,7 +27,7 @@ struct cost {
     LIST_OF(struct tried_chain) chains; /* the first is that of ideal echoes */
     const char *chosen;                 /* the name of the one that was found; NULL: none was */
     bool brief;                         /* no chains that leave out an effect */
-    bool bounded;                       /* a bound will be given: chains run beside the whole one */
+    bool bounded;                       /* a bound follows; chains run beside the whole one */
     const char *whole;        /* what tables call the chain with all effects that are allowed */
     uint64_t allowed, needed; /* EFFECT_BITs of what was asked for, and of what frames call for */
     struct runner *runner;
@@ -45,14 +45,14 @@ int cost_begin(struct cost *cost, int64_t frames);
 /* After the last frame: measures the chains. allowed and needed are set. */
 int cost_measure(struct cost *cost);
 
-/* How much more squared error a chain has than the whole chain; only where ideal echoes have one.
- */
+/* The squared error of a chain less that of the whole chain; only where chains have errors. */
 struct relative_error cost_added(const struct cost *cost, const struct tried_chain *chain);
 
-/* Finds the fastest chain whose error is at most this with its whole interval, or the chain of the
- * least error that takes at most this time. Effects that save time with every seed are left out one
- * by one, first those that save the most for the squared error that they add, and every chain is
- * measured. NULL after a message: no chain holds the bound (DIAG_DATA). */
+/* Finds the fastest chain with an interval of the error that ends at most at this bound, or the
+ * chain of the least error that takes at most this time. Leaves out one effect after the other, in
+ * the order of the squared error added for the time saved, and measures each chain; effects that do
+ * not save time with every seed stay. NULL after a message: no chain holds the bound (DIAG_DATA).
+ */
 enum cost_bound { COST_BOUND_ERROR, COST_BOUND_US };
 const struct tried_chain *cost_find(struct cost *cost, enum cost_bound bound, double most);
 

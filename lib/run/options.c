@@ -9,23 +9,22 @@ static const struct field common_fields[] = {
     {OPTIONAL_NAME(
          struct common_options, output,
          "write to this file instead of standard output, compressed if its name ends in .gz; the "
-         "file appears when it is whole, and replaces an older one but keeps its mode and owner"),
+         "file appears when it is complete; a file that it replaces gives it its mode and owner"),
      .word = "FILE"},
     {OPTIONAL_NAME(
          struct common_options, sections,
-         "what frames carry from this stage on: all, none, or words with commas, -WORD to leave "
-         "one "
-         "out; words: objects, reflectors, echoes, cells, account (account:every=10 for every "
-         "tenth "
-         "frame), margins, quality, visibility; absent: what the frames say; at a source: objects"),
+         "sections that frames carry from this stage on: all, none, or words with commas, -WORD to "
+         "leave one out; words: objects, reflectors, echoes, cells, account (account:every=10 for "
+         "every tenth frame), margins, quality, visibility; absent: as the frames state; at a "
+         "source: objects"),
      .word = "LIST"},
     {FIELD_SEED_OF(
          struct common_options, seed,
-         "seed of the random numbers from here on; absent: the frames' own; at a source: 1"),
+         "seed of the random numbers from this stage on; absent: the frames' own; at a source: 1"),
      FIELD_OPTIONAL, .absent = 1},
-    {OPTIONAL_FLAG(
-        struct common_options, complete,
-        "fail unless the stream has a scene, and every scene all its frames from 0 to the last")},
+    {OPTIONAL_FLAG(struct common_options, complete,
+                   "fail if the stream has no scene, or if a scene lacks one of its frames from 0 "
+                   "to the last")},
     {OPTIONAL_FLAG(struct common_options, help, "print this help")},
     {OPTIONAL_FLAG(struct common_options, version, "print the version")},
     {0},
@@ -308,8 +307,8 @@ static void add_sentence(const char *words, struct text *text)
     add_words(words, strlen(words), 0, text);
 }
 
-/* Paragraphs are filled anew, but lines that begin with blanks are paragraphs of their own,
- * with a hanging indent. */
+/* Fills each paragraph anew. A line that begins with blanks is a paragraph of its own, with a
+ * hanging indent. */
 static void add_paragraphs(const char *words, struct text *text)
 {
     while (*words != '\0') {
@@ -397,18 +396,18 @@ static void help_frames(const struct stage *stage, struct text *text)
     if (stage_takes_files(stage) || stage->reads != 0 || stage->writes != 0)
         text_add_word(text, "\n");
     if (stage->reads != 0)
-        help_sections("Frames come as JSON lines from the files or standard input; reads",
+        help_sections("Reads frames (JSON lines) from the files or standard input; sections:",
                       stage->reads, text);
     else if (stage_takes_files(stage))
-        add_sentence("Frames come as JSON lines from the files or standard input; reads whatever "
-                     "sections they have.",
+        add_sentence("Reads frames (JSON lines) from the files or standard input; all sections.",
                      text);
     if (stage->writes != 0)
-        help_sections("Frames go as JSON lines to standard output; writes", stage->writes, text);
+        help_sections("Writes frames (JSON lines) to standard output; sections:", stage->writes,
+                      text);
     if (stage_kind(stage) == STAGE_FILTER)
-        add_sentence("Each goes out before the program waits for the next.", text);
+        add_sentence("Each frame is written before the program waits for the next.", text);
     if (stage_takes_files(stage) && stage->writes == 0)
-        add_sentence("Writes no frames: in a pipeline it stands last.", text);
+        add_sentence("Writes no frames, so it stands last in a pipeline.", text);
 }
 
 void options_help(const struct stage *stage, struct text *text)

@@ -1,6 +1,6 @@
 /* Functions that sources of recorded traffic share.
  *
- * Their state is or begins with a struct recording. Each opens a reader of its format. */
+ * The state of such a source is, or begins with, a struct recording. */
 #pragma once
 
 #include "recorded/recording.h"

@@ -99,7 +99,7 @@ struct diag *runner_diag(struct runner *runner);
 
 const struct stage *runner_stage(const struct runner *runner);
 
-/* Where the stage notes which effects it simulates and leaves out, for a tool; NULL: nowhere. */
+/* The log in which the stage notes the effects that it simulates and leaves out; NULL: none. */
 struct effect_log *runner_log(struct runner *runner);
 
 /* The vehicle document of a class (documents/vehicle.h; folder may be NULL), loaded once. Stages
@@ -117,8 +117,8 @@ bool runner_output_ends(const struct runner *runner, const char *ending);
 /* True if nothing is given by --output, and standard output is a terminal. */
 bool runner_output_is_terminal(const struct runner *runner);
 
-/* A second stream, of frames or tracks by their record, beside the one that is read, for sinks that
- * compare the two. "-" is standard input, and refused where the frames come from there. The runner
+/* Opens a second stream, of frames or of tracks by their record, for sinks that compare it with the
+ * first. "-" is standard input, and refused if the first stream is read from there. The runner
  * closes it. NULL after a message. */
 struct reference_stream *runner_reference_stream(struct runner *runner, const char *path,
                                                  const struct record *record, bool partial);

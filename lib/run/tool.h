@@ -34,8 +34,8 @@ struct output *runner_output_in(struct runner *runner, const char *folder, const
 
 /* A stage that a tool tries, to see what it would do. Each call makes one more, with a state of its
  * own. choice are the stage's options; NULL stands for its defaults, and only stages whose state
- * begins with a suite_choice take others. The effects are noted in log; NULL: nowhere. The stage is
- * started here and never stopped; it is freed with the tool. */
+ * begins with a suite_choice take others. The stage notes its effects in log, or nowhere (NULL). It
+ * is started here and never stopped; it is freed with the tool. */
 struct runner *runner_trial(struct runner *runner, const struct stage *stage,
                             const struct suite_choice *choice, struct effect_log *log);
 

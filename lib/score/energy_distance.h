@@ -35,12 +35,12 @@ struct energy_sample {
     size_t ones, others; /* each at least 2 */
 };
 
-/* Adds a share of the distances of count closed lists from each other to such a matrix, but for
- * those between two of the first `known` lists. */
+/* Adds the distances between count closed lists, times share, to such a matrix. Those between two
+ * of the first `known` lists are left out. */
 void energy_distance_add(const struct embedded_list *const *lists, size_t known, size_t count,
                          double share, double *distance);
 
 double energy_distance_of(const struct energy_sample *sample);
 
-/* The same without the list of that number, for jackknives; its law needs at least 3 lists. */
+/* The energy distance without one list, for jackknives; the law of the list needs at least 3. */
 double energy_distance_without(const struct energy_sample *sample, size_t list);

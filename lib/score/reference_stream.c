@@ -33,7 +33,7 @@ struct reference_stream {
     struct waiting_line *first, **last;
     struct waiting_line *taken; /* the waiting line that was taken out last */
     int64_t unmatched, missing;
-    struct frame frame; /* the line, or else: */
+    struct frame frame; /* if the lines are frames */
     struct track_list tracks;
     struct arena arena;
 };
@@ -89,7 +89,7 @@ int64_t reference_stream_missing(const struct reference_stream *reference)
     return reference->missing;
 }
 
-/* Reads the line found as a frame or as tracks. */
+/* Parses the line as a frame or as tracks. */
 static int parse(struct reference_stream *reference, struct diag *diag)
 {
     struct frame *frame = &reference->frame;
@@ -238,7 +238,7 @@ static int check_time(const struct frame *frame, double time_s, struct diag *dia
                      time_s, frame->time_s);
 }
 
-/* The line found as a frame that has sensors and targets. */
+/* Parses a line as a frame with sensors and targets. */
 static int take_frame(struct reference_stream *reference, const struct frame **other,
                       struct diag *diag)
 {

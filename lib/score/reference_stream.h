@@ -35,7 +35,7 @@ int reference_stream_next(struct reference_stream *reference, const struct frame
 /* Puts the place of the line found last in front of a message: for what callers refuse in it. */
 int reference_stream_prefix(const struct reference_stream *reference, struct diag *diag);
 
-/* The same for tracks, in the order of their ids. */
+/* reference_stream_next for a stream of tracks, in the order of their ids. */
 int reference_stream_tracks(struct reference_stream *reference, const struct frame *frame,
                             struct track_list *tracks, struct diag *diag);
 

@@ -11,8 +11,8 @@ double relative_error_student(double freedom)
     return z * (1 + ((third / freedom + second) / freedom + first) / freedom);
 }
 
-/* The variance of a ratio by the jackknife over count lists of one law; without an ideal, that of
- * the numerator. */
+/* The variance of chain over ideal by the jackknife over count lists of one law; that of chain if
+ * ideal is NULL. */
 static double jackknife(const struct energy_sample *chain, const struct energy_sample *ideal,
                         size_t first, size_t count)
 {
@@ -42,8 +42,8 @@ struct relative_error relative_error_of(const struct energy_sample *chain,
     return (struct relative_error){value, value - half, value + half, sqrt(variance)};
 }
 
-/* The energy distance is linear in the distances, so the difference of two is that of their
- * matrices. */
+/* The energy distance is linear in the matrix of distances, so the difference of two energy
+ * distances is that of the difference of their matrices. */
 struct relative_error relative_error_added(const struct energy_sample *chain,
                                            const struct energy_sample *other,
                                            const struct energy_sample *ideal, struct arena *arena)

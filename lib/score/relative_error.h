@@ -3,11 +3,11 @@
  * The lists of a reference, of a chain and of ideal echoes are samples of random lists, over the
  * same scans. D is the energy distance from the reference, and the squared error is D of the chain
  * over D of ideal echoes (MODEL 11.2): 1 for ideal echoes, 0 for a chain with the law of the
- * reference. Its root is what people read; effects add up in the square alone.
+ * reference. Reports print its root; contributions of effects add up only in the square.
  *
  * The interval covers 95 %: Student's t times the standard error of the jackknife over the seeds of
- * both laws, with the degrees of freedom of Welch and Satterthwaite. It is that of the same frames
- * under other seeds, and says nothing of other frames. */
+ * both laws, with the degrees of freedom of Welch and Satterthwaite. It holds for the same frames
+ * under other seeds, not for other frames. */
 #pragma once
 
 #include "base/arena.h"
@@ -18,19 +18,19 @@ struct relative_error {
     double value, low, high, deviation;
 };
 
-/* The squared error of the chain, for an ideal of the same reference; without an ideal, which is
- * NULL, D of the chain itself. Estimates are unbiased, so they may be negative. Every law has at
- * least 3 lists. There is an error only where the low end of the ideal's own D is above 0. */
+/* The squared error of the chain, with ideal echoes compared with the same reference; D of the
+ * chain if ideal is NULL. D is unbiased, so it may be negative. Every law has at least 3 lists. The
+ * caller makes sure that the interval of the ideal's D lies above 0. */
 struct relative_error relative_error_of(const struct energy_sample *chain,
                                         const struct energy_sample *ideal);
 
-/* How much more squared error the chain has than another one of the same reference. */
+/* The squared error of the chain less that of another chain, both from the same reference. */
 struct relative_error relative_error_added(const struct energy_sample *chain,
                                            const struct energy_sample *other,
                                            const struct energy_sample *ideal, struct arena *arena);
 
-/* The root of a squared error. Value and low are 0 where the square is not above 0; high then is
- * the root of the upper half of its interval. */
+/* The root of a squared error, end by end; negative ends give 0. If the value is negative, high is
+ * the root of the distance from the value to the upper end. */
 struct relative_error relative_error_root(struct relative_error square);
 
 /* The 97.5 % quantile of Student's distribution with freedom > 0, by its expansion in 1/freedom

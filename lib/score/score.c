@@ -61,13 +61,13 @@ static const struct field score_fields[] = {
     {COMPONENT(position_m, SCORE_POSITION, "distances of tracks and objects")},
     {COMPONENT(velocity_mps, SCORE_VELOCITY,
                "sizes of the differences in velocity of tracks and objects")},
-    {COMPONENT(nees, SCORE_NEES,
-               "squared distances over the tracks' covariances; mean 2 if the covariances hold")},
+    {COMPONENT(
+        nees, SCORE_NEES,
+        "squared distances over the tracks' covariances; mean 2 if the covariances are right")},
     {MEASURE(nees_low,
-             "95 % of the means over as many independent pairs are above; absent for few"),
+             "lower end of 95 % of all means over as many independent pairs; absent below 5 pairs"),
      FIELD_OPTIONAL},
-    {MEASURE(nees_high, "95 % of the means over as many independent pairs are from nees_low to it"),
-     FIELD_OPTIONAL},
+    {MEASURE(nees_high, "upper end of these 95 %; absent below 5 pairs"), FIELD_OPTIONAL},
     {0},
 };
 
@@ -134,7 +134,7 @@ static const struct field track_summary_fields[] = {
     {SWITCHES(struct score_summary)},
     {FIELD_RECORD_OF(struct score_summary, all, &score_record, "score over all frames")},
     {OPTIONAL_RECORD(struct score_summary, difference, &tracker_difference_record,
-                     "scores less those of --against"),
+                     "scores of --tracks less those of --against"),
      .section = SCORE_DIFFERENCE},
     {0},
 };
@@ -260,9 +260,9 @@ static struct score_differences differences_of(const struct score_tally *tallies
     return differences;
 }
 
-/* The mean of count squared distances in a plane, each over its covariance, that is z normal
- * deviations from its own mean of 2: chi squared with 2 count degrees of freedom, over count
- * (Wilson and Hilferty 1931; off by less than 1 % from 5 on). */
+/* The quantile of the mean of count NEES in a plane at z normal deviations: chi squared with 2
+ * count degrees of freedom, divided by count (Wilson and Hilferty 1931; off by less than 1 % from
+ * count 5 on). */
 enum { FEWEST_COVERED = 5 };
 
 static double nees_bound(double count, double z)

@@ -15,7 +15,7 @@ enum score_component {
     SCORE_AMPLITUDE, /* up to here of targets, below of tracks */
     SCORE_POSITION,  /* distance of track and object, and size of their difference in velocity */
     SCORE_VELOCITY,
-    SCORE_NEES, /* squared distance over the track's covariance, 2 on average if that holds */
+    SCORE_NEES, /* squared distance over the track's covariance; 2 on average if it is right */
     SCORE_COMPONENTS,
 };
 
@@ -38,7 +38,7 @@ struct score {
     double gospa, gospa_rms, gospa_max;
     double gospa_localisation, gospa_missed, gospa_false;
     double ospa;
-    double nees_low, nees_high; /* 95 % of mean NEES of as many independent pairs; 0: few pairs */
+    double nees_low, nees_high; /* 95 % of mean NEES of as many pairs lie between; 0: few pairs */
     struct score_differences differences[SCORE_COMPONENTS];
 };
 

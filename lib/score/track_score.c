@@ -12,7 +12,7 @@ const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
 
 /* The least variance is that of 10 um, so that squares of normalised distances are finite. */
 #define COVARIANCE(member, low, help)                                                              \
-    OPTIONAL_REAL(struct track, member, low, 1e14, help ", positive definite together"),           \
+    OPTIONAL_REAL(struct track, member, low, 1e14, help "; the matrix is positive definite"),      \
         .section = TRACK_COVARIANCE
 
 static const struct field track_fields[] = {
@@ -34,7 +34,7 @@ static const struct field track_fields[] = {
 
 static const struct record track_record = {
     FIELD_TABLE(struct track, track_fields, "track",
-                "A track of an object, with the covariance of its place or without."),
+                "A track of an object, with or without the covariance of its place."),
     .present_offset = offsetof(struct track, present)};
 
 static const struct field list_fields[] = {
@@ -55,13 +55,13 @@ const struct record track_list_record = {
 
 _Static_assert(offsetof(struct track, id) == 0, "frame_order_names compares it");
 
-/* Of x_m and y_m, in [-1, 1] for a covariance. NaN without a variance. */
+/* Correlation of x_m and y_m, in [-1, 1] for a covariance; NaN if a variance is 0. */
 static double correlation(const struct track *track)
 {
     return track->covariance_xy_m2 / sqrt(track->variance_x_m2) / sqrt(track->variance_y_m2);
 }
 
-/* The squared distance of the centres over the covariance of the track. */
+/* NEES: the squared distance of the centres over the covariance of the track. */
 static double normalised_square(const struct track *track, const struct object *object)
 {
     double x = (track->x_m - object->x_m) / sqrt(track->variance_x_m2);

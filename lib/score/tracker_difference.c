@@ -11,14 +11,14 @@ enum { FEWEST = 5 };
 
 static const struct field interval_fields[] = {
     {BOUND(mean, "mean over the scenes")},
-    {BOUND(low, "of its 95 % interval")},
-    {BOUND(high, "of its 95 % interval")},
+    {BOUND(low, "lower end of the 95 % interval")},
+    {BOUND(high, "upper end of the 95 % interval")},
     {0},
 };
 
 static const struct record interval_record = {
     FIELD_TABLE(struct tracker_interval, interval_fields, "difference",
-                "A difference of two trackers in a frame, with its 95 % interval over scenes.")};
+                "Difference of two trackers per frame, with its 95 % interval over scenes.")};
 
 #define FIGURE(name_, which, help_)                                                                \
     FIELD_NAMED(name_), .kind = FIELD_RECORD, .record = &interval_record,                          \
@@ -72,8 +72,7 @@ int tracker_difference_of(const struct tracker_scenes *scenes,
     difference->scenes = (int64_t)scenes->list.count;
     if (difference->scenes < FEWEST)
         return diag_fail(diag, DIAG_DATA,
-                         "--against: the stream has %" PRId64 " of at least %d scenes that an "
-                         "interval needs",
+                         "--against: number of scenes: %" PRId64 "; expected at least %d",
                          difference->scenes, FEWEST);
     for (int i = 0; i < TRACKER_FIGURES; i++)
         difference->figures[i] = interval_of(scenes, i);
@@ -83,7 +82,7 @@ int tracker_difference_of(const struct tracker_scenes *scenes,
 void tracker_difference_table(const struct tracker_difference *difference, struct text *text)
 {
     text_format(text,
-                "\nless those of --against, per frame, mean over %" PRId64 " scenes with its 95 %% "
+                "\nscores less those of --against, per frame: mean over %" PRId64 " scenes, 95 %% "
                 "interval\n",
                 difference->scenes);
     for (int i = 0; i < TRACKER_FIGURES; i++) {

@@ -1,8 +1,8 @@
 /* Score differences of two trackers, paired by scene.
  *
- * Both have tracks in the same frames of the same objects, for instance from the lists of two
- * chains. The difference in a scene is the mean over its frames; that of the trackers is the mean
- * over scenes. Its 95 % interval is Student's, for scenes that are independent of each other. */
+ * Both trackers have tracks in the same frames, for instance from the target lists of two chains.
+ * The difference in a scene is the mean over its frames; that of the trackers is the mean over
+ * scenes. Its 95 % interval is Student's, for scenes that are independent of each other. */
 #pragma once
 
 #include "base/intern.h"
@@ -40,12 +40,12 @@ struct tracker_difference {
 
 extern const struct record tracker_difference_record;
 
-/* Adds a frame's figures of the one tracker less those of the other. */
+/* Adds the differences of a frame: the figures of one tracker less those of the other. */
 void tracker_difference_add(struct tracker_scenes *scenes, const char *scene,
                             const double one[TRACKER_FIGURES], const double other[TRACKER_FIGURES],
                             struct arena *arena);
 
-/* Refuses fewer than 5 scenes (DIAG_DATA), as their interval would not hold. */
+/* Refuses fewer than 5 scenes (DIAG_DATA): their intervals would be unreliable. */
 int tracker_difference_of(const struct tracker_scenes *scenes,
                           struct tracker_difference *difference, struct diag *diag);
 

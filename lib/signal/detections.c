@@ -30,7 +30,7 @@ static double element_sigma_rad(const struct beamforming_array *array, double az
            elementary_cos(azimuth_rad);
 }
 
-/* The ratio of powers of an echo with this amplitude, of which noise is a part. */
+/* Signal-to-noise ratio, as a ratio of powers, of an amplitude that contains noise. */
 static double snr_of(double amplitude, double noise)
 {
     double ratio = amplitude / noise;

@@ -15,7 +15,7 @@ struct detection {
     const struct range_doppler_peak *peak;
     double range_m, azimuth_rad, range_rate_mps;
     double amplitude;
-    struct antenna_pointers pointers; /* of sum and delta; 0 of an array */
+    struct antenna_pointers pointers; /* of sum and delta channels; 0 for an array */
     bool sign_undecided;
     struct cell cell; /* from the labelled echoes alone, without noise */
 };
@@ -50,9 +50,9 @@ void detections_list(const struct detections *detections, struct frame *frame, c
 /* Sets the standard deviations of the measurement of a single echo (MODEL 14.21) by the Cramer-Rao
  * bound of the window and of the elements, or by the slope of sum and delta. The range error of a
  * chirp contains the error of the range rate. Each is at most that of a value anywhere in a cell,
- * or in the field of view. Sum and delta set looks_merged, too. peak is the amplitude of the peak,
- * over all beams; noise > 0 is the RMS in the cell of the spectrum where the peak was found, in
- * units of peak and of the measurement's amplitude and pointers. */
+ * or in the field of view. With sum and delta channels it also sets looks_merged. peak is the
+ * amplitude of the peak, over all beams; noise > 0 is the RMS of noise in the peak's cell of the
+ * spectrum, in units of peak and of the measurement's amplitude and pointers. */
 void detections_estimate(const struct signal_cube *signal, double peak, double noise,
                          struct effect_measurement *measurement);
 

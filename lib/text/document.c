@@ -181,7 +181,7 @@ const char *document_find_file(const char *own, const char *kind, const char *na
     return NULL;
 }
 
-/* The tree as a line, in place of the tree; NULL for NULL. */
+/* Frees the tree, and returns it as a line of JSON; NULL for NULL. */
 static const char *print(json_t *tree, struct arena *arena)
 {
     char *printed = json_dumps(tree, JSON_COMPACT | JSON_ENCODE_ANY);
@@ -262,7 +262,7 @@ static bool read_pair(const json_t *values, double pair[2])
     return json_array_size(values) == 2;
 }
 
-/* Each law draws one value: NULL if its values are not as expected, or after a message. */
+/* Each law draws one value. NULL: its parameters are not as expected, or a message was written. */
 static json_t *draw_uniform(struct variation *variation, const json_t *values)
 {
     double pair[2];
@@ -301,7 +301,7 @@ static const struct law {
     {"choice", "an array of one value or more", draw_choice},
 };
 
-/* The law that an object names by its first member; NULL if it is no distribution. */
+/* The law named by the first member of an object; NULL if the object is no distribution. */
 static const struct law *find_law(json_t *value)
 {
     const char *key = json_object_iter_key(json_object_iter(value));
@@ -327,8 +327,8 @@ static json_t *draw_law(struct variation *variation, const struct law *law, cons
     return NULL;
 }
 
-/* The value with a draw in the place of every distribution; without a part that was refused. The
- * path keeps what it had before. */
+/* The value, with a draw in place of every distribution; refused parts are left out. The path is
+ * unchanged afterwards. */
 static json_t *draw_value(struct variation *variation, json_t *value)
 {
     struct text *path = &variation->path;

@@ -22,11 +22,10 @@
 #define MARK ".glint-"
 
 /* A file without a name in the folder where it will be. Where the file system has no files without
- * names (NFS) it is called .glint-PROCESS-NUMBER@HOST. After a signal that ends the process the
- * file stays, until the next process of that host that writes into the folder removes it. A lock
- * (flock) tells it from the file of a process that runs; where there are no locks it stays, and so
- * does what other hosts left. A name that is taken is never written or replaced, and no link is
- * followed. */
+ * names (NFS) it is called .glint-PROCESS-NUMBER@HOST. If a signal ends the process, the file stays
+ * until the next process of that host that writes into the folder removes it. A running process
+ * holds a lock (flock) on its file; without locks such files stay, as do those of other hosts. A
+ * file that exists is never written or replaced, and no link is followed. */
 struct whole_file {
     int fd;
     char *path, *folder;
@@ -47,8 +46,7 @@ static bool has_name(int fd, int folder, const char *name)
            open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
-/* Removes what processes of this host that were ended left in the folder: files that none has
- * locked. */
+/* Removes the files in the folder that ended processes of this host left: those without a lock. */
 static void remove_leftovers(const char *folder)
 {
     struct utsname system;

@@ -88,8 +88,7 @@ static bool same_sensor(const struct sensor_view *a, const struct sensor_view *b
            a->cell_range_rate_mps == b->cell_range_rate_mps;
 }
 
-/* The cell by the suite's document, if that is the installed one; else as wide as the frame states.
- */
+/* The cell by the suite's document, if that is the installed one; else by the frame's statement. */
 static struct view_cell cell_of(const struct sensors *sensors, const struct sensor_view *view,
                                 struct arena *arena)
 {
@@ -223,8 +222,8 @@ static struct vec2 spot_of(struct view_data *data, uint32_t scene, const struct 
     return data->spots.items[number];
 }
 
-/* True if the loss was within 5 cm of its reflector's spot, or if its place is not known. Only
- * direct echoes come from there. */
+/* True if the lost echo was within 5 cm of its reflector, as only direct echoes are, or if its
+ * place is not known. */
 static bool is_at_spot(struct view_data *data, const struct loss_scan *scan,
                        const struct loss_row *row, const struct lost_echo *echo)
 {

@@ -40,8 +40,7 @@ struct view_scene {
     bool ended;
 };
 
-/* Full widths of a sensor's resolution cell: echoes less than half of them from the leader merge.
- */
+/* Full widths of a sensor's resolution cell. Echoes within half of them of the leader merge. */
 struct view_cell {
     double range_m, range_rate_mps;
 };

@@ -13,8 +13,8 @@ struct view_scan {
     double age_s; /* the frame's time less that of the measurement */
 };
 
-/* The ego some time before the frame's. In a stream without objects it is at the origin, heads
- * along x, and has no velocity (NAN). */
+/* The ego's motion, age_s before the time of the frame. Without objects in the stream it is at the
+ * origin, heads along x, and its velocity is unknown (NAN). */
 struct motion view_frame_ego(const struct frame *frame, double age_s);
 
 struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor);

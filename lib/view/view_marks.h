@@ -1,18 +1,18 @@
 /* Marks of targets, in the page and in stills.
  *
- * A target's shape and colour are those of its sensor, by number; both begin again after the last.
- * Its kind says what it is an echo of: "body", "ghost", "clutter" or "false_alarm". A body's shape
- * is filled, a circle is a ring; a ghost's is hollow and dashed; three dots are clutter, and an
- * asterisk is a false alarm. A cross marks a lost echo. */
+ * A target has the shape and colour of its sensor, by number; both begin again after the last. Its
+ * kind is that of its first echo: "body", "ghost", "clutter" or "false_alarm". Shapes of bodies are
+ * filled, but the circle is a ring; shapes of ghosts are hollow and dashed. Three dots mark
+ * clutter, an asterisk a false alarm, and a cross a lost echo. */
 #pragma once
 
 #include "frame/frame.h"
 
 struct view_shape {
     int64_t corners; /* 0: a circle */
-    double inner;    /* radius of the corners between those of a star, 1 at its tips; 0: none */
+    double inner;    /* radius of a star's inner corners, where its tips have 1; 0: a polygon */
     double turn_rad; /* of the first corner, clockwise from the top */
-    double size;     /* radius of the shape, where that of a mark is 1 */
+    double size;     /* radius of the shape in radii of a mark */
 };
 
 enum { VIEW_SHAPES = 6, VIEW_COLOURS = 8 };

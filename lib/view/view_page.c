@@ -70,9 +70,9 @@ static const struct record place_record = {
 
 static const struct field shape_fields[] = {
     {FIELD_INTEGER_IN(struct view_shape, corners, 0, 100, "0: a circle")},
-    {FIELD_REAL_IN(struct view_shape, inner, 0, 1, "radius between the tips of a star; 0: none")},
-    {FIELD_REAL_IN(struct view_shape, turn_rad, 0, 10, "of the first corner, from the top")},
-    {FIELD_REAL_IN(struct view_shape, size, 0, 10, "its radius, where a mark's is 1")},
+    {FIELD_REAL_IN(struct view_shape, inner, 0, 1, "radius of a star's inner corners; 0: none")},
+    {FIELD_REAL_IN(struct view_shape, turn_rad, 0, 10, "first corner, clockwise from the top")},
+    {FIELD_REAL_IN(struct view_shape, size, 0, 10, "radius, in radii of a mark")},
     {0},
 };
 static const struct record shape_record = {
@@ -93,14 +93,14 @@ static const struct field head_fields[] = {
     {FIELD_NAMES_OF(struct head, paths, "paths of echoes, by number")},
     {FIELD_NAMES_OF(struct head, kinds, "kinds of targets, by the number of their path")},
     {FIELD_NAMES_OF(struct head, light, "colours of sensors on light paper")},
-    {FIELD_NAMES_OF(struct head, dark, "and on dark paper")},
+    {FIELD_NAMES_OF(struct head, dark, "colours of sensors on dark paper")},
     {FIELD_LIST_OF(struct head, shapes, &shape_record, "shapes of targets, by sensor")},
     {FIELD_NAMES_OF(struct head, effects, "effects, by number")},
     {FIELD_LIST_OF(struct head, reasons, &reason_record, "reasons of losses, by number")},
     {FIELD_LIST_OF(struct head, effect_sets, &effect_set_record, "sets of effects, by number")},
     {FIELD_LIST_OF(struct head, scenes, &scene_record, "scenes, by number")},
     {FIELD_LIST_OF(struct head, sensors, &sensor_view_record, "sensors, by number")},
-    {FIELD_LIST_OF(struct head, cells, &view_cell_record, "their resolution cells")},
+    {FIELD_LIST_OF(struct head, cells, &view_cell_record, "resolution cells, by sensor")},
     {FIELD_LIST_OF(struct head, columns, &place_record, "places of the columns")},
     {0},
 };

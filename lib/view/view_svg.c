@@ -172,7 +172,7 @@ static void add_circle(struct text *text, const char *class, size_t style, struc
                 style % VIEW_COLOURS, at.x, at.y, radius);
 }
 
-/* The star or polygon of a sensor, or the ring that is its circle. */
+/* The shape of a sensor: a star, a polygon, or a ring for the circle. */
 static void add_shape(struct text *text, size_t style, bool hollow, struct vec2 at)
 {
     const struct view_shape *shape = &view_marks_shapes[style % VIEW_SHAPES];

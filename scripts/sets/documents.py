@@ -131,7 +131,7 @@ def files_of(source, plan_folder):
 
 
 def files_of_chain(plan, plan_folder):
-    """The files of stages of one's own, from the plan's folder."""
+    """The files of the user's own stages, with paths from the plan's folder."""
     found = []
     for stage in filter(is_own, stages_of(plan["chain"])):
         names = [word for word in shlex.split(stage) if "/" in word and os.path.isfile(os.path.join(plan_folder, word))]

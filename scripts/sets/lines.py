@@ -1,4 +1,4 @@
-"""The lines of a shard: packed by gzip or zstd(1) as they come, measured on both sides, and counted for the line of progress."""
+"""The lines of a shard: packed by gzip or zstd(1), with size and digest before and after, and counted for the line of progress."""
 import hashlib
 import os
 import subprocess
@@ -8,8 +8,8 @@ from durable import digest_of_file
 from plan import IO, Fault
 
 ENDINGS = {"gzip": ".jsonl.gz", "zstd": ".jsonl.zst"}
-# gzip: the level of glint's own output. Tables of this size stay in a core's cache: two per cent faster than zlib's own
-# choice, and as small. Packed bytes depend on the content, the level, and the version of zlib or zstd.
+# gzip: tables of this size (memLevel) stay in a core's cache, which is two per cent faster than zlib's default, and packs
+# as well. Packed bytes depend on the content, the level, and the version of zlib or zstd.
 GZIP, TABLES = 16 + zlib.MAX_WBITS, 7
 
 
@@ -41,7 +41,7 @@ class Zstd:
 
 
 class Lines:
-    """Takes the lines of a shard; file: where they go, or None where a set keeps none."""
+    """Packs the lines of a shard into a file, or into none (None)."""
 
     def __init__(self, plan, file, pace):
         packers = {"gzip": Gzip, "zstd": Zstd}
@@ -55,7 +55,7 @@ class Lines:
         self.pace.add(lines)
 
     def facts(self, rows):
-        """Ends the file."""
+        """Ends the file; its entry in the manifest."""
         self.packer.close()
         self.file.flush()
         return {"rows": rows, "bytes": os.path.getsize(self.file.name), "hash": digest_of_file(self.file.name),

@@ -1,4 +1,4 @@
-"""How far a run of make is: the frames that it has made of each shard, in a file that its processes share."""
+"""Progress of a run of make: the frames made of each shard, in a file that its processes share."""
 import array
 import contextlib
 import os
@@ -7,7 +7,7 @@ import time
 
 from progress import LINE_WIDTH, PAUSE_S, QUIET_S, line_of
 
-PATH = "work/begun"  # doubles: when the run began, how many frames it has to make, and for each shard those that it has made
+PATH = "work/begun"  # doubles: begin of the run, frames to make, and frames made of each shard
 HEAD = 2
 
 
@@ -17,13 +17,13 @@ def begin(layout, left):
 
 
 def clear():
-    """Takes the line away that the last process has left."""
+    """Clears the line of progress."""
     if sys.stderr.isatty():
         print(f"\r{'':{LINE_WIDTH}}\r", end="", file=sys.stderr, flush=True)
 
 
 class Pace:
-    """What one process adds, and the line of all."""
+    """The progress of one process, and the line of progress of all."""
 
     def __init__(self, folder, part, frames):
         self.path, self.slot, self.frames, self.made, self.next_s = os.path.join(folder, PATH), part + HEAD, frames, 0, 0
@@ -34,7 +34,7 @@ class Pace:
             self.show(min(self.made, self.frames))
 
     def end(self):
-        """The shard is made, whatever number of frames was expected of it."""
+        """Counts all frames that were expected of the shard as made."""
         self.show(self.frames)
 
     def show(self, made):

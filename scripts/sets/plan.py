@@ -97,7 +97,7 @@ def stages_of(chain):
 
 
 def is_own(stage):
-    """Is it a stage of one's own, and none of glint's?"""
+    """True for a user's own stage, false for one of glint."""
     return not stage.startswith("glint-")
 
 
@@ -111,11 +111,11 @@ def check_chain(chain):
     refuse("#" in chain, "/chain", "has a comment, which would hide what follows it")
     for stage in stages_of(chain):
         for word in words_of(stage, "/chain"):
-            refuse(word.split("=")[0] in OPTIONS_OF_CHAIN and not is_own(stage), "/chain", f"{word} is not the chain's to say")
+            refuse(word.split("=")[0] in OPTIONS_OF_CHAIN and not is_own(stage), "/chain", f"{word} may not be in the chain")
 
 
 def check_files(plan):
-    """What a shard is to have, and the programs that make it."""
+    """Refuses contradictions of lines, tables and compression, and missing programs."""
     lines, compression = plan.get("lines", "whole"), plan.get("compression", "gzip")
     refuse(lines != "whole" and not plan.get("tables"), "/lines", f'"{lines}" needs tables')
     for name in ("compression", "level"):
@@ -128,7 +128,7 @@ def check_files(plan):
 
 
 def split_of(plan, source):
-    """The split that has all of a source; None: its scenes or times are shared."""
+    """The split that has all of a source; None: its scenes or times are split."""
     return source.get("split") if "splits" in plan else "all"
 
 

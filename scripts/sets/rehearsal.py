@@ -48,8 +48,8 @@ class Rehearsal:
             raise Fault(done.returncode, f"/chain: this fails: {shlex.join([*shell_of(self.plan), whole])}")
 
     def check_drawn(self, source, path, known):
-        """Refuses two of the first scenes of scenarios that are alike, unless both are in one split: such a scenario draws
-        nothing or too little. known: the scenes of sources before, by their objects."""
+        """Refuses two of the first scenes of scenarios that are alike and in different splits: the scenario draws nothing or
+        too little. known: the scenes of earlier sources, by their objects."""
         stretch, scenes, split = first_scenes(source, self.plan.get("seeds", [1])[0]), {}, split_of(self.plan, source)
         command = source_command(self.plan, stretch, suite_name(self.plan["suites"][0]))
         for frame in map(json.loads, self.lines(path, "glint", "-c", command)):
@@ -74,7 +74,7 @@ class Rehearsal:
                    f'"{ego}" has no frame in the block' + (f" that begins at {seconds(begin)} s" if begin is not None else ""))
 
     def check_gap(self, source, stays):
-        """Refuses a body that moves in the frames of two splits, unless it is the only ego."""
+        """Refuses a recording with a body that moves in the frames of two splits, unless it is the only ego."""
         times = times_of(self.plan, source)
         longest_s = max((stay.end_s - stay.begin_s for body, stay in stays.items() if stay.moved and [body] != source["egos"] and
                          sum(stay.begin_s * US < end and stay.end_s * US >= begin for begin, end in times.values()) > 1), default=0)
@@ -82,7 +82,7 @@ class Rehearsal:
                f"so it leaks; expected more than the {longest_s:.6g} s that one is there")
 
     def check_recordings(self):
-        """Refuses recordings with the same traffic in two splits, and bodies that are in two splits of one."""
+        """Refuses recordings with the same traffic in two splits, and recordings with a body that moves in two splits."""
         known = []
         for i, source in enumerate(self.plan["sources"]):
             if kind_of(source) != "recording":

@@ -47,13 +47,13 @@ SOURCE = record("source", "Traffic of one kind.", [], {
     "rate_hz": ("of a recording or of moving random traffic: frames in a second; absent: the recording's own, whose blocks "
                 "are shards, or 20", {"type": "number", "minimum": 0.001, "maximum": 10 ** 6}),
     "options": ("more options of the source's program", {"type": "string"}),
-    "split": ("the split that has all of the source, where splits are by recording or kind", text_like("^[a-z0-9][a-z0-9_-]*$"))})
+    "split": ("the split that has all of the source; for splits by recording or kind", text_like("^[a-z0-9][a-z0-9_-]*$"))})
 SPLITS = record("splits", "Parts for training, validation and test that share no traffic.", ["by"], {
-    "by": ("scene: numbers of random scenes; time: blocks of recordings with a gap between; recording: as the sources say; "
-           "kind: recordings by time, others by scene, and as the sources say", {"enum": ["scene", "time", "recording", "kind"]}),
-    "shares": ("but by recording: the share of each split, in their order; 1 in sum", {
+    "by": ("scene: numbers of random scenes; time: blocks of recordings with a gap between; recording: the split of each source; "
+           "kind: the split of a source, or else recordings by time and others by scene", {"enum": ["scene", "time", "recording", "kind"]}),
+    "shares": ("the share of each split, in their order; 1 in sum; none if by is recording", {
         "type": "object", "minProperties": 1, "additionalProperties": {"type": "number", "exclusiveMinimum": 0, "maximum": 1}}),
-    "gap_s": ("of recordings by time: what is left out between two splits; longer than vehicles stay in view", LENGTH_S)})
+    "gap_s": ("of recordings by time: the gap that is left out between two splits; longer than vehicles stay in view", LENGTH_S)})
 PLAN = record(
     "dataset", "The plan of a data set: from which traffic, by which chain and with which radars scripts/dataset makes it.",
     ["name", "origin", "sources", "chain", "suites", "frames_per_shard"], {
@@ -68,7 +68,7 @@ PLAN = record(
                   several(whole(0, 2 ** 53 - 1), uniqueItems=True)),
         "tables": ("tables of glint-tables beside the lines of each shard: true for CSV, parquet for Parquet by DuckDB; absent: none",
                    {"enum": [False, True, "parquet"]}),
-        "lines": ("JSON lines of each shard: whole, or where there are tables without_objects or none; absent: whole",
+        "lines": ("JSON lines of each shard: whole, or with tables also without_objects or none; absent: whole",
                   {"enum": ["whole", "without_objects", "none"]}),
         "compression": ("of lines; absent: gzip", {"enum": ["gzip", "zstd"]}),
         "level": ("of compression: up to 9 for gzip, 19 for zstd; absent: 1", whole(1, 19)),

@@ -21,7 +21,7 @@ from tables import PORTION, place_tables, tool_of
 from traffic import shell_of
 
 MANIFEST = "datapackage.json"
-COPY = "/dev/fd/COPY"  # stands for the pipe that takes the lines
+COPY = "/dev/fd/COPY"  # in a command: the pipe for the lines
 
 
 def record_path(folder, part):
@@ -35,7 +35,7 @@ def widen(pipe):
 
 
 def runs_of(plan, shard, tool):
-    """The pipelines that make a shard, each of words, with the tool at the end. Tables are of all its frames, in one run."""
+    """The pipelines that make a shard, as words, with the tool at the end. Tables need all frames of the shard in one run."""
     shell, commands = shell_of(plan), shard["commands"]
     if not shard["tables"] or len(commands) == 1:
         return [[*shell, f"{command} | {tool}"] for command in commands]
@@ -44,8 +44,8 @@ def runs_of(plan, shard, tool):
 
 
 def counted(words, lines, folder, plan_folder):
-    """Runs a pipeline whose lines go into `lines`; what the tool at its end counts in them. Frames that are no target
-    lists are refused, and scenes that are not whole."""
+    """Runs a pipeline that writes its lines into `lines`; returns the counts of the tool at its end. Frames without target
+    lists and incomplete scenes are refused."""
     begin, end = os.pipe()
     words = [word.replace(COPY, f"/dev/fd/{end}") for word in words]
     # On a terminal glint would draw a line of progress of its own for each shard.
@@ -89,7 +89,7 @@ def check_inputs(layout, shard, folder, plan_folder):
 
 
 def make_files(layout, part, folder, plan_folder):
-    """The files of a shard, how many frames it has, and its targets by kind."""
+    """Makes a shard: entries of its files, number of its frames, and its targets by kind."""
     plan, shard, work = layout["plan"], layout["shards"][part], os.path.join(folder, WORK)
     progress, frames, targets = pace.Pace(folder, part, shard["frames"]), 0, collections.Counter()
     with contextlib.ExitStack() as whole:

@@ -1,4 +1,4 @@
-"""The tables of a shard: what they are made by, as CSV or by DuckDB as Parquet, and their facts."""
+"""The tables of a shard: the program that makes them, as CSV or by DuckDB as Parquet, and their entries in the manifest."""
 import gzip
 import hashlib
 import os
@@ -9,18 +9,18 @@ from durable import digest_of_file, sync_folder
 from plan import IO, ROOT, Fault, read_json
 
 PORTION = 1 << 18
-# As schemas/README.md has it. One thread: the same rows make the same bytes.
+# As in schemas/README.md. With one thread the same rows make the same bytes.
 COPY = "COPY (FROM {name}('.')) TO '{name}.parquet' (FORMAT parquet, COMPRESSION zstd, ROW_GROUP_SIZE 1000000);"
 
 
 def paths_of(plan, place):
-    """The tables of the shard of a place."""
+    """Paths of the tables of the shard at a place."""
     names = read_json(os.path.join(ROOT, "schemas", "tables.json")) if plan.get("tables") else []
     return [f"{place}/{name}{'.parquet' if plan['tables'] == 'parquet' else '.csv.gz'}" for name in names]
 
 
 def tool_of(plan, part, place, copy):
-    """The program that counts frames, copies their lines into the file `copy`, and makes the tables of a part in a place."""
+    """The command that counts frames, copies their lines into the file `copy`, and makes the tables of a part in a place."""
     copied, bare = plan.get("lines") != "none", plan.get("lines") == "without_objects"
     words = ["--complete", *["--copy", copy] * copied]
     if not plan.get("tables"):
@@ -42,7 +42,7 @@ class Rows:
 
 
 def facts_of_rows(path):
-    """Facts of a table of CSV, packed or not; the rows are those below the heading."""
+    """Entry of a table of CSV, packed or not; the heading is no row."""
     rows, plain, plain_bytes = Rows(), hashlib.sha256(), 0
     with (gzip.open if path.endswith(".gz") else open)(path, "rb") as file:
         while text := file.read(PORTION):
@@ -61,7 +61,7 @@ def make_parquet(place, names):
 
 
 def place_tables(paths, made, folder):
-    """Gives the tables that lie in the folder `made` their names, each when it is on the disk; their facts."""
+    """Writes the tables of the folder `made` to the disk, and moves each to its path; their entries in the manifest."""
     names = [os.path.basename(path).split(".")[0] for path in paths]
     parquet = any(path.endswith(".parquet") for path in paths)
     facts = [facts_of_rows(os.path.join(made, name + (".csv" if parquet else ".csv.gz"))) for name in names]

@@ -5,7 +5,7 @@ import math
 
 STEPS, MOST = 25, 100  # steps of a piece of motion; most bodies kept for one piece: a long column of vehicles moves alike
 STEP_M, SHIFT_M, SHIFT_S = 1e-2, 1, 0.1  # how closely steps agree, and the shifts of all bodies of a copy
-MOVED_M = 1  # from its first place: a body that moves
+MOVED_M = 1  # a body at this distance from its first place has moved
 SHARE, FEWEST = 1 / 20, 2  # of the bodies of the smaller recording that are in both if they are copies
 
 
@@ -14,18 +14,18 @@ def whole(value, unit):
     return math.floor(value / unit + 0.37)
 
 
-# When a body is in a recording, and whether it moves there.
+# Times of a body in a recording, its first place, and whether it moved from there.
 Stay = collections.namedtuple("Stay", "begin_s end_s place moved")
 
 
 def place_in(frame):
-    """Where the ego of a frame is."""
+    """The place of the ego of a frame."""
     body = next(one for one in frame["objects"] if one["id"] == frame["ego"])
     return frame.get("origin_x_m", 0) + body["x_m"], frame.get("origin_y_m", 0) + body["y_m"]
 
 
 def noted(frames, stays):
-    """The frames of each body as an ego, while its stay is noted."""
+    """Passes on the frames, in which each body is an ego, and notes the stay of each."""
     for frame in frames:
         place = place_in(frame)
         begin_s, _, first, moved = stays.get(frame["ego"], (frame["time_s"], None, place, False))

@@ -165,13 +165,13 @@ def source_command(plan, stretch, suite):
 
 
 def shell_of(plan):
-    """What runs the plan's pipelines: glint in one process, or bash if there are stages of one's own."""
+    """The shell of the plan's pipelines: glint, in one process, or bash if the user has own stages."""
     return ["bash", "-o", "pipefail", "-c"] if any(map(is_own, stages_of(plan["chain"]))) else ["glint", "-c"]
 
 
 def chain_of(plan, suite, *before):
-    """The pipeline of a source and of the chain behind it, or of the chain alone. Between stages of one's own, those of
-    glint run in one process."""
+    """The pipeline of a source and of the chain behind it, or of the chain alone. Neighbouring stages of glint run in one
+    process."""
     stages = [*before, *stages_of(plan["chain"].replace("{suite}", suite))]
     if shell_of(plan)[0] == "glint":
         return " | ".join(stages)

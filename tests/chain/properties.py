@@ -80,7 +80,7 @@ def stages_of(path):
 
 def writes_frames(command):
     name = command.split()[0]
-    return name.startswith("glint-") and b"Frames go as JSON lines" in run([name, "--help"]).stdout
+    return name.startswith("glint-") and b"Writes frames (JSON lines)" in run([name, "--help"]).stdout
 
 
 def hops_of(path):

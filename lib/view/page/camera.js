@@ -9,7 +9,7 @@ function zoomBy(factor, x, y) {
     redraw();
 }
 
-// Zooms the map, or the side plot that lies over it.
+// Zooms the map, or the side plot if it covers the map.
 function zoomMiddle(factor) {
     if (state.large) {
         const {clientWidth: width, clientHeight: height} = plots[state.large].canvas;

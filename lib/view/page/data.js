@@ -175,7 +175,7 @@ function effectsOf(target) {
     return effectSets[column('target_effects')[target]];
 }
 
-// What a target is an echo of, by its leader: "body", "ghost", "clutter" or "false_alarm".
+// The kind of a target by its leader: "body", "ghost", "clutter" or "false_alarm".
 function kindOf(target) {
     return head.kinds[column('contributor_path')[leaderOf(target)]];
 }
@@ -206,7 +206,7 @@ function exactValue(name, target) {
     return weight > 0 ? sum / weight : values[begin];
 }
 
-// Is a value of a target folded: reported as another, because the radar cannot tell them apart?
+// True if a value of a target is folded: the radar reports it as another by an ambiguity.
 function isFolded(target, name, cell) {
     return effectsOf(target).includes(ambiguityEffect) &&
         Math.abs(column('target_' + name)[target] - exactValue(name, target)) > 2 * cell;
@@ -254,8 +254,8 @@ function scanOfTarget(frame, target) {
     return -1;
 }
 
-// The range rate as reported, or compensated: without the sensor's own motion. The speed over ground of
-// a folded rate, or in a stream without the ego, is not known: null.
+// The range rate as reported, or compensated for the sensor's own motion. A compensated rate is null if
+// the rate is folded, or if the stream has no ego.
 function rateOf(scan, target, compensated) {
     const rate = column('target_range_rate_mps')[target];
     if (!compensated) {

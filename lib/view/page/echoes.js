@@ -32,7 +32,7 @@ function spotPlace(box, spot) {
     };
 }
 
-// An object's box at the instant of which a scan tells.
+// An object's box at the instant that a scan shows.
 function measuredBox(scan, row) {
     return boxBefore(boxOf(row), column('scan_age_s')[scan]);
 }
@@ -118,7 +118,7 @@ function lossesOf(scan, object) {
     return losses;
 }
 
-// Where an echo that a scan lost was; null if the stream does not say. Ghosts are not at their reflector.
+// The place of an echo that a scan lost; null if the stream has none. Ghosts are not at their reflector.
 function lossPlace(scan, loss) {
     if (loss.range > 0) {
         return scanPlace(scan, loss.range, loss.azimuth);

@@ -1,5 +1,5 @@
-// Events of a scene: what begins in a frame and was not there in its sensor's scan before. Lanes over
-// time show them; keys and clicks go from one to the next.
+// Events of a scene: what begins in a scan, as its sensor's scan before did not show it. Lanes over
+// time show events; keys and clicks go from one to the next.
 
 const eventKinds = {
     ghost: {title: 'ghosts', tells: 'a ghost that its sensor had not in the scan before'},
@@ -12,7 +12,7 @@ const eventKinds = {
 
 let events = {scene: -1, of: {}};
 
-// What a scan has of each kind, by a key that is the same in the next scan: the target that shows it.
+// The targets of a scan that show an event of each kind, by a key that is the same in the next scan.
 function keysOfScan(scan) {
     const found = {ghost: new Map(), merge: new Map(), split: new Map(), false_alarm: new Map(), seen: new Map()};
     const {begin, end} = targetsOf(scan);
@@ -20,7 +20,7 @@ function keysOfScan(scan) {
         const kind = kindOf(target);
         const object = objectOfTarget(target);
         if (kind === 'false_alarm') {
-            found.false_alarm.set(`target ${target}`, target); // one is never that of the scan before
+            found.false_alarm.set(`target ${target}`, target); // each false alarm is a new one
         } else if (kind === 'ghost') {
             found.ghost.set(object, target);
         } else if (kind === 'body') {

@@ -1,10 +1,10 @@
-// The view as a link: the part of the address behind # names what is shown, and opening such a link, or
-// loading the page again, shows it. What is as the page opens it is left out.
+// The view as a link: the part of the address after # states the scene, the frame and what is shown. Opening
+// such a link, or loading the page again, shows the same view. Defaults are left out.
 
 let written = null; // the part of the address that the page wrote itself
 let writing = 0;
 
-// Switches: as text, and set from a text.
+// Writes switches as text, and sets them from a text.
 const linkedChoices = {colour: 'sensor', effect: '-1', rates: 'raw', up: 'up', plotted: ''};
 const linkedBoxes = {follow: true, trail: true};
 
@@ -18,7 +18,7 @@ function numbersOf(text, count) {
     return values.length === count && values.every(Number.isFinite) ? values : null;
 }
 
-// The camera with the metres that the shorter side of the map shows, which suits windows of any size.
+// The camera, with the metres that the shorter side of the map shows, so that windows may differ in size.
 function cameraText() {
     return numbersText([camera.x, camera.y, Math.min(canvas.clientWidth, canvas.clientHeight) / camera.scale]);
 }
@@ -33,7 +33,7 @@ function targetText() {
     return `${state.target - targetsOf(scan).begin + 1} ${sensorOf(scan).name}`;
 }
 
-// What the legend switches off, as kind and name.
+// The entries that the legend switches off, as kind and name.
 function offNames() {
     const lists = {sensor: sensorNames, path: head.paths, class: names};
     return Object.entries(switchedOff).flatMap(([kind, off]) => [...off].map(one => `${kind} ${lists[kind][one]}`));
@@ -59,7 +59,7 @@ function linkText() {
     return '#' + parts;
 }
 
-// Writes the address soon, once for many changes.
+// Writes the address after a pause, once for many changes.
 function rememberPlace() {
     clearTimeout(writing);
     writing = setTimeout(() => {

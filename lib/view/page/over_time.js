@@ -42,8 +42,8 @@ function isOfSubject(target, subject) {
     return false;
 }
 
-// How many echoes of the subject a pattern lost for each reason. Echoes by way of a mirror are none of
-// the body's own, and count only where nothing else is lost.
+// Counts the echoes of the subject that a pattern lost for each reason. Echoes by way of a mirror count
+// only if no others are lost.
 function countReasons(pattern, subject) {
     const own = new Map();
     const mirrored = new Map();
@@ -58,7 +58,7 @@ function countReasons(pattern, subject) {
     return own.size > 0 ? own : mirrored;
 }
 
-// The same for all scans of a frame that are plotted.
+// The same counts for all plotted scans of a frame.
 function frameReasons(frame, subject) {
     const counts = new Map();
     eachPlotted(frame, scan => eachFate(scan, (object, pattern) => {
@@ -72,8 +72,8 @@ function frameReasons(frame, subject) {
     return [...counts].sort((a, b) => a[0] - b[0]).map(([reason, count]) => ({...head.reasons[reason], count}));
 }
 
-// Why a frame has no target of the subject: each reason for which an echo is lost that might have been
-// received, or else each reason of geometry; with counts or without.
+// The reasons why a frame has no target of the subject, with counts or without: those of echoes that could
+// have been received, or if there are none those of geometry.
 function reasonOfGap(frame, subject, counted) {
     const scans = scansOf(frame);
     const plotted = [];
@@ -124,8 +124,8 @@ function addScanToSeries(built, row, scan, subject) {
     return count;
 }
 
-// Adds a frame without targets to the gap before it, if that has the same reason, or begins one. Where no
-// sensor measured, nothing has begun.
+// Adds a frame without targets to the gap before it if that has the same reason, else begins a gap. A frame
+// in which no sensor measured begins none.
 function addToGaps(gaps, row, reason) {
     const last = gaps[gaps.length - 1];
     if (last && last.to === row - 1 && (last.reason === reason || reason === notMeasured)) {

@@ -61,8 +61,8 @@ function pathWords(path, mirror, number) {
 
 const ghostWays = {wall_object: 'out by', object_wall: 'back by', wall_object_wall: 'out and back by'};
 
-// The reflector of an echo with its path in few words: "corner_rl by wheel 2", "ghost of corner_rl out by
-// wall". Direct paths are named in streams where bodies have others, too.
+// The reflector of an echo and its path in few words: "corner_rl by wheel 2", "ghost of corner_rl out by
+// wall". Direct paths are named only in streams where bodies also have other paths.
 function echoWords(reflector, {path, mirror, number}) {
     const name = head.paths[path];
     const wall = mirror > 0 ? names[mirror - 1] : 'a wall';

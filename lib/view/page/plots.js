@@ -1,7 +1,7 @@
 // The side plots: the sensors' measurements in polar values. Targets are symbols, the exact echoes
 // behind them dots, resolution cells boxes. Azimuths are in the vehicle's frame, from its heading.
 
-// axes: what is shown after zooming; null: everything.
+// axes: the zoomed ranges of the axes; null: the whole plot.
 const plots = {
     azimuth: {canvas: document.getElementById('azimuths'), unit: '°', hits: [], axes: null},
     rate: {canvas: document.getElementById('speeds'), unit: 'm/s', hits: [], axes: null},
@@ -74,7 +74,7 @@ function plotValues(kind, x, y) {
     return {x: axes.left + across * (axes.right - axes.left), range: axes.bottom + up * (axes.top - axes.bottom)};
 }
 
-// Zooms a plot at a place, which stays where it is, but shows no more than everything.
+// Zooms a plot around a place, which stays where it is, out to the whole plot at most.
 function zoomPlot(kind, factor, x, y) {
     const at = plotValues(kind, x, y);
     const {left, right, bottom, top} = plotAxes(kind);
@@ -139,7 +139,7 @@ function plotRule(drawing, from, to, strong) {
     drawing.stroke();
 }
 
-// A number at an axis, with the digits that its step needs.
+// A number at an axis, with as many digits as the step of the axis needs.
 function tickText(value, step) {
     return round(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9))).replace('-', '−');
 }

@@ -5,8 +5,8 @@ function pointerPlace(event) {
     return {x: event.clientX - frame.left, y: event.clientY - frame.top};
 }
 
-// Lets pointers and the wheel move what a canvas shows: pan(dx, dy), zoom(factor, x, y), click(place), in
-// pixels of the canvas.
+// Calls pan(dx, dy), zoom(factor, x, y) and click(place) for pointers and the wheel on a canvas, in pixels
+// of the canvas.
 function connectPointers(element, {pan, zoom, click}) {
     const pointers = new Map();
     let moved = 0;

@@ -1,5 +1,5 @@
 // Colours and marks, in light and dark: a target's symbol by its sensor and by what it is an echo
-// of, and the cross of a lost echo. The head has the shapes and colours (lib/view/view_marks.h).
+// of, and the cross of a lost echo. Shapes and colours come from the page's head (lib/view/view_marks.h).
 
 let ink = {};
 
@@ -124,7 +124,7 @@ function traceTargetShape(drawing, style, x, y, radius) {
     }
 }
 
-// Draws the traced shape as that of a true target, which the other stream has: an outline.
+// Draws the traced shape as that of a true target, from the other stream: an outline.
 function drawTruth(drawing) {
     drawing.lineWidth = 1.2;
     drawing.strokeStyle = ink.ink;

@@ -47,8 +47,8 @@ function showTimeline() {
     drawBand();
 }
 
-// The row of a time: of the last frame whose time is not later, as the clock shows it. Columns have times
-// in single precision, with 24 bits.
+// The row of the last frame that is not later than a time, as the clock shows it. Columns have times in
+// single precision, with 24 bits.
 function rowOfTime(time) {
     return rowAt(sceneFrames[state.scene], time + Math.max(0.0005, time * 2 ** -24));
 }

@@ -183,7 +183,8 @@ static void without_an_error_of_ideal_echoes_nothing_is_found(void **state)
     bench.cost.chains.items[0].present = CHAIN_TRIALS_ENERGY;
     assert_null(cost_find(&bench.cost, COST_BOUND_ERROR, 1));
     assert_int_equal(bench.runner.diag.code, DIAG_DATA);
-    assert_memory_equal(bench.runner.diag.text, "ideal echoes are not told from the reference", 44);
+    assert_memory_equal(bench.runner.diag.text, "ideal echoes cannot be told from the reference",
+                        46);
     end(&bench);
 }
 
@@ -260,12 +261,11 @@ static void a_table_has_a_row_for_each_chain_and_says_what_is_missing(void **sta
     expect_text(
         &text,
         "12 of 120 frames of 1 scene, seen by my suite, with 6 seeds.\n"
-        "Errors are distances from all that the suite describes, in % of those of ideal echoes "
-        "(roots of energies).\n"
-        "Their 95 % intervals are for these frames under other seeds; they say nothing of other "
-        "scenes.\n"
-        "For scale: 30 % of all targets lost is 18 %, half of them lost 31 %, all ranges off by a "
-        "cell 20 %.\n"
+        "Errors are distances from all effects of the suite, in % of those of ideal echoes "
+        "(roots of energy distances).\n"
+        "Their 95 % intervals hold for these frames under other seeds, not for other scenes.\n"
+        "For scale: losing 30 % of all targets gives 18 %, losing half of them 31 %, moving all "
+        "ranges by a cell 20 %.\n"
         "\n"
         "chain                         us a frame     error          interval  targets\n"
         "perfect                              5.0   100.0 %     50.0 to 200.0     2.50\n"
@@ -288,7 +288,7 @@ static void a_table_without_errors_says_why(void **state)
         cost.chains.items[i].present = CHAIN_TRIALS_ENERGY;
     cost_write_table(&cost, &text);
     text_add(&text, "", 1);
-    assert_non_null(strstr(text.bytes, "There are none: ideal echoes are not told from the "
+    assert_non_null(strstr(text.bytes, "There are none: ideal echoes cannot be told from the "
                                        "reference (D 2, 1 to 3).\n"));
     assert_non_null(strstr(text.bytes, "\npaper                                8.0         -"));
     text_free(&text);
@@ -307,16 +307,14 @@ static void a_pipeline_is_that_of_its_chain_under_what_it_saves(void **state)
     expect_text(
         &text,
         "# 12 of 120 frames of 1 scene, seen by my suite, with 6 seeds.\n"
-        "# Errors are distances from all that the suite describes, in % of those of ideal echoes "
-        "(roots of energies).\n"
-        "# Their 95 % intervals are for these frames under other seeds; they say nothing of other "
-        "scenes.\n"
-        "# For scale: 30 % of all targets lost is 18 %, half of them lost 31 %, all ranges off by "
-        "a "
-        "cell 20 %.\n"
+        "# Errors are distances from all effects of the suite, in % of those of ideal echoes "
+        "(roots of energy distances).\n"
+        "# Their 95 % intervals hold for these frames under other seeds, not for other scenes.\n"
+        "# For scale: losing 30 % of all targets gives 18 %, losing half of them 31 %, moving all "
+        "ranges by a cell 20 %.\n"
         "# This takes 12.5 us a frame instead of 20.0, with an error of 2.0 % (1.0 to 4.0).\n"
-        "# What each adds if it alone is off is in points of the squared error; 10 % squared is 1 "
-        "point.\n"
+        "# If one effect alone is off, the squared error grows by these points; an error of 10 % "
+        "is 1 point.\n"
         "# ghosts            off: saves 7.5 us, adds 2.0 (2.0 to 2.0)\n"
         "set -o pipefail\n"
         "glint-extract \\\n"

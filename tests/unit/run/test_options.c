@@ -262,8 +262,8 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
 {
     (void)state;
     static const char *const of_filter[] = {"Usage: glint-filter [OPTION]... [FILE]...\nFilter.\n",
-                                            "reads echoes.\n",
-                                            "writes cells.\n",
+                                            "input; sections: echoes.\n",
+                                            "output; sections: cells.\n",
                                             "      --where=NAME ",
                                             "      --radius-m=NUMBER ",
                                             "how far; a number in [-5, 100] m\n",
@@ -278,10 +278,10 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
                                             "      --version ",
                                             "\nExit status: 0"};
     static const char *const of_source[] = {"Usage: glint-source [OPTION]... PLACE\nMake.\n",
-                                            "\nPLACE: the place.\n", "writes objects.\n"};
+                                            "\nPLACE: the place.\n", "sections: objects.\n"};
     static const char *const of_tables[] = {
         "Usage: glint-tables [OPTION]... DIR [FILE]...\nTabulate.\n", "\nDIR: the place.\n",
-        "reads targets.\n"};
+        "sections: targets.\n"};
     static const char *const of_maker[] = {"Usage: glint-maker [OPTION]... DIR\nWrite.\n"};
     assert_helps(&filter, of_filter, COUNT(of_filter));
     assert_helps(&source, of_source, COUNT(of_source));

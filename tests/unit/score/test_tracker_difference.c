@@ -47,8 +47,7 @@ static void fewer_than_five_scenes_are_refused(void **state)
         add(&scenes, scene, 1, &arena);
     assert_int_equal(tracker_difference_of(&scenes, &difference, &diag), -1);
     assert_int_equal(diag.code, DIAG_DATA);
-    assert_string_equal(diag.text,
-                        "--against: the stream has 4 of at least 5 scenes that an interval needs");
+    assert_string_equal(diag.text, "--against: number of scenes: 4; expected at least 5");
     arena_free(&arena);
 }
 
