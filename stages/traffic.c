@@ -156,7 +156,7 @@ const struct stage stage_traffic = {
         "Velocities and yaw rates that a table lacks are centred differences, which wait for\n"
         "the next step. --rate-hz interpolates between steps by cubic curves.\n"
         "\n"
-        "Classes by format, each with the words (of esmini: the sizes) that are read as it:"
+        "Classes by format, each with the words, or sizes, that are read as it:"
 #include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct traffic, traffic_options),

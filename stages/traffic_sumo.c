@@ -33,8 +33,8 @@ const struct stage stage_traffic_sumo = {
         "Give sumo --precision 6: with its default of two decimals velocities are coarse. If it\n"
         "writes to a pipe, also give it --no-step-log, as its log would mix with the XML.\n"
         "\n"
-        "Classes and sizes come from the types (--types). Without --types, the name of a type is\n"
-        "in --class-map or here, where each class has the names that are read as it:"
+        "Classes and sizes come from the types (--types). Without --types, each name of a\n"
+        "type must be in --class-map or in this list of names by class:"
 #include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct recording, traffic_sumo_fields),
