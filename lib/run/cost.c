@@ -479,8 +479,9 @@ void cost_write_pipeline(const struct cost *cost, const struct tried_chain *chai
     else
         text_add_word(text, "0 by definition.\n");
     if (chain->left_out != 0)
-        text_add_word(text, "# If one effect alone is off, the squared error grows by these points; an "
-                            "error of 10 % is 1 point.\n");
+        text_add_word(text,
+                      "# If one effect alone is off, the squared error grows by these points; an "
+                      "error of 10 % is 1 point.\n");
     for (int i = 0; i < EFFECT_COUNT; i++)
         if ((chain->left_out & EFFECT_BIT(i)) != 0)
             write_left_out(cost, i, text);
