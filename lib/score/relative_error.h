@@ -3,7 +3,7 @@
  * The lists of a reference, of a chain and of ideal echoes are samples of random lists, over the
  * same scans. D is the energy distance from the reference, and the squared error is D of the chain
  * over D of ideal echoes (MODEL 11.2): 1 for ideal echoes, 0 for a chain with the law of the
- * reference. Reports print its root; contributions of effects add up only in the square.
+ * reference. Reports print its root; contributions of effects are differences of squares.
  *
  * The interval covers 95 %: Student's t times the standard error of the jackknife over the seeds of
  * both laws, with the degrees of freedom of Welch and Satterthwaite. It holds for the same frames

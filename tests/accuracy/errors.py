@@ -1,7 +1,7 @@
 """Errors of chains: distances from the reference in per cent of that of ideal echoes.
 
 The squared error of a chain is the mean of its scenes' energy distances (glint-score --ensemble, MODEL 11.2) over
-that of `perfect`; the error is its root. Squares add up, so differences of chains are in points of the square,
+that of `perfect`; the error is its root. Differences of chains are in points of the square,
 100 of which are ideal echoes. Intervals are the bootstrap's over whole scenes, which draws the same scenes for both
 means. A scene's distance holds the noise of its seeds, so the spread over scenes holds both.
 """
