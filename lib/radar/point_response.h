@@ -33,7 +33,7 @@ double point_response_main_lobe(enum point_response response);
 
 /* The resolution, in bins: 1.775 for HANN, 0.997 for RECTANGULAR, 3.580 for PULSE. At this distance
  * from an echo of twice its amplitude, an echo has a peak of its own for half of all phases between
- * the two: up to quadrature or from there on, where their powers add. */
+ * the two. The last of these phases is quadrature, where their powers add. */
 double point_response_resolution(enum point_response response);
 
 /* An upper bound on the size of point_response_value that does not rise with |bins|; 1 within the

@@ -10,7 +10,7 @@ const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
                                           [TRACK_TRUTH_ALL] = "all",
                                           NULL};
 
-/* The least variance is that of 10 um, so that squares of normalised distances are finite. */
+/* The least variance is (10 um)^2, so that squares of normalised distances are finite. */
 #define COVARIANCE(member, low, help)                                                              \
     OPTIONAL_REAL(struct track, member, low, 1e14, help "; the matrix is positive definite"),      \
         .section = TRACK_COVARIANCE

@@ -53,7 +53,7 @@ class Logarithmic:
 
 
 class Signed:
-    """Decades to both sides of a piece around zero that is linear, which the axis says in its label."""
+    """An axis with decades on both sides of a linear part around zero; its label names the linear part."""
     LINEAR = 0.2
     SCALE = f"linear within ±{LINEAR:g}, logarithmic beyond"
     MARKS = [-100, -30, -10, -3, -1, -0.3, 0, 0.3, 1, 3, 10, 30, 100]

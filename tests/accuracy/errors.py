@@ -63,7 +63,7 @@ def refuse_empty(lists, radar):
 
 
 def spoiled(cache, lists, lost, off_m):
-    """The file of lists that lose this share of their targets, and have all ranges off by this."""
+    """A file of the lists without this share of their targets, and with this added to all ranges."""
     def write(path):
         source = random.Random(1)
         with gzip.open(path, "wt", compresslevel=1) as out:
@@ -94,7 +94,7 @@ def interval(values):
 
 
 def root(square, low, high):
-    """In per cent, of points of the square; 0 where it is not above 0, and high then of the interval's upper half."""
+    """The error in per cent, from points of its square. A negative square gives 0, and the root of its upper half interval."""
     above = max(square, 0)
     return tuple(10 * end ** 0.5 for end in (above, max(low, 0), above + high - square))
 
@@ -121,10 +121,10 @@ class Errors:
         return root(*self.ratio(self.values(distances)))
 
     def difference(self, one, other):
-        """How much the first is off beyond the second, on the same scenes, in points of the square."""
+        """The squared error of the first less that of the second, on the same scenes, in points."""
         return self.ratio([a - b for a, b in zip(self.values(one), self.values(other))])
 
     def of_seeds(self, distances):
-        """The half of the interval that seeds alone would leave, in points of the square."""
+        """Half of the interval that seeds alone would leave, in points of the squared error."""
         squares = sum(distances[scene][1] ** 2 for scene in self.scenes)
         return 100 * SIGNIFICANT * squares ** 0.5 / self.whole

@@ -1,4 +1,4 @@
-"""Squared errors of targets over the variances that their quality gives, for people who write trackers.
+"""Squared errors of targets divided by the variances in their quality, for people who write trackers.
 
     python3 tests/accuracy/normalised_errors.py [--scenes 20] [--suites srr24-signal,lrr77-full]
 
@@ -7,7 +7,7 @@ glint-noise), a suite with a waveform also by its signal (glint-sensor-signal). 
 difference from the echo of its greatest weight; false alarms have none. A range rate is compared in its true fold,
 but targets that the signal puts into a wrong one are a group of their own. Misalignment is left out, as the quality
 does not contain it. The other groups are targets of one echo and of several, unmarked and marked by `looks_merged`.
-Where variances hold, the mean is 1, and 95 % of the errors are within 1.96 standard deviations. Each figure has its
+Where variances are right, the mean is 1, and 95 % of the errors are within 1.96 standard deviations. Each figure has its
 95 % interval over scenes. Such intervals of 20 scenes cover 94 % where scenes are alike, and 85 % where few scenes
 have most of the errors.
 """
@@ -34,7 +34,7 @@ WITHIN = 1.96 ** 2
 
 
 def normalised(target):
-    """Squared errors over variances, by component; none without a deviation."""
+    """Squared errors divided by variances, by component; components without a deviation are left out."""
     quality, truth = target["quality"], max(target["contributors"], key=lambda one: one["weight"])
     folds = quality.get("ambiguity_number", 0) * quality.get("range_rate_interval_mps", 0)
     reported = dict(target, range_rate_mps=target["range_rate_mps"] + folds)
@@ -43,7 +43,7 @@ def normalised(target):
 
 
 def scenes_of(source, suite, chain):
-    """By scene and group the normalised errors of each target with an echo."""
+    """The normalised errors of each target with an echo, by scene and group."""
     text = (f"{source} | glint-extract | glint-ideal --sensors {suite} --sections quality "
             f"--effects auto,-misalignment | {chain}")
     done = subprocess.run([GLINT, "-c", text], check=True, stdout=subprocess.PIPE, cwd=ROOT)
@@ -61,8 +61,8 @@ def scenes_of(source, suite, chain):
 
 
 def ratio(pairs):
-    """The ratio of sums with its 95 % interval: the jackknife's over scenes, of its logarithm, by Student's t. Without
-    the interval where few scenes have any."""
+    """The ratio of sums, with its 95 % interval if at least FEWEST scenes have such targets: that of its logarithm, by the
+    jackknife over scenes and Student's t."""
     above, below = map(sum, zip(*pairs))
     pairs = [pair for pair in pairs if pair[1]]
     count = len(pairs)

@@ -85,7 +85,7 @@ def recorded(egos):
 
 
 class Radar:
-    """Its suites by size, and frames in which it lists something; again: others than those of the tables."""
+    """A radar's suites by size, and frames in which it lists something; again: other frames than those of the tables."""
 
     def __init__(self, name, cache, few=False, again=False):
         suites, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT)}[name]
@@ -125,7 +125,7 @@ class Radar:
         return weathered(found)
 
     def taken(self, candidates):
-        """Of one drive."""
+        """The frames that are taken from one drive."""
         kept = evenly(candidates, EACH)
         return evenly([frame for frame in candidates if frame not in kept], EACH) if self.again else kept
 

@@ -25,7 +25,7 @@ RUNGS = ("perfect", "gauss", "paper", "all effects", "smear", "signal, small")
 
 
 def weathered(number, drive):
-    """Scenes are dry and in rain in turn, and their lists have the quality that trackers use."""
+    """Scenes are dry and in rain in turn; target lists have the section quality, for trackers."""
     weather = scenes.RAIN if number % 2 else scenes.DRY
     return [frame | {"conditions": weather | frame.get("conditions", {}), "seed": "1", "sections": ["objects", "quality"]}
             for frame in drive]

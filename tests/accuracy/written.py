@@ -53,7 +53,7 @@ def with_interval(row):
 
 
 def error(row):
-    """Below the end of its interval where that reaches 0."""
+    """The error as text: "<" and its upper end if the interval reaches 0."""
     if "root" not in row:
         return "not told"
     if row["root_low"] <= 0:
@@ -62,7 +62,7 @@ def error(row):
 
 
 def scale(rows, radar):
-    """What an error means: lists of the reference itself, spoiled."""
+    """The line of the scale: errors of spoiled lists of the reference."""
     own = pick(rows, radar=radar, group="scale")
     return f"For scale, {radar} range: " + ", ".join(f"{row['chain']} {error(row)} %" for row in own) + ".\n" if own else ""
 

@@ -99,8 +99,8 @@ def printed_chain(plan):
 
 
 def pipeline_is_the_chain(bench, frames, suite, option):
-    """The text to paste leaves out what its head tells of, has the error that its head names, and makes the lists of that
-    chain, byte for byte. Times change from run to run, and with them which chain is found; errors do not."""
+    """The printed pipeline leaves out the effects of its head, has the error in its head, and makes the lists of that
+    chain, byte for byte. Times change from run to run, and so does the chain that is found; errors do not."""
     plan = bench.run(["glint-cost", *option, "--sensors", suite], frames).decode()
     options, programs, error, left_out = printed_chain(plan)
     brief = {chain["chain"]: chain for chain in bench.cost(frames, suite, "--brief", "--reference", "all")["chains"]}
@@ -126,8 +126,8 @@ def seeded(frames, seed):
 
 
 def coverage(bench, frames, suite, trials, *options):
-    """Of each chain with an error that is not 100 % by definition: how many intervals hold the error of the same
-    frames under 200 other seeds, and how many calls gave none."""
+    """For each chain but ideal echoes: the number of intervals that contain the error of the same frames under 200 other
+    seeds, and the number of calls without an error."""
     progress = Progress("calls")
     calls = [{chain["chain"]: chain for chain in bench.cost(seeded(frames, seed), suite, "--brief", *options)["chains"]}
              for seed in progress.over(range(1, 1 + trials + 34), trials + 34)]
@@ -141,8 +141,8 @@ def coverage(bench, frames, suite, trials, *options):
 
 
 def intervals_cover(bench, rows):
-    """Rows of frames, suite, trials and options: 90 % of all intervals hold the error, 80 % in every row; at most a
-    tenth of the calls find too little for an error."""
+    """For rows of frames, suite, trials and options: 90 % of all intervals contain the error, 80 % in every row; at most a
+    tenth of the calls print no error."""
     pooled = []
     for label, frames, suite, trials, *options in rows:
         for name, (held, none, truth) in sorted(coverage(bench, frames, suite, trials, *options).items()):

@@ -249,7 +249,7 @@ def counts_of_the_page_add_up(folder):
 
 
 def counts_add_up_at_the_edges(folder):
-    """One frame; one shard; a frame a shard; and shards of tables alone: no shard is empty, and the checker agrees."""
+    """Sets of one frame, of one shard, of one frame a shard, and of tables alone have no empty shard, and pass check-set."""
     halves = {"by": "scene", "shares": {"train": 0.5, "test": 0.5}}
     plans = [(1, 1, {}), (3, 1, {"frames_per_shard": 10 ** 9}), (3, 3, {"frames_per_shard": 1, "tables": True, "lines": "none"}),
              (2, 2, {"splits": halves, "tables": True, "lines": "without_objects"})]
@@ -265,7 +265,7 @@ def counts_add_up_at_the_edges(folder):
 
 
 def what_is_kept_is_the_same_however_it_is_packed(folder):
-    """Tables with whole lines, with lines without objects and alone; lines by gzip and zstd."""
+    """Compares sets of tables with whole lines, with lines without objects, and alone; lines packed by gzip and by zstd."""
     def by_path(place):
         return {one["path"]: one["content_hash"] for one in manifest(place)["resources"]}
 
@@ -312,7 +312,7 @@ def by_content(place):
 
 
 def own_stage(folder):
-    """The stage of the page, in C, built as the page builds it but with the headers and the library of this build."""
+    """Builds the C stage of stages/README.md by the commands there, but with the headers and the library of this build."""
     with open(os.path.join(ROOT, "stages", "README.md"), encoding="utf-8") as page, \
             open(os.path.join(folder, "spray.c"), "w", encoding="utf-8") as file:
         file.write(re.search(r"```c\n(.*?)```", page.read(), re.DOTALL)[1])
@@ -323,7 +323,7 @@ def own_stage(folder):
 
 
 def own_stages_stand_in_a_chain(folder):
-    """One of C and one of Python; the frames are those of a pipe of bash, and a stage that has changed makes no shard."""
+    """A stage in C and one in Python give the frames of a pipe of bash; after a change of a stage no shard is made."""
     own_stage(folder)
     shutil.copy(os.path.join(ROOT, "pipelines", "mud.py"), folder)
     front, back = CHAIN.split(" | glint-sensor ")
@@ -350,7 +350,7 @@ def own_stages_stand_in_a_chain(folder):
 
 
 def several_kinds_of_source_share_nothing_between_splits(folder):
-    """Neither scenes nor drawn numbers, nor a vehicle of a recording; what has a split of its own is whole in it."""
+    """Splits share no scene, no draw and no vehicle of a recording; a source with a split is all in it."""
     recorded = {"recording": two_halves(folder), "egos": ["all"], "from_s": 0, "to_s": 10.2, "block_s": 2}
     sources = [{"random": "medium", "frames": 10, "options": "--draw-conditions"}, {"random": "sparse", "seconds": 0.5, "scenes": [0, 4]},
                {"scenario": "varied-cut-in", "scenes": [0, 4]}, {"scenario": "cut-in", "split": "test"}, recorded]
@@ -378,7 +378,7 @@ for line in sys.stdin:
 
 
 def make_shows_how_far_it_is(folder):
-    """On a terminal, one line for all shards, although shards are made beside each other."""
+    """On a terminal there is one line for all shards, although several are made at the same time."""
     with open(os.path.join(folder, "slow.py"), "w", encoding="ascii") as file:
         file.write(SLOW)
     place, _ = begin(folder, snapshots(20, chain=CHAIN.replace(" | glint-sensor", " | python3 ./slow.py | glint-sensor")))

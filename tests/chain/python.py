@@ -296,7 +296,7 @@ def the_tracker_follows_most_of_what_is_detected(folder):
 
 
 def false_alarms_make_few_tracks(folder):
-    """Most targets of this list are false alarms, and most tracks are true; what is missed hardly changes."""
+    """Most targets of this list are false alarms, but most tracks are true; the share of missed objects hardly changes."""
     scores = {}
     for effects in ("all", "all,-false_alarms"):
         shell("glint-traffic-random --seconds 3 --rate-hz 25 --scenes 0:8 --seed 5 --sections quality,objects | glint-extract"

@@ -329,8 +329,8 @@ def false_alarm_values(bench):
 
 
 def shipped_false_alarms(bench):
-    """No false alarm of a shipped suite gives itself away: their powers are those of noise above the threshold
-    that gives so many (MODEL 14.9)."""
+    """The powers of a shipped suite's false alarms are those of noise that passes the threshold at their rate
+    (MODEL 14.9)."""
     for path in sorted((model.ROOT / "data/sensors").glob("*.json")):
         radar = json.loads(path.read_text())["sensors"][0]
         if "waveform" in radar or not radar.get("false_alarms"):

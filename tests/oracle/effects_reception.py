@@ -379,7 +379,7 @@ def coherence_loses(bench):
 
 
 def planned(bench):
-    """glint-plan says of every effect that is described that it was simulated, and of the others that they are off."""
+    """glint-plan prints every described effect as simulated, and the others as off."""
     radars = [radar("s", **RECEIVER, fluctuation="swerling_1", cell_phase="random", unambiguous_range_m=30)]
     frames = [dict(one, conditions={"rain_mmph": 1, "fog_gpm3": 0.1, "interferers": [interferer()]})
               for one in frames_of([spot("other", 50)], 3)]

@@ -2,12 +2,12 @@
 // time show events; keys and clicks go from one to the next.
 
 const eventKinds = {
-    ghost: {title: 'ghosts', tells: 'a ghost that its sensor had not in the scan before'},
+    ghost: {title: 'ghosts', tells: 'a ghost that its sensor did not list in the scan before'},
     merge: {title: 'merges', tells: 'a target begins to have echoes of two objects'},
     split: {title: 'splits', tells: 'an object begins to have several targets of a sensor'},
-    miss: {title: 'misses', tells: 'an object in the scene has no target any more'},
+    miss: {title: 'misses', tells: 'an object in the scene loses its last target of a sensor'},
     false_alarm: {title: 'false alarms', tells: 'a target that is nothing but noise'},
-    difference: {title: 'differences', tells: 'a target missed or false, or a track that switched'},
+    difference: {title: 'differences', tells: 'a missed or false target, or an identity switch'},
 };
 
 let events = {scene: -1, of: {}};

@@ -197,7 +197,7 @@ function silentWords(reason) {
 // Share in view, in the levels of nuScenes, by number (lib/frame/sightings.h).
 const levels = ['0 to 40 %', '40 to 60 %', '60 to 80 %', '80 to 100 %'];
 
-// What the section visibility says of the chosen object: a line, or none.
+// The visibility of the chosen object, from the section visibility: a line, or none.
 function sightingLines(scan) {
     const begin = starts('scan_sightings');
     const objects = column('sighting_object');
@@ -324,7 +324,7 @@ function valuesTable(scan, target) {
     return table;
 }
 
-// What the sensor tells of a target's quality, as rows of a table; none if the stream has none.
+// A target's quality as rows of a table; none if the stream has no section quality.
 function qualityRows(target) {
     const begin = starts('target_quality');
     const row = begin[target];
@@ -444,7 +444,7 @@ function targetNotes(scan) {
     return notes;
 }
 
-// What a folded value stands for.
+// Notes on folded values: as reported, and the true ones.
 function foldedNotes(scan) {
     const notes = [];
     const note = (what, name, unit, digits) => notes.push(`Its ${what} is folded: reported ` +
