@@ -880,7 +880,8 @@ def through_a_pipe(folder, sumo):
 def sizes_are_those_of_sumo(folder):
     """Asks a running SUMO (TraCI) for length, width and height of every class and default type that --help names."""
     page = subprocess.run([os.path.join(BIN, "glint-traffic-sumo"), "--help"], capture_output=True, check=True).stdout
-    words = re.findall(r"^    (\w+) = (\w+)$", page.decode(), re.M)
+    lists = re.findall(r"^    (\w+): (.+)$", re.sub(r",\n +", ", ", page.decode()), re.M)
+    words = [(word, class_) for class_, words in lists for word in words.split(", ")]
     words = [(word, class_) for word, class_ in words if word not in ("container", "DEFAULT_RAILTYPE")]  # 1.15 has neither
     check(len(words) >= 28, f"words of --help: {words}")
     with open(os.path.join(folder, "t.rou.xml"), "w", encoding="utf-8") as file:
