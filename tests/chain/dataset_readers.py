@@ -76,6 +76,7 @@ def main():
         path = os.path.join(sets.ROOT, os.environ["BUILD"], "tables", "program.mjs")
         with open(path, "w", encoding="utf-8") as file:
             file.write(PROGRAM)
+    with tempfile.TemporaryDirectory() as folder:
         os.environ.update(sets.program(folder, "duckdb", f'#!/bin/sh\nexec node {path} "$@"\n'))
         sets.parquet_needs_duckdb(folder)
         print("DuckDB makes Parquet", flush=True)
