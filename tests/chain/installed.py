@@ -97,11 +97,11 @@ def check_stage(folder):
 
 
 def pages():
-    """(folder, text) of every installed page."""
+    """(folder, text) of every installed page but CHANGES.md, which names what is gone."""
     for top in DOCUMENTS, os.path.join(PREFIX, "share/glint"):
         for folder, _, names in os.walk(top):
             for name in names:
-                if name.endswith(".md"):
+                if name.endswith(".md") and name != "CHANGES.md":
                     with open(os.path.join(folder, name), encoding="utf-8") as page:
                         yield folder, page.read()
 
