@@ -1,6 +1,5 @@
 /* Scores of a tracker: how far its tracks are from the objects of the frames. */
 #include "base/intern.h"
-#include "documents/vehicle.h"
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "score/reference_stream.h"
@@ -40,33 +39,6 @@ static int score_tracks_start(void *state, struct runner *runner)
     own->other.stream =
         runner_reference_stream(runner, own->against, &track_list_record, own->partial);
     return own->other.stream != NULL ? 0 : -1;
-}
-
-static void note_classes(struct score_tracks *own, const struct frame *frame, struct arena *arena)
-{
-    for (size_t i = 0; i < frame->objects.count; i++)
-        if (!frame_same_name(frame->objects.items[i].id, frame->ego))
-            intern_word(&own->seen, frame->objects.items[i].class, arena);
-}
-
-/* Refuses a class that no object has, unless a document describes it: it is misspelt. */
-static int check_classes(struct score_tracks *own, struct runner *runner)
-{
-    struct arena *arena = runner_arena(runner);
-    size_t seen = own->seen.list.count;
-    for (const char *at = own->classes; at != NULL;) {
-        size_t length = strcspn(at, ",");
-        const char *class = arena_text(arena, at, length);
-        struct diag unused = {0};
-        if (intern_word(&own->seen, class, arena) >= seen &&
-            vehicle_load(class, NULL, arena, &unused) == NULL)
-            return diag_fail(runner_diag(runner), DIAG_DATA,
-                             "--classes: no object of the stream is of the class \"%s\", and no "
-                             "vehicle document describes it",
-                             class);
-        at = at[length] == ',' ? at + length + 1 : NULL;
-    }
-    return 0;
 }
 
 /* Reads the tracks of the frame: 1, 0 if there are none, -1 after a message. */
@@ -114,7 +86,7 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
         track_score_check(frame, own->objects, runner_diag(runner)) != 0)
         return -1;
     if (own->classes != NULL)
-        note_classes(own, frame, lasting);
+        track_score_note_classes(&own->seen, frame, lasting);
     own->true_frames++;
     int found = read_tracks(tracker, frame, runner),
         matched = read_tracks(&own->other, frame, runner);
@@ -145,7 +117,8 @@ static int score_tracks_stop(void *state, struct runner *runner)
     if (reference_stream_finish(own->tracker.stream, runner_diag(runner)) != 0 ||
         (own->other.stream != NULL &&
          reference_stream_finish(own->other.stream, runner_diag(runner)) != 0) ||
-        check_classes(own, runner) != 0)
+        track_score_check_classes(&own->seen, own->classes, runner_arena(runner),
+                                  runner_diag(runner)) != 0)
         return -1;
     if (!own->summary)
         return 0;

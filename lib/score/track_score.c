@@ -1,6 +1,7 @@
 #include "score/track_score.h"
 
 #include "base/sort.h"
+#include "documents/vehicle.h"
 #include "frame/frame_order.h"
 #include "geometry/kinematics.h"
 #include "score/gospa.h"
@@ -258,4 +259,30 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
     }
     score_add_scan(tally, squares, pairs, objects, list->tracks.count, cutoff_m);
     return switches;
+}
+
+void track_score_note_classes(struct intern *seen, const struct frame *frame, struct arena *arena)
+{
+    for (size_t i = 0; i < frame->objects.count; i++)
+        if (!frame_same_name(frame->objects.items[i].id, frame->ego))
+            intern_word(seen, frame->objects.items[i].class, arena);
+}
+
+int track_score_check_classes(struct intern *seen, const char *classes, struct arena *arena,
+                              struct diag *diag)
+{
+    size_t count = seen->list.count;
+    for (const char *at = classes; at != NULL;) {
+        size_t length = strcspn(at, ",");
+        const char *class = arena_text(arena, at, length);
+        struct diag unused = {0};
+        if (intern_word(seen, class, arena) >= count &&
+            vehicle_load(class, NULL, arena, &unused) == NULL)
+            return diag_fail(diag, DIAG_DATA,
+                             "--classes: no object of the stream is of the class \"%s\", and no "
+                             "vehicle document describes it",
+                             class);
+        at = at[length] == ',' ? at + length + 1 : NULL;
+    }
+    return 0;
 }

@@ -5,6 +5,7 @@
  * its scene, however long ago. */
 #pragma once
 
+#include "base/intern.h"
 #include "frame/frame.h"
 #include "score/score.h"
 
@@ -95,3 +96,11 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           const struct track_list *list, enum track_truth truth,
                           const char *classes, double cutoff_m, struct track_memory *memory,
                           struct arena *lasting);
+
+/* Adds the classes of the frame's objects but the ego to those seen. */
+void track_score_note_classes(struct intern *seen, const struct frame *frame, struct arena *arena);
+
+/* Refuses a class of the list, as of track_score_counts, that was not seen and that no vehicle
+ * document describes: it is misspelt (DIAG_DATA). */
+int track_score_check_classes(struct intern *seen, const char *classes, struct arena *arena,
+                              struct diag *diag);

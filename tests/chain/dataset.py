@@ -379,6 +379,9 @@ for line in sys.stdin:
 
 def make_shows_how_far_it_is(folder):
     """On a terminal there is one line for all shards, although several are made at the same time."""
+    if run(["script", "-qec", "true", "/dev/null"], stdin=subprocess.DEVNULL).returncode != 0:
+        print("skipped  make shows how far it is: this machine has no pseudo-terminals")
+        return
     with open(os.path.join(folder, "slow.py"), "w", encoding="ascii") as file:
         file.write(SLOW)
     place, _ = begin(folder, snapshots(20, chain=CHAIN.replace(" | glint-sensor", " | python3 ./slow.py | glint-sensor")))
