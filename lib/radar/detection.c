@@ -4,15 +4,11 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
+#include "radar/level.h"
 
 #define LN_10 2.30258509299404568402
 /* What a Gaussian number is beyond 3 deviations with, where the log-normal law is cut. */
 #define BEYOND_CUT 0.00134989803163
-
-static double log_normal_mean_db(double sigma_db)
-{
-    return -LN_10 / 20 * sigma_db * sigma_db;
-}
 
 /* A standard Gaussian number by Box and Muller, cut at 3 from above. */
 static double cut_gaussian(const double uniform[4])
@@ -29,8 +25,7 @@ double detection_fluctuation(enum fluctuation_law law, double sigma_db, const do
     case FLUCTUATION_SWERLING_3:
         return sqrt(-(elementary_log(uniform[0]) + elementary_log(uniform[1])) / 2);
     case FLUCTUATION_LOG_NORMAL:
-        return units_amplitude_from_db(log_normal_mean_db(sigma_db) +
-                                       sigma_db * cut_gaussian(uniform));
+        return units_amplitude_from_db(level_mean_db(sigma_db) + sigma_db * cut_gaussian(uniform));
     case FLUCTUATION_NONE:
         break;
     }
@@ -66,7 +61,7 @@ double detection_in_noise(double amplitude, double threshold, double noise)
 static double density(const struct detection_law *detection, double power_db)
 {
     double power = elementary_pow(10, power_db / 10), sigma_db = detection->fluctuation_sigma_db;
-    double deviations = (power_db - log_normal_mean_db(sigma_db)) / sigma_db;
+    double deviations = (power_db - level_mean_db(sigma_db)) / sigma_db;
     if (detection->fluctuation == FLUCTUATION_SWERLING_1)
         return LN_10 / 10 * power * elementary_exp(-power);
     if (detection->fluctuation == FLUCTUATION_SWERLING_3)
@@ -104,7 +99,7 @@ double detection_probability(const struct detection_law *detection, double ampli
     bool log_normal = detection->fluctuation == FLUCTUATION_LOG_NORMAL;
     if (detection->fluctuation == FLUCTUATION_NONE || (log_normal && sigma_db == 0))
         return least <= 1 ? passes(detection, amplitude) : 0;
-    double mean_db = log_normal_mean_db(sigma_db);
+    double mean_db = level_mean_db(sigma_db);
     double from = log_normal ? mean_db - 9 * sigma_db : -90,
            to = log_normal ? mean_db + 3 * sigma_db : 17;
     if (least > 0)
