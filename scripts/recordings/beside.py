@@ -1,0 +1,120 @@
+"""glint beside a recording: fitted on its first half, compared with its second half, in print."""
+import math
+import os
+import statistics
+import tempfile
+from collections import namedtuple
+
+import chains
+import fitted
+import geometry
+import readers
+import score
+import statics
+from progress import Progress
+
+FAR, NEAR = 10, (1, 2, 3)  # scans away, of predictors that the recording itself gives
+
+
+class Part(namedtuple("Part", "radar scans speeds boxes")):
+    """Scans with boxes where the lists saw them, the ego's speeds, and {(id, scan): box} of road users in view."""
+
+    def of(self, lists):
+        """{(id, scan): detections} of lists of these scans."""
+        return {key: geometry.gated(self.radar, box, lists[key[1]]) for key, box in self.boxes.items()}
+
+    def observed(self):
+        return self.of([scan.detections for scan in self.scans])
+
+    def scores(self, lists):
+        """{(id, scan): S} of lists by seed and scan."""
+        gated = [self.of(one) for one in lists]
+        return {key: score.energy_score([one[key] for one in gated], seen) for key, seen in self.observed().items()}
+
+    def scores_of_itself(self, away):
+        """{(id, scan): S} of what the same body gave in other scans, moved to where it is now, if there are two or more.
+        away: does this distance in scans count?"""
+        seen, looks = self.observed(), {key: geometry.look(self.radar, box) for key, box in self.boxes.items()}
+        others = {key: [moved(seen[other], looks[other], look) for other in seen if other[0] == key[0]
+                        and away(abs(other[1] - key[1]))] for key, look in looks.items()}
+        return {key: score.energy_score(own, seen[key]) for key, own in others.items() if len(own) > 1}
+
+
+def moved(detections, there, here):
+    return [one._replace(range_m=one.range_m + here.range_m - there.range_m,
+                         azimuth_rad=one.azimuth_rad + here.azimuth_rad - there.azimuth_rad,
+                         range_rate_mps=one.range_rate_mps + here.range_rate_mps - there.range_rate_mps)
+            for one in detections]
+
+
+def part(fit, radar, scans):
+    """Scans of a recording whose boxes lie as the annotation was found to."""
+    lag_s, inset_m = fit.annotation
+    boxes = [[box._replace(x_m=box.x_m - lag_s * box.vx_mps, y_m=box.y_m - lag_s * box.vy_mps,
+                           length_m=max(box.length_m - 2 * inset_m, 0.1), width_m=max(box.width_m - 2 * inset_m, 0.1))
+              for box in scan.boxes] for scan in scans]
+    scans = [scan._replace(boxes=own) for scan, own in zip(fitted.completed(scans, fit.curve), boxes)]
+    return Part(radar, scans, statics.ego_speeds(radar, scans),
+                {(box.id, i): box for i, own in enumerate(boxes) for box in own
+                 if box.kind not in readers.STANDING and geometry.in_view(fit.sensor, radar, box)})
+
+
+def halves(recording):
+    middle = len(recording.scans) // 2
+    return [recording._replace(scans=scans) for scans in (recording.scans[:middle], recording.scans[middle:])]
+
+
+def print_found(recording, fit):
+    duration_s = recording.scans[-1].time_s - recording.scans[0].time_s
+    print(f"{len(recording.scans)} scans in {duration_s:.1f} s: fitted on the first half, compared with the second",
+          *recording.notes, sep="\n")
+    (lag_s, inset_m), law, sensor = fit.annotation, fit.curve, fit.sensor
+    azimuth_rad = math.hypot(sensor.get("azimuth_floor_rad", 0), fit.azimuth_noise / 10)
+    speed_mps = statistics.fmean(statics.ego_speeds(recording.radar, recording.scans))
+    print(f"""
+boxes      lists are {lag_s:.2f} s older, and near faces lie {inset_m:.2f} m inside
+ego        {speed_mps:.1f} m/s on average, by what stands
+threshold  {sensor['threshold_db']:.1f} dB over the noise
+receiver   0 dBsm has {law.at_1_m:.1f} - {law.per_decade:.1f} lg R - {law.per_deg2:.3f} az^2 - {law.per_deg4:.5f} az^4 dB \
+(R in m, az in degrees)
+cells      {sensor['cell_range_m']:.2f} m, {sensor['cell_range_rate_mps']:.2f} m/s
+noise      {sensor['range_sigma_m']:.2f} m, {sensor['range_rate_sigma_mps']:.3f} m/s, {math.degrees(azimuth_rad):.2f} \
+degrees at 20 dB
+""")
+
+
+def print_skill(name, us, scores, ideal, scans):
+    skill = [100 * one for one in score.share({key: ideal[key] - scores[key] for key in scores}, ideal, scans)]
+    print(f"{name:38} {'' if us is None else f'{us:.1f}':>10} {skill[0]:6.0f} % {skill[1]:6.0f} to {skill[2]:3.0f}")
+
+
+def print_skills(second, results):
+    scans = len(second.scans)
+    scores = {chain: second.scores(lists) for chain, (lists, _) in Progress("scores").over(results.items(), len(results))}
+    ideal = scores[chains.IDEAL]
+    print(f"{'predictor':38} {'us a frame':>10} {'skill':>8} {'interval':>13}")
+    print_skill("an empty list", None, second.scores([[[]] * scans]), ideal, scans)
+    for chain, own in scores.items():
+        print_skill(chain.name, results[chain][1], own, ideal, scans)
+    print_skill(f"the same body at least {FAR} scans away", None, second.scores_of_itself(FAR.__le__), ideal, scans)
+    print_skill("the same body 1 to 3 scans away", None, second.scores_of_itself(NEAR.__contains__), ideal, scans)
+    blocks = scans / score.block_length(scans)
+    if blocks < score.LONG_BLOCKS:
+        print(f"too short: intervals of {blocks:.0f} blocks of scans; {score.LONG_BLOCKS} are needed")
+
+
+def compare(folder, suite_folder=None):
+    """Prints all of it, and writes the suite that was found into a folder, if one is named."""
+    recording = readers.read(folder)
+    first, rest = halves(recording)
+    fit = fitted.fit(first)
+    print_found(recording, fit)
+    with tempfile.TemporaryDirectory() as place:
+        suite = fitted.write_suite(fit, suite_folder or place)
+        second = part(fit, rest.radar, rest.scans)
+        if second.boxes:
+            results = {chain: chains.run(chain, suite, fit.curve, second.scans, second.speeds)
+                       for chain in Progress("chains").over(chains.CHAINS)}
+            print_skills(second, results)
+    if suite_folder:
+        print(f"written: {os.path.relpath(suite)}")

@@ -1,0 +1,62 @@
+"""Chains of glint on the traffic of a recording."""
+import json
+import math
+import os
+import resource
+import subprocess
+import tempfile
+from collections import namedtuple
+
+from readers import Box, Detection
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+GLINT = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin", "glint")
+# With so many lists, one more of their law lies between their least and their largest statistic 38 times in 40.
+SEEDS = 39
+PAPER = ("visibility,plane_reflection,rows,occlusion,ambiguity,merging,superposition,threshold,angle_noise,range_noise,"
+         "final_threshold,list_limit")
+
+# data: the folder that vehicle documents come from
+Chain = namedtuple("Chain", "name effects sensor noise data", defaults=("glint-sensor", "glint-noise", "data"))
+IDEAL = Chain("ideal echoes", PAPER, "glint-sensor-perfect", "glint-noise-none")
+CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("all effects", "auto"),
+          Chain("all effects, data/detailed", "auto", data="data/detailed")]
+
+
+def frames(scans, speeds, seed):
+    """Frames of traffic, one a scan: the ego drives straight ahead at these speeds."""
+    ways = {}
+    for i, (scan, speed) in enumerate(zip(scans, speeds)):
+        interval_s = scans[max(i, 1)].time_s - scans[max(i, 1) - 1].time_s
+        bodies = [Box("ego", "car", *[0] * 8), *scan.boxes]
+        for box in bodies:
+            driven_m = math.hypot(speed + box.vx_mps, box.vy_mps) * interval_s
+            ways[box.id] = ways[box.id] + driven_m if box.id in ways else 0
+        yield {"version": 0, "scene": f"seed{seed}", "frame": i, "time_s": scan.time_s - scans[0].time_s,
+               "interval_s": interval_s, "seed": str(seed), "ego": "ego", "last": i + 1 == len(scans), "objects": [
+                   {"id": box.id, "class": box.kind, "x_m": ways["ego"] + box.x_m, "y_m": box.y_m, "yaw_rad": box.yaw_rad,
+                    "vx_mps": speed + box.vx_mps, "vy_mps": box.vy_mps, "yaw_rate_radps": 0, "length_m": box.length_m,
+                    "width_m": box.width_m, "height_m": box.height_m, "travelled_m": ways[box.id]} for box in bodies]}
+
+
+def run(chain, suite, law, scans, speeds, seeds=SEEDS, first=1):
+    """Lists of detections, [seed][scan], with seeds from the first one on, and the CPU time of a frame in microseconds."""
+    with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as traffic:
+        for seed in range(first, first + seeds):
+            for frame in frames(scans, speeds, seed):
+                traffic.write(json.dumps(frame) + "\n")
+        traffic.flush()
+        text = (f"glint-extract '{traffic.name}' | glint-ideal --sensors '{suite}' --effects {chain.effects} --sections none"
+                f" | {chain.sensor} | {chain.noise}")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        made = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=os.path.join(ROOT, chain.data)),
+                              check=True, stdout=subprocess.PIPE).stdout
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    spent_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    lists = [[detection(target, law) for target in json.loads(line)["targets"]] for line in made.splitlines()]
+    return ([lists[i:i + len(scans)] for i in range(0, len(lists), len(scans))], 1e6 * spent_s / (seeds * len(scans)))
+
+
+def detection(target, law):
+    place, snr_db = (target["range_m"], target["azimuth_rad"]), target["amplitude_db"]
+    return Detection(*place, target["range_rate_mps"], snr_db, snr_db - law.snr_db(*place))

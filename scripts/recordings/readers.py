@@ -1,0 +1,137 @@
+"""Recordings of real radars: target lists, and boxes of the road users around.
+
+In memory a recording is as data/measured/README.md has `recording.json`; each reader turns one layout of files into it.
+Places and velocities of boxes are relative to the ego, x ahead and y left. Either figure of a level may be None.
+"""
+import glob
+import json
+import math
+import os
+import re
+import statistics
+import struct
+from collections import namedtuple
+
+Detection = namedtuple("Detection", "range_m azimuth_rad range_rate_mps snr_db rcs_dbsm", defaults=(None, None))
+Box = namedtuple("Box", "id kind x_m y_m yaw_rad vx_mps vy_mps length_m width_m height_m")
+Scan = namedtuple("Scan", "time_s detections boxes")
+Radar = namedtuple("Radar", "x_m y_m yaw_rad carrier_hz")
+Recording = namedtuple("Recording", "radar scans notes")  # notes: sentences on what the files lack
+
+# Words of both data sets, by vehicle document. A rider is part of the two-wheeler.
+CLASSES = {"car": "car", "van": "van", "truck": "truck", "truck/bus": "truck", "bus": "bus", "motorbike": "motorcycle",
+           "motor": "motorcycle", "moped_scooter": "motorcycle", "bike": "bicycle", "bicycle": "bicycle",
+           "cyclist": "bicycle", "pedestrian": "pedestrian"}
+STANDING = {"post", "guardrail", "wall"}  # classes that are no road users
+ARTICULATED_M = 12  # longer trucks are articulated
+KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
+
+
+class Unreadable(ValueError):
+    """What is wrong with a recording, and in which file."""
+
+
+def read(folder):
+    """The recording of a folder in one of three layouts."""
+    for pattern, reader in (("recording.json", own), ("**/extrinsic_matrices.json", aimotive), ("**/velodyne", kitti)):
+        for found in sorted(glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))[:1]:
+            try:
+                recording = reader(folder, found)
+            except (KeyError, TypeError, ValueError, OSError, StopIteration, struct.error) as error:
+                raise Unreadable(f"{found}: {type(error).__name__}: {error}") from None
+            if len(recording.scans) < 4 or not any(scan.detections for scan in recording.scans):
+                raise Unreadable(f"{found}: expected four scans or more, with detections")
+            return recording._replace(notes=recording.notes + lacks(recording.scans))
+    raise Unreadable(f"{folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)")
+
+
+def lacks(scans):
+    found, detections = [], [one for scan in scans for one in scan.detections]
+    if not any(scan.boxes for scan in scans):
+        found.append("no boxes with ids: lag, inset, skill and the marginals of road users are left out")
+    if any(one.snr_db is None for one in detections):
+        found.append("no signal-to-noise ratio: the weakest tenth of the cross sections at a range stands for the threshold")
+    if any(one.rcs_dbsm is None for one in detections):
+        found.append("no cross section: 40 dB a decade are assumed, and 0 dBsm at the threshold at the farthest range")
+    return found
+
+
+def json_of(name):
+    with open(name, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def numbered(folder, pattern):
+    """{number: name} of all files of a pattern in a folder and below."""
+    found = glob.glob(os.path.join(glob.escape(folder), "**", pattern), recursive=True)
+    return {int(re.findall(r"\d+", os.path.basename(name))[-1]): name for name in sorted(found)}
+
+
+def class_of(word, length_m):
+    kind = CLASSES.get(word.lower())
+    return "articulated_truck" if kind == "truck" and length_m > ARTICULATED_M else kind
+
+
+def own(_, name):
+    told = json_of(name)
+    scans = [Scan(scan["time_s"], [Detection(**one) for one in scan["detections"]],
+                  [Box(**one) for one in scan.get("boxes", [])]) for scan in told["scans"]]
+    return Recording(Radar(**told["radar"]), scans, [])
+
+
+def aimotive(folder, extrinsics):
+    """A sequence of the aiMotive Multimodal Dataset, of the first radar that has both a matrix and lists."""
+    prefix, matrices, boxes, scans = "RT_body_from_", json_of(extrinsics), numbered(folder, "frame_*.json"), []
+    radar = next(key for key in matrices if key.startswith(prefix) and numbered(folder, f"{key[len(prefix):]}_*.json"))
+    for number, name in numbered(folder, f"{radar[len(prefix):]}_*.json").items():
+        captured = json_of(boxes[number])
+        scans.append(Scan(float(captured["Timestamp"]) * 1e-9,
+                          [Detection(one["range"], one["azimuth"], one["speed"], one["power"] - one["noise"],
+                                     10 * math.log10(one["rcs"])) for one in json_of(name)["targets"]],
+                          [box for box in map(aimotive_box, captured["CapturedObjects"]) if box.kind]))
+    matrix = matrices[radar]
+    mount = Radar(matrix[0][3], matrix[1][3], math.atan2(matrix[1][0], matrix[0][0]), 77e9)
+    return Recording(mount, scans, [f"other radars of the folder than {radar[len(prefix):]} are left out"])
+
+
+def aimotive_box(told):
+    def of(name, axes):
+        return [told[f"{name} {axis}"] for axis in axes]
+
+    w, x, y, z = of("BoundingBox3D Orientation Quat", "WXYZ")
+    size = of("BoundingBox3D Extent", "XYZ")
+    return Box(str(told["ObjectId"]), class_of(told["ObjectType"], size[0]), *of("BoundingBox3D Origin", "XY"),
+               math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)), *of("Relative Velocity", "XY"), *size)
+
+
+def kitti(folder, clouds):
+    """View-of-Delft: points of seven floats, labels in the camera's axes. Only labels of a folder
+    label_2_with_track_ids have ids, in the second column. Boxes move with the slope of their places over five scans."""
+    matrices, labels = numbered(folder, "calib/*.txt"), numbered(folder, "label_2_with_track_ids/*.txt")
+    scans, tracks = [], {}
+    for number, name in numbered(clouds, "*.bin").items():
+        with open(name, "rb") as file:
+            points = [Detection(math.hypot(x, y, z), math.atan2(y, x), rate, None, rcs)
+                      for x, y, z, rcs, rate, _, when in struct.iter_unpack("<7f", file.read()) if when == 0]
+        scans.append(Scan(number * KITTI_INTERVAL_S, points, []))
+        if number in labels:
+            with open(matrices[number], encoding="utf-8") as calibration, open(labels[number], encoding="utf-8") as file:
+                matrix = next([float(one) for one in line.split()[1:]] for line in calibration if line.startswith("Tr_velo"))
+                for box in (kitti_box(line.split(), matrix) for line in file):
+                    tracks.setdefault(box.id, {})[number * KITTI_INTERVAL_S] = box
+    for scan in scans:
+        for track in tracks.values():
+            near = {then: one for then, one in track.items() if abs(then - scan.time_s) < 2.5 * KITTI_INTERVAL_S}
+            if scan.time_s in near and len(near) > 1 and near[scan.time_s].kind:
+                vx, vy = (statistics.linear_regression(list(near), [getattr(one, axis) for one in near.values()]).slope
+                          for axis in ("x_m", "y_m"))
+                scan.boxes.append(near[scan.time_s]._replace(vx_mps=vx, vy_mps=vy))
+    return Recording(Radar(0, 0, 0, 77e9), scans, [f"no times: an interval of {KITTI_INTERVAL_S} s is assumed"])
+
+
+def kitti_box(words, matrix):
+    """From the camera's axes, where y points down and a box stands on its place, to those of the radar."""
+    height, width, length, *place, turn = map(float, words[8:15])
+    away, ahead = [place[i] - matrix[4 * i + 3] for i in range(3)], (math.cos(turn), 0, -math.sin(turn))
+    x, y, dx, dy = (sum(matrix[4 * i + axis] * of[i] for i in range(3)) for of in (away, ahead) for axis in (0, 1))
+    return Box(words[1], class_of(words[0], length), x, y, math.atan2(dy, dx), 0, 0, length, width, height)

@@ -1,0 +1,60 @@
+"""The fair energy score of random lists beside observed ones, and ratios of such scores with intervals.
+
+    S = mean d(X_i, y) - 1/2 mean over i < j of d(X_i, X_j),     skill = 1 - S/S(ideal echoes)
+
+X_i are the lists of a chain, y is the observed one, each of one body's detections in one scan. d is the distance of
+glint-score (MODEL 11.2): a list is the sum of Gaussian kernels of widths 1, 3 and 10 at its detections, with range, range
+rate and azimuth in cells and levels in steps of 3 dB, and d the norm of a difference of sums (Gneiting, Raftery 2007).
+"""
+import math
+import random
+
+CELL_M, CELL_MPS, CELL_RAD, STEP_DB = 1.4, 0.2, math.radians(1.7), 3
+LONG_BLOCKS = 20  # with fewer blocks of scans an interval is too short
+
+
+def kernel(one, other):
+    square = (((one.range_m - other.range_m) / CELL_M) ** 2 + ((one.range_rate_mps - other.range_rate_mps) / CELL_MPS) ** 2
+              + ((one.azimuth_rad - other.azimuth_rad) / CELL_RAD) ** 2 + ((one.snr_db - other.snr_db) / STEP_DB) ** 2)
+    return math.exp(-square / 2) + math.exp(-square / 18) + math.exp(-square / 200)
+
+
+def product(ones, others):
+    return sum(kernel(one, other) for one in ones for other in others)
+
+
+def energy_score(lists, observed):
+    """S of the lists of a chain, or of other predictors, for one observed list."""
+    own, m, of_observed = [product(one, one) for one in lists], len(lists), product(observed, observed)
+    off = sum(math.sqrt(max(norm + of_observed - 2 * product(one, observed), 0)) for one, norm in zip(lists, own)) / m
+    apart = sum(math.sqrt(max(own[i] + own[j] - 2 * product(lists[i], lists[j]), 0)) for i in range(m) for j in range(i))
+    return off - (apart / (m * (m - 1)) if m > 1 else 0)
+
+
+def share(parts, wholes, scans, draws=1000):
+    """Sum of parts over sum of wholes, {(body, scan): number} both, and its 95 % interval by a bootstrap of blocks of
+    neighbouring scans."""
+    sums = [[sum(of[key] for key in parts if key[1] == scan) for of in (parts, wholes)] for scan in range(scans)]
+
+    def ratio(weights):
+        part, whole = (sum(weight * one[i] for weight, one in zip(weights, sums)) for i in (0, 1))
+        return part / whole if whole else 0
+
+    drawn = sorted(map(ratio, resampled(scans, draws)))
+    return ratio([1] * scans), drawn[round(0.025 * draws)], drawn[round(0.975 * draws) - 1]
+
+
+def block_length(scans):
+    """5 to 10 scans."""
+    return min(max(scans // LONG_BLOCKS, 5), 10)
+
+
+def resampled(scans, draws):
+    """How often each scan is drawn, in blocks that wrap around the end; the same draws in each call."""
+    generator, length = random.Random(1), block_length(scans)
+    for _ in range(draws):
+        weights = [0] * scans
+        for begin in [generator.randrange(scans) for _ in range(math.ceil(scans / length))]:
+            for i in range(length):
+                weights[(begin + i) % scans] += 1
+        yield weights

@@ -1,0 +1,153 @@
+"""What scripts/realism --recordings finds in recordings: in lists of glint whose law is known, and in a real one.
+
+Usage: /usr/bin/python3 tests/chain/recordings.py BIN_DIR        exit status 1 if any check fails
+
+The lists are glint's own, of a road with posts and four vehicles, written as recording.json. The real recording is
+aimotive-front in GLINT_TEST_DATA; of it only the figures of its page are checked.
+"""
+import json
+import math
+import os
+import struct
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.dont_write_bytecode = True
+sys.path[:0] = [os.path.join(ROOT, "scripts", "recordings"), os.path.join(ROOT, "tests", "support")]
+import beside  # noqa: E402
+import chains  # noqa: E402
+import fitted  # noqa: E402
+import readers  # noqa: E402
+import score  # noqa: E402
+
+chains.GLINT = os.path.join(os.path.abspath(sys.argv[1]), "glint")
+EGO_MPS, INTERVAL_S = 30.0, 0.06
+RADAR = readers.Radar(3.8, 0.0, 0.0, 77e9)
+LAW = fitted.Curve(68.0, 24.0, 0.04, 0.0001)
+VEHICLES = [("near", "car", 28.0, 3.6, 2.5), ("van", "van", 45.0, -3.5, -4.0), ("far", "car", 70.0, 0.2, 1.0),
+            ("truck", "truck", 95.0, -3.6, -5.0)]
+SIZES = {"car": (4.5, 1.8, 1.5), "van": (5.5, 2.0, 2.3), "truck": (10.0, 2.5, 3.5), "post": (0.1, 0.1, 1.0)}
+faults = []
+
+
+def check(good, text):
+    if not good:
+        faults.append(text)
+        print(f"recordings: {text}", file=sys.stderr)
+
+
+def world(count):
+    """Scans without detections: four vehicles at their own rates, and posts on both sides of the road."""
+    scans = []
+    for i in range(count):
+        then, boxes = i * INTERVAL_S, []
+        for name, kind, x, y, vx in VEHICLES:
+            boxes.append(readers.Box(name, kind, x + vx * then, y, 0.0, vx, 0.0, *SIZES[kind]))
+        for k in range(180):
+            x = 4.5 * k + 3 * math.sin(7 * k) - EGO_MPS * then
+            if 0 < x < 180:
+                boxes.append(readers.Box(f"post{k}", "post", x, 6.0 if k % 2 else -7.0, 0.0, -EGO_MPS, 0.0, *SIZES["post"]))
+        scans.append(readers.Scan(then, [], boxes))
+    return scans
+
+
+def truth():
+    """The suite of the lists."""
+    sensor = {"name": "radar", "mount_x_m": RADAR.x_m, "mount_y_m": 0, "mount_yaw_rad": 0, "carrier_hz": RADAR.carrier_hz,
+              "range_min_m": 5, "range_max_m": 180, "field_of_view_rad": 0.6, "threshold_db": 14, "calibration_ercs": 1,
+              "calibration_range_m": 10 ** ((LAW.at_1_m + 10 - 14) / LAW.per_decade), "exponent": LAW.per_decade / 20,
+              "cell_range_m": 1.4, "cell_range_rate_mps": 0.2, "range_sigma_m": 0.08, "range_rate_sigma_mps": 0.02,
+              "azimuth_floor_rad": 0.003, "azimuth_sigma_rad": 0.003, "antenna_table": "antenna.csv",
+              "range_floor_m": 0.5, "fluctuation": "log_normal", "cell_phase": "by_path", "cell_extent": "half_width",
+              "antenna_pattern": "table", "phase_reference": "centre", "angle_estimator": "ratio", "pointer_sigma": 1,
+              "final_threshold": True, "list_order": "nearest", "list_limit": 250}
+    return fitted.Fit(fitted.Annotation(0, 0), LAW, 0.04, sensor)
+
+
+def recorded(suite, scans, seed):
+    """The scans with lists of one seed."""
+    lists, _ = chains.run(chains.CHAINS[2], suite, LAW, scans, [EGO_MPS] * len(scans), 1, seed)
+    return [scan._replace(detections=own) for scan, own in zip(scans, lists[0])]
+
+
+def write_own(folder, scans, late_s=0.0, wider_m=0.0):
+    """recording.json of the scans, with boxes that are late and too wide."""
+    def annotated(box):
+        return box._replace(x_m=box.x_m + late_s * box.vx_mps, length_m=box.length_m + 2 * wider_m,
+                            width_m=box.width_m + 2 * wider_m)._asdict()
+
+    with open(os.path.join(folder, "recording.json"), "w", encoding="utf-8") as out:
+        json.dump({"radar": RADAR._asdict(), "scans": [
+            {"time_s": scan.time_s, "detections": [one._asdict() for one in scan.detections],
+             "boxes": [annotated(box) for box in scan.boxes]} for scan in scans]}, out)
+
+
+def the_first_half_gives_back_the_law(folder, scans):
+    write_own(folder, scans, late_s=0.12, wider_m=0.3)
+    fit = fitted.fit(readers.read(folder))
+    for what, value, expected, within in (
+            ("lag_s", fit.annotation.lag_s, 0.12, 0.06), ("inset_m", fit.annotation.inset_m, 0.3, 0.25),
+            ("threshold_db", fit.sensor["threshold_db"], 14, 0.7), ("dB at 1 m", fit.curve.at_1_m, 68, 0.01),
+            ("dB a decade", fit.curve.per_decade, 24, 0.01), ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03),
+            ("range_rate_sigma_mps", fit.sensor["range_rate_sigma_mps"], 0.02, 0.015)):
+        check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} planted")
+    check(1.4 <= fit.sensor["cell_range_m"] < 3.2, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
+
+
+def energy_scores_follow_their_closed_form():
+    """One detection, seen with probability p: the fair score of an empty observation is p^2 |m|, |m|^2 = 3."""
+    one = readers.Detection(50.0, 0.0, 1.0, 20.0)
+    for seen in range(1, 8):
+        lists = [[one] if i < seen else [] for i in range(8)]
+        pairs = seen * (8 - seen) / (8 * 7)
+        expected = (seen / 8 - pairs) * math.sqrt(3)
+        check(abs(score.energy_score(lists, []) - expected) < 1e-12, f"energy score of {seen} in 8")
+
+
+def view_of_delft_is_read(folder):
+    """A car 20 m ahead, 4 m to the left, that turns by 0.2 rad, and its detection; labels with ids move, others are left out."""
+    for name in ("velodyne", "calib", "label_2_with_track_ids"):
+        os.makedirs(os.path.join(folder, name))
+    for i in range(6):
+        with open(os.path.join(folder, "velodyne", f"{i:05}.bin"), "wb") as out:
+            out.write(struct.pack("<14f", 20, 4, 0.5, 9, -3, 0, 0, 30, 4, 0.5, 9, -3, 0, -1))
+        with open(os.path.join(folder, "calib", f"{i:05}.txt"), "w", encoding="ascii") as out:
+            out.write("R0_rect: 1 0 0 0 1 0 0 0 1\nTr_velo_to_cam: 0 -1 0 0.1 0 0 -1 0.2 1 0 0 0.3\n")
+        with open(os.path.join(folder, "label_2_with_track_ids", f"{i:05}.txt"), "w", encoding="ascii") as out:
+            out.write(f"Car 7 0 0 0 0 0 0 1.5 1.8 4.5 -3.9 1 {20.3 - 0.3 * i} {-0.2 - math.pi / 2}\n")
+    scans = readers.read(folder).scans
+    box, detections = scans[0].boxes[0], scans[0].detections
+    check(len(detections) == 1 and abs(detections[0].range_m - math.sqrt(400 + 16 + 0.25)) < 1e-5
+          and detections[0].rcs_dbsm == 9 and detections[0].snr_db is None, f"points of View-of-Delft: {detections}")
+    read = (box.x_m, box.y_m, box.yaw_rad, box.vx_mps, box.length_m)
+    check(all(abs(a - b) < 1e-6 for a, b in zip(read, (20, 4, 0.2, -3, 4.5))), f"a box of View-of-Delft: {read}")
+
+
+def the_real_recording_shows_what_its_page_says():
+    data = os.environ.get("GLINT_TEST_DATA")
+    if not data:
+        print("skipped the real recording: GLINT_TEST_DATA is not set")
+        return
+    recording = readers.read(os.path.join(data, "aimotive-front"))
+    fit = fitted.fit(beside.halves(recording)[0])
+    for what, value, expected, within in (
+            ("lag_s", fit.annotation.lag_s, 0.13, 0.03), ("threshold_db", fit.sensor["threshold_db"], 14.2, 0.3),
+            ("dB at 1 m", fit.curve.at_1_m, 68.1, 1), ("dB a decade", fit.curve.per_decade, 24.4, 1),
+            ("cell_range_m", fit.sensor["cell_range_m"], 1.4, 0.3),
+            ("cell_range_rate_mps", fit.sensor["cell_range_rate_mps"], 0.2, 0.05)):
+        check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} stands beside the recording")
+
+
+def main():
+    energy_scores_follow_their_closed_form()
+    with tempfile.TemporaryDirectory() as folder:
+        suite = fitted.write_suite(truth(), folder)
+        the_first_half_gives_back_the_law(folder, recorded(suite, world(40), 1))
+    with tempfile.TemporaryDirectory() as folder:
+        view_of_delft_is_read(folder)
+    the_real_recording_shows_what_its_page_says()
+    sys.exit(1 if faults else 0)
+
+
+main()
