@@ -31,6 +31,9 @@ enum random_purpose {
                                  * loses to give errors a scale (glint-cost) */
     RANDOM_VARIATION = 17,      /* values of a scenario that are distributions */
     RANDOM_ARRIVALS = 18,       /* vehicles that come to a lane: class, size, driver, when */
+    RANDOM_LEVEL = 19,          /* the part of a body's level that stays */
+    RANDOM_LEVEL_SLOW = 20,     /* knots of the part that changes as body and ego drive */
+    RANDOM_LEVEL_FAST = 21,     /* knots of the part that changes with aspect and range */
     RANDOM_OWN = 1 << 16,       /* any number from here to 2^31 - 1, one for each purpose of the
                                  * stages that run together */
 };

@@ -41,6 +41,9 @@ static const char *const fluctuations[] = {
     NULL,
 };
 
+static const char *const keeps[] = {
+    [LEVEL_KEEPS_MEAN] = "mean", [LEVEL_KEEPS_MEDIAN] = "median", NULL};
+
 /* Real numbers and choices of struct sensor. */
 #define NEEDS(member, low, high, help) FIELD_REAL_IN(struct sensor, member, low, high, help)
 #define MAY_HAVE(member, low, high, help) OPTIONAL_REAL(struct sensor, member, low, high, help)
@@ -75,6 +78,17 @@ static const struct field sensor_fields[] = {
     {MAY_HAVE(fluctuation_sigma_db, 0, 30,
               "standard deviation of the log-normal law; absent: 3.41"),
      .absent = 3.41},
+    {MAY_HAVE(level_constant_db, 0, 30,
+              "standard deviation of levels from body to body; a body keeps it; absent: 0")},
+    {MAY_HAVE(level_slow_db, 0, 30,
+              "standard deviation of a body's level as it and the ego drive; absent: 0")},
+    {MAY_HAVE(level_slow_m, 0.1, 1e6,
+              "driven by both together, from knot to knot of the slow level; absent: 56"),
+     .absent = 56},
+    {MAY_HAVE(level_fast_db, 0, 30,
+              "standard deviation of a body's level over its aspect and range; absent: 0")},
+    {MAY_CHOOSE(level_keeps, keeps,
+                "is a reflector's ERCS that of the mean power over all levels, or of the median?")},
     {MAY_HAVE(unambiguous_range_m, 0.1, 1e6, "farther echoes fold below it; absent: none do")},
     {MAY_HAVE(unambiguous_rate_mps, 0.1, 1e5,
               "faster echoes fold to within +- this; absent: none do")},

@@ -10,6 +10,7 @@
 #include "propagation/carrier.h"
 #include "radar/antenna.h"
 #include "radar/detection.h"
+#include "radar/level.h"
 #include "radar/measurement_sigma.h"
 #include "radar/monopulse.h"
 #include "radar/radar_equation.h"
@@ -47,6 +48,8 @@ struct sensor {
     enum polarization polarization;
     enum fluctuation_law fluctuation;
     double fluctuation_sigma_db;
+    double level_constant_db, level_slow_db, level_slow_m, level_fast_db;
+    enum level_keeps level_keeps;
     double unambiguous_range_m, unambiguous_rate_mps; /* 0: unlimited */
     double receiver_bandwidth_hz, noise_figure_db, antenna_gain_dbi;
     enum if_sampling if_sampling;

@@ -12,6 +12,8 @@ static const struct field vehicle_fields[] = {
     {FIELD_REAL_IN(struct vehicle, height_m, 0.01, 1e3, "of objects without one of their own")},
     {OPTIONAL_REAL(struct vehicle, rear_axle_x_m, -1e3, 1e3,
                    "from the centre of the box; absent: 5/18 of the length behind it")},
+    {OPTIONAL_RECORD(struct vehicle, level, &class_level_record,
+                     "how its bodies' levels vary, where not as the sensor has it")},
     {FIELD_RECORD_OF(struct vehicle, reflectors, &reflector_model_record,
                      "reflection centres of the class")},
     {OPTIONAL_CHOICE(struct vehicle, sensing_target, reflector_models_3gpp_names,

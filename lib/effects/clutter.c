@@ -16,7 +16,7 @@ static bool described(const struct effect_scan *scan)
     const struct conditions *conditions = &scan->frame->conditions;
     const struct sensor_view *view = frame_view(scan->frame, scan->sensor->name);
     return conditions->clutter_per_m2 > 0 && conditions->clutter_ercs > 0 && view != NULL &&
-           view->measured;
+           view->measured && frame_object(scan->frame, scan->frame->ego) != NULL;
 }
 
 /* The sensor's pose at the frame's time. Latency changes nothing: a body that turns keeps its
@@ -78,7 +78,7 @@ static void add_echoes(const struct effect_scan *scan, struct effect_echoes *ech
 const struct effect effect_clutter = {
     .summary = "the ground and what stands on it echo",
     .cause = "clutter_per_m2 and clutter_ercs of the conditions",
-    .left_out_when = "clutter_per_m2 or clutter_ercs is 0",
+    .left_out_when = "clutter_per_m2 or clutter_ercs is 0, or the frame has no objects",
     .cost = "a draw per point on the ground",
     .home = EFFECT_HOME_SENSOR,
     .described = described,

@@ -43,7 +43,7 @@ static void add_effect(struct effect_scan *scan, enum effect_id id)
         return;
     if (scan->constants == NULL)
         scan->constants = arena_get(scan->frame->arena, EFFECT_COUNT * sizeof *scan->constants);
-    effect->begin(scan, scan->constants[id]);
+    scan->constants[id] = effect->begin(scan);
 }
 
 /* The instant whose world the sensor shows: that of its scan, less its latency. */
@@ -116,6 +116,13 @@ bool effect_scale(struct effect_reception *reception, double factor)
     reception->strength *= factor;
     reception->amplitude *= factor;
     return factor != 1;
+}
+
+const double *effect_constant(const struct effect_scan *scan, double value)
+{
+    double *constant = arena_get(scan->frame->arena, sizeof *constant);
+    *constant = value;
+    return constant;
 }
 
 bool effect_attenuate(const struct effect_scan *scan, struct effect_reception *reception)

@@ -19,9 +19,6 @@
 
 enum effect_home { EFFECT_HOME_IDEAL, EFFECT_HOME_SENSOR, EFFECT_HOME_NOISE };
 
-/* Constants of one effect in one scan. */
-enum { EFFECT_CONSTANTS = 3 };
-
 /* The steps by which noise measures a cell, in their order. Of targets that glint-sensor-signal
  * reads in the signal, only the last two steps are left. */
 enum effect_step {
@@ -43,8 +40,8 @@ struct effect_scan {
         address;      /* the scan's; frame_draw_address_in adds an echo or a cell's leader */
     uint64_t effects; /* the set of effects that are simulated */
     uint64_t receiving, measuring[EFFECT_STEPS]; /* those of them that have the hook */
-    double (*constants)[EFFECT_CONSTANTS];       /* by effect_id; NULL: no effect has any */
-    double interference; /* power of other radars over that of the sensor's own noise */
+    const double **constants; /* of an effect, by effect_id; NULL: no effect has any */
+    double interference;      /* power of other radars over that of the sensor's own noise */
 };
 
 /* One echo on its way through the receiver. */
@@ -54,7 +51,7 @@ struct effect_reception {
     double range_m, range_rate_mps; /* as the radar reads them */
     double phase_rad;
     double widening;         /* the response is 1 + widening times as wide as at rest */
-    const double *constants; /* of the effect whose hook is called, as its hook begin set them */
+    const double *constants; /* of the effect whose hook is called, from its hook begin */
 };
 
 /* Echoes that effects add to those of ideal. */
@@ -100,8 +97,9 @@ struct effect {
      * if `described` returns true. */
     struct effect_member members[4];
     bool (*described)(const struct effect_scan *scan);
-    /* Sets constants, which the hook receive finds in reception->constants. */
-    void (*begin)(const struct effect_scan *scan, double *constants);
+    /* Works out constants of the scan, which lie in the frame's arena. The hook receive finds them
+     * in reception->constants. */
+    const double *(*begin)(const struct effect_scan *scan);
 
     /* In the sensor. Adds echoes by effect_add. */
     void (*add_echoes)(const struct effect_scan *scan, struct effect_echoes *echoes);
@@ -144,6 +142,9 @@ void effect_add(const struct effect_scan *scan, struct effect_echoes *echoes,
 
 /* Multiplies an echo's strength and amplitude, for the hook receive. False if the factor is 1. */
 bool effect_scale(struct effect_reception *reception, double factor);
+
+/* One constant, for the hook begin. */
+const double *effect_constant(const struct effect_scan *scan, double value);
 
 /* The hook receive of an effect whose only constant is the attenuation of the air, in dB/km. */
 bool effect_attenuate(const struct effect_scan *scan, struct effect_reception *reception);

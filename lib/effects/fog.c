@@ -3,11 +3,11 @@
 
 #include "propagation/attenuation.h"
 
-static void begin(const struct effect_scan *scan, double *dbpkm)
+static const double *begin(const struct effect_scan *scan)
 {
     const double temperature_c = 10;
-    *dbpkm = attenuation_fog_dbpkm(scan->sensor->carrier_hz, temperature_c,
-                                   scan->frame->conditions.fog_gpm3);
+    return effect_constant(scan, attenuation_fog_dbpkm(scan->sensor->carrier_hz, temperature_c,
+                                                       scan->frame->conditions.fog_gpm3));
 }
 
 const struct effect effect_fog = {

@@ -3,11 +3,11 @@
 
 #include "propagation/attenuation.h"
 
-static void begin(const struct effect_scan *scan, double *dbpkm)
+static const double *begin(const struct effect_scan *scan)
 {
     const struct sensor *sensor = scan->sensor;
     struct attenuation_law law = attenuation_rain_law(sensor->carrier_hz, sensor->polarization);
-    *dbpkm = attenuation_rain_dbpkm(law, scan->frame->conditions.rain_mmph);
+    return effect_constant(scan, attenuation_rain_dbpkm(law, scan->frame->conditions.rain_mmph));
 }
 
 const struct effect effect_rain = {

@@ -23,10 +23,10 @@ static bool described(const struct effect_scan *scan)
 }
 
 /* The cells of range that an echo of 1 m/s walks in a dwell. */
-static void begin(const struct effect_scan *scan, double *cells_per_mps)
+static const double *begin(const struct effect_scan *scan)
 {
     const struct sensor *sensor = scan->sensor;
-    *cells_per_mps = sensor->dwell_s / sensor->bin_range_m;
+    return effect_constant(scan, sensor->dwell_s / sensor->bin_range_m);
 }
 
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)

@@ -5,13 +5,13 @@
 
 /* Gunn and East (1954): scattering by flakes smaller than the wave, and absorption (MODEL 14.19).
  */
-static void begin(const struct effect_scan *scan, double *dbpkm)
+static const double *begin(const struct effect_scan *scan)
 {
     double rate_mmph = scan->frame->conditions.snow_mmph;
     double wave_cm = 100 * units_wavelength_m(scan->sensor->carrier_hz);
     double square = wave_cm * wave_cm;
-    *dbpkm = 0.00349 * elementary_pow(rate_mmph, 1.6) / (square * square) +
-             0.00224 * rate_mmph / wave_cm;
+    return effect_constant(scan, 0.00349 * elementary_pow(rate_mmph, 1.6) / (square * square) +
+                                     0.00224 * rate_mmph / wave_cm);
 }
 
 const struct effect effect_snow = {

@@ -17,14 +17,16 @@ static bool described(const struct effect_scan *scan)
 }
 
 /* The road's complex permittivity and its roughness in m, which is assumed, as is asphalt. */
-static void begin(const struct effect_scan *scan, double *constants)
+static const double *begin(const struct effect_scan *scan)
 {
+    double *constants = arena_get(scan->frame->arena, 3 * sizeof *constants);
     struct material_permittivity permittivity =
         reflection_permittivity(MATERIAL_CONCRETE, scan->sensor->carrier_hz);
     bool asphalt = scan->frame->conditions.road == ROAD_ASPHALT;
     constants[0] = asphalt ? 5 : permittivity.real;
     constants[1] = asphalt ? 0.25 : permittivity.loss;
     constants[2] = asphalt ? 1e-3 : 3e-4;
+    return constants;
 }
 
 /* Distance of an echo along the road; its range is slant if the effect elevation changed it. */

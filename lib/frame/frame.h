@@ -57,11 +57,17 @@ struct object {
     const char *extra;  /* the user's own member, here and below, passed on byte for byte */
 };
 
+/* Standard deviations of the levels of a class's bodies (MODEL 14.22). Below 0: the sensor's. */
+struct class_level {
+    double constant_db, slow_db, fast_db;
+};
+
 /* The document that described a class to the stage which wrote the reflectors. */
 struct class_document {
     const char *class;
     const char *digest;   /* 16 hexadecimal digits */
     double rear_axle_x_m; /* from the centre of the box; 0: the document does not say */
+    struct class_level level;
 };
 
 /* The properties of a sensor that readers of targets need. */
@@ -268,6 +274,7 @@ struct frame {
 
 extern const struct record frame_record;
 extern const struct record object_record;
+extern const struct record class_level_record;
 extern const struct record sensor_view_record;
 extern const struct record echo_record;
 extern const struct record contributor_record;

@@ -65,11 +65,26 @@ static const struct field object_fields[] = {
 const struct record object_record = {
     FIELD_TABLE(struct object, object_fields, "object", "A road user or thing: truth.")};
 
+#define WIDTH(member, help) OPTIONAL_REAL(struct class_level, member, 0, 30, help), .absent = -1
+
+static const struct field class_level_fields[] = {
+    {WIDTH(constant_db, "from body to body, as a sensor's level_constant_db; absent: that")},
+    {WIDTH(slow_db, "as a body and the ego drive, as a sensor's level_slow_db; absent: that")},
+    {WIDTH(fast_db, "over aspect and range, as a sensor's level_fast_db; absent: that")},
+    {0},
+};
+
+const struct record class_level_record = {
+    FIELD_TABLE(struct class_level, class_level_fields, "level",
+                "Standard deviations of the levels of a class's bodies.")};
+
 static const struct field class_document_fields[] = {
     {NAME(struct class_document, class, "name of the vehicle document")},
     {NAME(struct class_document, digest, "digest of the document")},
     {OPTIONAL_REAL(struct class_document, rear_axle_x_m, -1e3, 1e3,
                    "from the centre of the box; absent: 5/18 of the length behind it")},
+    {OPTIONAL_RECORD(struct class_document, level, &class_level_record,
+                     "how its bodies' levels vary, where not as the sensor has it")},
     {0},
 };
 

@@ -23,5 +23,8 @@ double level_on_line(const struct random_address *line, enum random_purpose purp
 double level_on_turn(const struct random_address *plane, enum random_purpose purpose, double x,
                      double y, int64_t turn);
 
+/* Over all levels, do the reflectors' cross sections give the mean of the power or its median? */
+enum level_keeps { LEVEL_KEEPS_MEAN, LEVEL_KEEPS_MEDIAN };
+
 /* The mean of a normal level in dB for which the mean of its power is 1: -(ln 10/20) sigma_db^2. */
 double level_mean_db(double sigma_db);

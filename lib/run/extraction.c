@@ -36,8 +36,11 @@ static int note_document(struct frame *frame, const struct vehicle *vehicle, str
             return frame->vehicles.items[i].digest == vehicle->digest
                        ? 0
                        : vehicle_check_frame(vehicle, frame, diag);
-    *list_add(&frame->vehicles, frame->arena) = (struct class_document){
-        .class = class, .digest = vehicle->digest, .rear_axle_x_m = vehicle->rear_axle_x_m};
+    *list_add(&frame->vehicles, frame->arena) =
+        (struct class_document){.class = class,
+                                .digest = vehicle->digest,
+                                .rear_axle_x_m = vehicle->rear_axle_x_m,
+                                .level = vehicle->level};
     return 0;
 }
 

@@ -63,6 +63,9 @@ static void a_member_describes_its_effect_and_no_other(void **state)
         enum effect_id effect;
         size_t offset;
     } cases[] = {
+        {EFFECT_LEVEL, offsetof(struct sensor, level_constant_db)},
+        {EFFECT_LEVEL, offsetof(struct sensor, level_slow_db)},
+        {EFFECT_LEVEL, offsetof(struct sensor, level_fast_db)},
         {EFFECT_AMBIGUITY, offsetof(struct sensor, unambiguous_range_m)},
         {EFFECT_AMBIGUITY, offsetof(struct sensor, unambiguous_rate_mps)},
         {EFFECT_ANGLE_NOISE, offsetof(struct sensor, pointer_sigma)},

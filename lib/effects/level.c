@@ -1,0 +1,145 @@
+/* Levels of bodies (MODEL 14.22): a part that stays, a slow one over the metres that a body and the
+ * ego have driven, and a fast one over aspect and range. No part depends on the frame, so a body
+ * that stays in place keeps its level; none depends on the sensor's name, as the places of sensors
+ * tell their levels apart. */
+#include "effects/effect.h"
+
+#include "base/elementary.h"
+#include "base/hash.h"
+#include "base/units.h"
+#include "geometry/kinematics.h"
+#include "radar/level.h"
+
+/* Scatterers up to LONGEST_M apart interfere. Knots of aspect are KNOT_FRINGE lambda/(2 L) apart,
+ * as fringes of scatterers L apart are lambda/(2 L) wide, and those of range KNOT_RANGE_M. */
+#define LONGEST_M 6
+#define KNOT_FRINGE 0.7
+#define KNOT_RANGE_M 0.23
+
+static struct class_level widths_of(const struct effect_scan *scan, const char *class)
+{
+    const struct sensor *sensor = scan->sensor;
+    struct class_level width = {sensor->level_constant_db, sensor->level_slow_db,
+                                sensor->level_fast_db};
+    for (size_t i = 0; i < scan->frame->vehicles.count; i++) {
+        const struct class_document *document = &scan->frame->vehicles.items[i];
+        if (!frame_same_name(document->class, class))
+            continue;
+        if (document->level.constant_db >= 0)
+            width.constant_db = document->level.constant_db;
+        if (document->level.slow_db >= 0)
+            width.slow_db = document->level.slow_db;
+        if (document->level.fast_db >= 0)
+            width.fast_db = document->level.fast_db;
+    }
+    return width;
+}
+
+static bool described(const struct effect_scan *scan)
+{
+    const struct sensor *sensor = scan->sensor;
+    bool any =
+        sensor->level_constant_db > 0 || sensor->level_slow_db > 0 || sensor->level_fast_db > 0;
+    for (size_t i = 0; i < scan->frame->vehicles.count && !any; i++) {
+        const struct class_level *level = &scan->frame->vehicles.items[i].level;
+        any = level->constant_db > 0 || level->slow_db > 0 || level->fast_db > 0;
+    }
+    return any && frame_object(scan->frame, scan->frame->ego) != NULL;
+}
+
+/* How long before the frame's time the scan's instant is. */
+static double age_s(const struct effect_scan *scan)
+{
+    return scan->frame->time_s - scan->time_s;
+}
+
+static double driven_m(const struct effect_scan *scan, const struct object *object)
+{
+    return object->travelled_m - age_s(scan) * elementary_hypot(object->vx_mps, object->vy_mps);
+}
+
+static double slow_part(const struct effect_scan *scan, const struct object *body,
+                        const struct random_address *address)
+{
+    const struct object *ego = frame_object(scan->frame, scan->frame->ego);
+    return level_on_line(address, RANDOM_LEVEL_SLOW,
+                         (driven_m(scan, body) + driven_m(scan, ego)) / scan->sensor->level_slow_m);
+}
+
+/* From the centre of the body, in its own frame. */
+static struct vec2 place_of_sensor(const struct effect_scan *scan, const struct object *body)
+{
+    const struct sensor *sensor = scan->sensor;
+    const struct object *ego = frame_object(scan->frame, scan->frame->ego);
+    struct motion carrier = frame_motion(ego, age_s(scan)),
+                  motion = frame_motion(body, age_s(scan));
+    struct sensor_pose pose = kinematics_sensor_pose(&carrier, sensor->mount_x_m, sensor->mount_y_m,
+                                                     sensor->mount_yaw_rad);
+    return vec2_turn_back(vec2_sub(pose.position_m, motion.position_m),
+                          vec2_heading(motion.yaw_rad));
+}
+
+static double fast_part(const struct effect_scan *scan, const struct object *body,
+                        const struct random_address *address)
+{
+    struct vec2 sensor_m = place_of_sensor(scan, body);
+    double turns = elementary_atan2(sensor_m.y, sensor_m.x) / (2 * PI);
+    double knots_a_turn = 4 * PI * elementary_min(body->length_m, LONGEST_M) /
+                          (KNOT_FRINGE * units_wavelength_m(scan->sensor->carrier_hz));
+    double knots = elementary_max(2, floor(knots_a_turn + 0.5));
+    return level_on_turn(address, RANDOM_LEVEL_FAST, knots * (turns < 0 ? turns + 1 : turns),
+                         vec2_length(sensor_m) / KNOT_RANGE_M, (int64_t)knots);
+}
+
+static double level_db(const struct effect_scan *scan, const struct object *body)
+{
+    struct class_level width = widths_of(scan, body->class);
+    struct random_address address = {.seed = scan->address.seed,
+                                     .scene = scan->address.scene,
+                                     .item = hash_text(HASH_START, body->id)};
+    double variance = width.constant_db * width.constant_db + width.slow_db * width.slow_db +
+                      width.fast_db * width.fast_db;
+    double db = scan->sensor->level_keeps == LEVEL_KEEPS_MEAN ? level_mean_db(sqrt(variance)) : 0;
+    double constant[2];
+    random_gaussian_pair(&address, RANDOM_LEVEL, 0, constant);
+    db += width.constant_db * constant[0];
+    if (width.slow_db > 0)
+        db += width.slow_db * slow_part(scan, body, &address);
+    if (width.fast_db > 0)
+        db += width.fast_db * fast_part(scan, body, &address);
+    return db;
+}
+
+/* Factors on amplitude, by the frame's objects; 0 for objects without an echo. Echoes may be of
+ * something that is no object, as clutter is. */
+static const double *begin(const struct effect_scan *scan)
+{
+    const struct frame *frame = scan->frame;
+    double *factors = arena_get(frame->arena, frame->objects.count * sizeof *factors);
+    for (size_t i = 0; i < scan->echoes.count; i++) {
+        const struct object *body = frame_object(frame, scan->echoes.items[i].id.object);
+        double *factor = body != NULL ? &factors[body - frame->objects.items] : NULL;
+        if (factor != NULL && *factor == 0)
+            *factor = units_amplitude_from_db(level_db(scan, body));
+    }
+    return factors;
+}
+
+static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    const struct frame *frame = scan->frame;
+    const struct object *body = frame_object(frame, reception->echo->id.object);
+    return body != NULL &&
+           effect_scale(reception, reception->constants[body - frame->objects.items]);
+}
+
+const struct effect effect_level = {
+    .summary = "a body's echoes are stronger or weaker than its class's, alike from scan to scan",
+    .cause = "level_constant_db, level_slow_db and level_fast_db of a sensor, or level of a class",
+    .left_out_when = "no such member is above 0, or the frame has no objects",
+    .cost = "up to seven draws per body",
+    .home = EFFECT_HOME_SENSOR,
+    .described = described,
+    .begin = begin,
+    .receive = receive,
+};
