@@ -39,12 +39,13 @@ static size_t add(struct consistency *checks, size_t count, const struct consist
                                       left_value, right_value, member})
 #define LIMIT(...) ADD(LIMIT, __VA_ARGS__, NULL)
 
-/* The beam of the waveform's row of elements (MODEL 11.5), if its sensor has a table of the beam.
- */
+/* The beam of the waveform's row of elements (MODEL 11.5), if its sensor has a table of that row's
+ * beam. An azimuth_curve may contain the transmitter's. */
 static double row_beam_rad(const struct sensor *sensor)
 {
     const struct waveform *waveform = &sensor->waveform;
-    if (waveform->elements == 0 || sensor->antenna_pattern != ANTENNA_TABLE)
+    if (waveform->elements == 0 || sensor->antenna_pattern != ANTENNA_TABLE ||
+        sensor->azimuth_curve != NULL)
         return 0;
     return 0.886 / ((double)waveform->elements * waveform->spacing);
 }

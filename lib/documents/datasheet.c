@@ -127,6 +127,8 @@ static void add_resolution(const struct sensor *sensor, struct text *text)
     text_format(text, "  beam               %.3g degrees wide, ", beam);
     if (sensor->elevation_half_width_rad > 0)
         text_format(text, "%.3g degrees high\n", 2 * DEGREES * sensor->elevation_half_width_rad);
+    else if (sensor->elevation_curve != NULL)
+        text_format(text, "in elevation by %s\n", sensor->elevation_curve);
     else
         text_add_word(text, "without a limit in elevation\n");
 }

@@ -111,8 +111,18 @@ static const struct field sensor_fields[] = {
     {MAY_HAVE(range_floor_m, 1e-3, 1e3,
               "echoes from nearer than this have the amplitude of this range"),
      .absent = 0.5},
-    {OPTIONAL_NAME(struct sensor, amplitude_table,
-                   "CSV file with range_m, amplitude: instead of the calibration")},
+    {OPTIONAL_NAME(
+        struct sensor, range_curve,
+        "CSV file with range_m, level_db: 20 log10 of the amplitude of an echo of 0 dBsm "
+        "on boresight, instead of the calibration")},
+    {OPTIONAL_NAME(
+        struct sensor, azimuth_curve,
+        "CSV file with azimuth_rad, level_db: both ways, from the level at 0, instead of "
+        "the antenna's sum amplitude")},
+    {OPTIONAL_NAME(
+        struct sensor, elevation_curve,
+        "CSV file with elevation_rad, level_db: both ways, from the level at 0, positive "
+        "upwards, instead of elevation_half_width_rad")},
     {NEEDS(cell_range_m, 1e-6, 1e6,
            "size of the resolution cell in range; with a waveform that of a bin")},
     {NEEDS(cell_range_rate_mps, 1e-6, 1e5,
@@ -293,6 +303,34 @@ static bool other_window(const struct sensor *sensor)
     return sensor->range_migration == other;
 }
 
+/* Refuses two statements about the level over range or over elevation, and none over range. */
+static int check_levels(const struct sensor *sensor, struct diag *diag)
+{
+    bool ercs = sensor->calibration_ercs > 0, range = sensor->calibration_range_m > 0;
+    bool curve = sensor->range_curve != NULL;
+    if (curve && (ercs || range || sensor->exponent != 2))
+        return diag_fail(diag, DIAG_CONFIG,
+                         "range_curve: \"%s\"; expected none beside calibration_ercs %g, "
+                         "calibration_range_m %g and exponent %g",
+                         sensor->range_curve, sensor->calibration_ercs, sensor->calibration_range_m,
+                         sensor->exponent);
+    if (!curve && !(ercs && range))
+        return diag_fail(diag, DIAG_CONFIG,
+                         "range_curve: expected either a curve or calibration_ercs and "
+                         "calibration_range_m");
+    if (sensor->elevation_curve != NULL && sensor->elevation_half_width_rad > 0)
+        return diag_fail(
+            diag, DIAG_CONFIG,
+            "elevation_curve: \"%s\"; expected none beside elevation_half_width_rad %g",
+            sensor->elevation_curve, sensor->elevation_half_width_rad);
+    bool elevation = sensor->elevation_half_width_rad > 0 || sensor->elevation_curve != NULL;
+    if (elevation && !(sensor->mount_z_m > 0))
+        return diag_fail(diag, DIAG_CONFIG, "mount_z_m: missing; %s needs it",
+                         sensor->elevation_curve != NULL ? "elevation_curve"
+                                                         : "elevation_half_width_rad");
+    return 0;
+}
+
 int suite_check(const struct sensor *sensor, struct diag *diag)
 {
     if (sensor->receiver_bandwidth_hz > 0 && sensor->chirp_s == 0)
@@ -301,12 +339,8 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
     if (sensor->range_max_m <= sensor->range_min_m)
         return diag_fail(diag, DIAG_CONFIG, "range_max_m: %g is not above range_min_m, %g m",
                          sensor->range_max_m, sensor->range_min_m);
-    bool ercs = sensor->calibration_ercs > 0, range = sensor->calibration_range_m > 0;
-    bool table = sensor->amplitude_table != NULL;
-    if (ercs != range || ercs == table)
-        return diag_fail(diag, DIAG_CONFIG,
-                         "amplitude_table: expected either a table or calibration_ercs and "
-                         "calibration_range_m");
+    if (check_levels(sensor, diag) != 0)
+        return -1;
     bool pattern = sensor->antenna_pattern == ANTENNA_TABLE;
     if (pattern && sensor->antenna_table == NULL)
         return diag_fail(diag, DIAG_CONFIG,
@@ -317,9 +351,6 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
                          sensor->antenna_table);
     if (sensor->radome_bias_rad > 0 && sensor->radome_period_rad == 0)
         return diag_fail(diag, DIAG_CONFIG, "radome_period_rad: missing; radome_bias_rad needs it");
-    if (sensor->elevation_half_width_rad > 0 && !(sensor->mount_z_m > 0))
-        return diag_fail(diag, DIAG_CONFIG,
-                         "mount_z_m: missing; elevation_half_width_rad needs it");
     if (sensor->waveform.samples > 0 && other_window(sensor))
         return diag_fail(diag, DIAG_CONFIG,
                          "range_migration: \"%s\"; expected waveform.window, or compensated",

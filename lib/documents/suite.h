@@ -59,7 +59,7 @@ struct sensor {
     double calibration_ercs, calibration_range_m;
     double exponent;
     double range_floor_m;
-    const char *amplitude_table;
+    const char *range_curve, *azimuth_curve, *elevation_curve;
 
     double cell_range_m, cell_range_rate_mps;
     double azimuth_cell_rad; /* 0: not given */
@@ -86,6 +86,7 @@ struct sensor {
 
     struct radar_equation amplitude_law;
     struct antenna antenna;
+    struct receiver_curve elevation_levels;
     struct measurement_sigma range_error, range_rate_error;
     double threshold;                         /* linear, on the amplitude */
     double bin_range_m, bin_range_rate_mps;   /* full width of the stated cell */

@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 #include "base/intern.h"
+#include "base/units.h"
 #include "documents/consistency.h"
 #include "text/csv_table.h"
 #include "text/document.h"
@@ -26,28 +27,77 @@ static int columns_of(const struct csv_table *table, const char *const *names, s
     return 0;
 }
 
-static int read_amplitudes(const struct text *bytes, struct sensor *sensor, struct arena *arena,
-                           struct diag *diag)
+/* Levels over a column that ascends; NULL after a message. */
+static struct receiver_curve_row *read_levels(const struct text *bytes, const char *over,
+                                              double least, double most, size_t *count,
+                                              struct arena *arena, struct diag *diag)
 {
-    static const char *const names[] = {"range_m", "amplitude"};
+    const char *names[] = {over, "level_db"};
     struct csv_table table;
     size_t column[2];
     if (csv_table_parse(bytes, &table, arena, diag) != 0 ||
         columns_of(&table, names, 2, column, diag) != 0)
-        return -1;
-    struct radar_row *rows = arena_get(arena, table.rows * sizeof *rows);
+        return NULL;
+    struct receiver_curve_row *rows = arena_get(arena, table.rows * sizeof *rows);
     for (size_t i = 0; i < table.rows; i++) {
-        if (csv_table_number(&table, i, column[0], 1e-6, 1e6, &rows[i].range_m, diag) != 0 ||
-            csv_table_number(&table, i, column[1], 1e-300, 1e300, &rows[i].amplitude, diag) != 0)
-            return -1;
-        if (i > 0 && rows[i].range_m <= rows[i - 1].range_m)
-            return diag_fail(diag, DIAG_CONFIG, "row %zu: range_m must ascend", table.numbers[i]);
+        if (csv_table_number(&table, i, column[0], least, most, &rows[i].at, diag) != 0 ||
+            csv_table_number(&table, i, column[1], -1e3, 1e3, &rows[i].level_db, diag) != 0)
+            return NULL;
+        if (i > 0 && rows[i].at <= rows[i - 1].at) {
+            diag_fail(diag, DIAG_CONFIG, "row %zu: %s must ascend", table.numbers[i], over);
+            return NULL;
+        }
     }
-    if (table.rows < 2)
-        return diag_fail(diag, DIAG_CONFIG, "rows: %zu; expected at least 2", table.rows);
+    *count = table.rows;
+    if (table.rows >= 2)
+        return rows;
+    diag_fail(diag, DIAG_CONFIG, "rows: %zu; expected at least 2", table.rows);
+    return NULL;
+}
+
+static int read_range_curve(const struct text *bytes, struct sensor *sensor, struct arena *arena,
+                            struct diag *diag)
+{
+    size_t count;
+    const struct receiver_curve_row *levels =
+        read_levels(bytes, "range_m", 1e-6, 1e6, &count, arena, diag);
+    if (levels == NULL)
+        return -1;
+    struct radar_row *rows = arena_get(arena, count * sizeof *rows);
+    for (size_t i = 0; i < count; i++)
+        rows[i] = (struct radar_row){levels[i].at,
+                                     units_amplitude_from_db(levels[i].level_db) / radar_ercs(1)};
     sensor->amplitude_law.rows = rows;
-    sensor->amplitude_law.row_count = table.rows;
+    sensor->amplitude_law.row_count = count;
     return 0;
+}
+
+/* Reads a curve over an angle, which must reach this far to either side. */
+static int read_angle_curve(const struct text *bytes, const char *over, double reach_rad,
+                            struct receiver_curve *curve, struct arena *arena, struct diag *diag)
+{
+    curve->rows = read_levels(bytes, over, -PI / 2, PI / 2, &curve->count, arena, diag);
+    if (curve->rows == NULL)
+        return -1;
+    double first = curve->rows[0].at, last = curve->rows[curve->count - 1].at;
+    if (first <= -reach_rad && last >= reach_rad)
+        return 0;
+    return diag_fail(diag, DIAG_CONFIG, "%s: from %g to %g; expected at least from %g to %g%s",
+                     over, first, last, 0 - reach_rad, reach_rad,
+                     reach_rad > 0 ? ", the field of view" : "");
+}
+
+static int read_azimuth_curve(const struct text *bytes, struct sensor *sensor, struct arena *arena,
+                              struct diag *diag)
+{
+    double border_rad = antenna_border_rad(sensor->field_of_view_rad);
+    return read_angle_curve(bytes, "azimuth_rad", border_rad, &sensor->antenna.curve, arena, diag);
+}
+
+static int read_elevation_curve(const struct text *bytes, struct sensor *sensor,
+                                struct arena *arena, struct diag *diag)
+{
+    return read_angle_curve(bytes, "elevation_rad", 0, &sensor->elevation_levels, arena, diag);
 }
 
 static int read_pattern(const struct text *bytes, struct sensor *sensor, struct arena *arena,
@@ -99,11 +149,20 @@ add_table(const char *member, const char *suite_path, const char *name, struct s
 static int add_tables(const char *suite_path, struct sensor *sensor, uint64_t *digest,
                       struct arena *arena, struct diag *diag)
 {
-    return add_table("amplitude_table", suite_path, sensor->amplitude_table, sensor,
-                     read_amplitudes, digest, arena, diag) == 0
-               ? add_table("antenna_table", suite_path, sensor->antenna_table, sensor, read_pattern,
-                           digest, arena, diag)
-               : -1;
+    const struct {
+        const char *member, *name;
+        int (*read)(const struct text *, struct sensor *, struct arena *, struct diag *);
+    } tables[] = {
+        {"range_curve", sensor->range_curve, read_range_curve},
+        {"azimuth_curve", sensor->azimuth_curve, read_azimuth_curve},
+        {"elevation_curve", sensor->elevation_curve, read_elevation_curve},
+        {"antenna_table", sensor->antenna_table, read_pattern},
+    };
+    int result = 0;
+    for (size_t i = 0; result == 0 && i < sizeof tables / sizeof tables[0]; i++)
+        result = add_table(tables[i].member, suite_path, tables[i].name, sensor, tables[i].read,
+                           digest, arena, diag);
+    return result;
 }
 
 static int complete_suite(struct suite *suite, const char *path, const struct text *document,

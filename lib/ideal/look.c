@@ -272,8 +272,11 @@ struct kinematics look_slant(const struct look *look, double reflector_m, struct
         .range_rate_mps = slant.cosine * plane.range_rate_mps,
     };
     double half_width_rad = look->sensor->elevation_half_width_rad;
+    const struct receiver_curve *curve = &look->sensor->elevation_levels;
     if (half_width_rad > 0)
         *gain = kinematics_slant_amplitude_factor(slant, half_width_rad);
+    else if (curve->rows != NULL)
+        *gain = receiver_curve_gain(curve, elementary_atan2(slant.sine, slant.cosine));
     if (read.range_m != plane.range_m || read.azimuth_rad != plane.azimuth_rad ||
         read.range_rate_mps != plane.range_rate_mps || *gain != 1)
         *effects |= EFFECT_BIT(EFFECT_ELEVATION);

@@ -155,7 +155,7 @@ static void add_strength(const struct detection_source *source,
     const struct sensor *sensor = source->sensor;
     double ratio = measurement->amplitude / source->noise;
     double expected = units_amplitude_from_db(sensor->prior.snr_db);
-    double azimuth_rad = elementary_min(fabs(measurement->azimuth_rad), PI / 2);
+    double azimuth_rad = elementary_min(elementary_max(measurement->azimuth_rad, -PI / 2), PI / 2);
     double reference = radar_amplitude(&sensor->amplitude_law, &sensor->antenna,
                                        measurement->range_m, azimuth_rad, 1);
     struct existence existence = source->existence;

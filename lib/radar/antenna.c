@@ -71,8 +71,12 @@ static struct antenna_pair table_pair(const struct antenna *antenna, double azim
 
 static struct antenna_pair pair_at(const struct antenna *antenna, double azimuth_rad)
 {
-    return antenna->pattern == ANTENNA_TABLE ? table_pair(antenna, azimuth_rad)
-                                             : dipole_pair(azimuth_rad);
+    struct antenna_pair pair = antenna->pattern == ANTENNA_TABLE ? table_pair(antenna, azimuth_rad)
+                                                                 : dipole_pair(azimuth_rad);
+    if (antenna->curve.rows == NULL || pair.sum == 0)
+        return pair;
+    double gain = receiver_curve_gain(&antenna->curve, azimuth_rad);
+    return (struct antenna_pair){gain, gain * (pair.delta / pair.sum)};
 }
 
 /* Positive if delta/sum of the pair is above that of the row. */

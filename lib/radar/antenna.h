@@ -8,12 +8,16 @@
  * A measured pattern is a table of sum and delta amplitudes over azimuth. Both are linear between
  * rows and zero outside the table; delta is signed, positive to the left. Between two rows
  * delta/sum, a ratio of two straight lines, is monotone and has a closed inverse, so that a single
- * noise-free echo is read at its own azimuth. */
+ * noise-free echo is read at its own azimuth.
+ *
+ * A receiver curve over azimuth replaces the sum amplitude of either pattern. The delta amplitude
+ * keeps its ratio to the sum, by which angles are read (MODEL 4.3). */
 #pragma once
 
 #include <complex.h>
 #include <stdbool.h>
-#include <stddef.h>
+
+#include "radar/receiver_curve.h"
 
 enum antenna_pattern { ANTENNA_DIPOLE_PAIR, ANTENNA_TABLE };
 enum antenna_phase { PHASE_CENTRE, PHASE_ELEMENT };
@@ -30,6 +34,7 @@ struct antenna {
     enum antenna_phase phase;       /* a table has the phase of the dipole pair */
     const struct antenna_row *rows; /* of ANTENNA_TABLE */
     size_t row_count;
+    struct receiver_curve curve; /* over azimuth */
 };
 
 struct antenna_pointers {
@@ -37,9 +42,10 @@ struct antenna_pointers {
 };
 
 /* The pointers of one echo of amplitude 1 at an azimuth in [-pi/2, pi/2]; both are zero outside a
- * table. Under PHASE_CENTRE the mirrored azimuth has exactly the same sum and the negated delta.
- * The dipole pair's magnitudes are within 8 ulp of the formula and its components within 12, up to
- * 1e-12 rad from +-pi/2 (hard cases 1 to 5). */
+ * table of sum and delta, and under a curve the sum stays zero where its pattern has a zero. Under
+ * PHASE_CENTRE the mirrored azimuth has exactly the same sum and the negated delta. The dipole
+ * pair's magnitudes are within 8 ulp of the formula and its components within 12, up to 1e-12 rad
+ * from +-pi/2 (hard cases 1 to 5). */
 struct antenna_pointers antenna_pointers(const struct antenna *antenna, double azimuth_rad);
 
 /* |H_sum|: the antenna pattern A_phi of equation (2). */

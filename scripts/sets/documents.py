@@ -49,10 +49,13 @@ def suite_name(word):
     return os.path.splitext(os.path.basename(word))[0]
 
 
+TABLES = "antenna_table", "range_curve", "azimuth_curve", "elevation_curve"
+
+
 def copies_of_tables(suite):
     """The tables that a suite names. In the set they lie as they do here, seen from the suite."""
     for sensor in read_json(suite)["sensors"]:
-        for table in filter(None, map(sensor.get, ("antenna_table", "amplitude_table"))):
+        for table in filter(None, map(sensor.get, TABLES)):
             place, path = os.path.normpath(f"{DOCUMENTS}/sensors/{table}"), os.path.join(os.path.dirname(suite), table)
             refuse(os.path.isabs(table) or not place.startswith(DOCUMENTS + "/"), suite,
                    f"{table}: expected a table in or below the folder above this one, by its path from here")

@@ -57,7 +57,7 @@ END
 }
 END
     printf '%s\n' azimuth_rad,sum,delta -1,0.2,-0.5 0,1,0 1,0.2,0.5 >pattern.csv
-    printf '%s\n' range_m,amplitude 1,100 10,10 100,1 >amplitude.csv
+    printf '%s\n' range_m,level_db 1,30 10,10 100,-10 >levels.csv
     printf '%s\n' track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width \
         1,1,0,car,0,0,10,0,0,4,2 1,2,100,car,1,0,10,0,0,4,2 \
         2,1,0,car,20,0,10,0,0,4,2 2,2,100,car,21,0,10,0,0,4,2 >tracks.csv

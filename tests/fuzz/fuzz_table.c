@@ -1,5 +1,4 @@
-/* Antenna and amplitude tables of a sensor: a table whose first row names a range is of amplitudes.
- */
+/* Antenna tables and receiver curves of a sensor, told apart by the names of their columns. */
 #include <string.h>
 
 #include "documents/suite_file.h"
@@ -12,11 +11,18 @@ static const char sensor[] =
     "\"phase_reference\":\"centre\",\"angle_estimator\":\"magnitude\",\"pointer_sigma\":0.5,"
     "\"range_sigma_m\":0.02,\"range_rate_sigma_mps\":0.05,\"azimuth_sigma_rad\":0.04,"
     "\"final_threshold\":true,\"list_order\":\"strongest\",\"list_limit\":10,";
-static const char with_antenna[] =
-    "\"calibration_ercs\":0.8,\"calibration_range_m\":50,\"antenna_pattern\":\"table\","
-    "\"antenna_table\":\"%s\"}]}";
-static const char with_amplitudes[] =
-    "\"antenna_pattern\":\"dipole_pair\",\"amplitude_table\":\"%s\"}]}";
+#define CALIBRATED "\"calibration_ercs\":0.8,\"calibration_range_m\":50,"
+static const char with_antenna[] = CALIBRATED "\"antenna_pattern\":\"table\","
+                                              "\"antenna_table\":\"%s\"}]}";
+static const struct {
+    const char *header, *members;
+} curves[] = {
+    {"range_m,", "\"antenna_pattern\":\"dipole_pair\",\"range_curve\":\"%s\"}]}"},
+    {"azimuth_rad,level",
+     CALIBRATED "\"antenna_pattern\":\"dipole_pair\",\"azimuth_curve\":\"%s\"}]}"},
+    {"elevation_rad,", CALIBRATED
+     "\"mount_z_m\":0.5,\"antenna_pattern\":\"dipole_pair\",\"elevation_curve\":\"%s\"}]}"},
+};
 
 static void look(const char *suite)
 {
@@ -29,15 +35,17 @@ static void look(const char *suite)
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    bool amplitudes = size > 5 && memcmp(bytes, "range", 5) == 0;
+    const char *members = with_antenna;
+    for (size_t i = 0; i < sizeof curves / sizeof curves[0]; i++) {
+        size_t length = strlen(curves[i].header);
+        if (size > length && memcmp(bytes, curves[i].header, length) == 0)
+            members = curves[i].members;
+    }
     struct fuzz_file table, suite;
     struct text text = {0};
     fuzz_open(&table, bytes, size);
     text_add_word(&text, sensor);
-    if (amplitudes)
-        text_format(&text, with_amplitudes, table.path);
-    else
-        text_format(&text, with_antenna, table.path);
+    text_format(&text, members, table.path);
     fuzz_open(&suite, text.bytes, text.length);
     struct arena arena = {0};
     struct diag diag = {0};

@@ -10,6 +10,7 @@ digit, deviations to eight per cent, as they are printed with two digits.
 import json
 import math
 import re
+import statistics
 import subprocess
 import sys
 
@@ -84,6 +85,55 @@ def accuracy(bench):
             bench.check(abs(measured / printed - 1) < 0.08, f"{name}: {key} {measured}, printed {printed}")
 
 
+# Decibels over the noise of an echo of 0 dBsm, as measured on a UMRR-11 Type 132: over metres and degrees.
+LAW = (lambda r: 68.1 - 24.4 * math.log10(r), lambda az: -0.042 * az ** 2 - 0.00013 * az ** 4)
+
+
+def measured_radar(bench):
+    """That radar in words of a suite, whose amplitude 1 is the noise."""
+    levels = {"range": [(r, LAW[0](r)) for r in (1, 1000)],
+              "azimuth": [(math.radians(d), LAW[1](d)) for d in range(-17, 18)]}
+    for (name, rows), unit in zip(levels.items(), ("m", "rad")):
+        (bench.scratch / f"{name}.csv").write_text(
+            f"{name}_{unit},level_db\n" + "".join(f"{at},{level}\n" for at, level in rows))
+    one = radar(pointer_sigma=1, threshold_db=14.2, range_min_m=13, range_max_m=179, cell_range_m=0.7,
+                field_of_view_rad=math.radians(34), range_curve="range.csv", azimuth_curve="azimuth.csv",
+                final_threshold=False)
+    return {key: value for key, value in one.items() if "calibration" not in key and key != "exponent"}
+
+
+def measured_law(bench):
+    """The law comes back from the chain, the signal, the quality of detections and the sheet."""
+    document = measured_radar(bench)
+    shape = {"waveform": {"kind": "chirp", "samples": 256, "repetitions": 64}}
+    signal = dict(document, range_max_m=176, carrier_hz=76.5e9, **shape)
+    for range_m, degrees in ((15, 0), (20, -12), (40, 5), (60, 12.3), (100, -8.5), (170, 0.4)):
+        place = range_m * math.cos(math.radians(degrees)), range_m * math.sin(math.radians(degrees))
+        frames = frames_of([thing("post", "section_20", *place)], 200)
+        expected = 20 + LAW[0](range_m) + LAW[1](degrees)
+        where = f"{range_m} m, {degrees} degrees"
+        for stages, one in (["glint-sensor", "glint-noise"], document), (["glint-sensor-signal"], signal):
+            if not (bench.bin / stages[0]).exists():
+                print(f"skipped  the measured law in the signal: {stages[0]} is not built")
+                continue
+            ideal = ["glint-ideal", "--sensors", bench.write_suite(suite_of(one)), "--sections", "quality"]
+            text = "".join(json.dumps(frame) + "\n" for frame in frames)
+            for words in (["glint-extract"], ideal, *([stage] for stage in stages)):
+                text = bench.stage(words, text)
+            made = [max(frame["targets"], key=lambda target: target["amplitude_db"])
+                    for frame in map(json.loads, text.splitlines())]
+            # The power of a noisy amplitude is on average that of the echo and that of the noise.
+            power = 10 * math.log10(sum(10 ** (target["amplitude_db"] / 10) for target in made) / len(made) - 1)
+            snr, section = (statistics.median(target["quality"][key] for target in made) for key in ("snr_db", "rcs_dbsm"))
+            for name, value, truth in (("power", power, expected), ("snr_db", snr, expected),
+                                       ("rcs_dbsm", section, 20)):
+                bench.check(abs(value - truth) < 0.1, f"{stages[0]}, {where}: {name} {value}, expected {truth}")
+    _, ranges, _ = sheet_of(bench, document)
+    for degrees in 11.3, 17.0:
+        far_m = 10 ** ((LAW[0](1) + LAW[1](degrees) - 14.2) / 24.4)
+        bench.check(abs(float(ranges[degrees, 0, 0]) / far_m - 1) < 0.01, f"{degrees} degrees: {ranges}, not {far_m}")
+
+
 def prepare(bench):
     model.add_shipped_vehicles(bench)
     for section in SECTIONS_DBSM:
@@ -94,6 +144,7 @@ def prepare(bench):
 CHECKS = [
     ("posts are detected as often as printed, at the printed ranges", detection),
     ("errors are as large as printed", accuracy),
+    ("the measured law of a radar is said by curves and comes back within 0.1 dB", measured_law),
 ]
 
 

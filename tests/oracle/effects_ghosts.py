@@ -193,8 +193,9 @@ def curved_mirrors(bench):
 
 def range_laws(bench):
     """The wave spreads over both of its ways; what the receiver makes of it goes by the range that it reads."""
-    (bench.scratch / "gain.csv").write_text("range_m,amplitude\n1,1e4\n10,300\n100,50\n")
-    table = {"amplitude_table": "gain.csv", "calibration_ercs": None, "calibration_range_m": None, "exponent": None}
+    (bench.scratch / "gain.csv").write_text("range_m,level_db\n" + "".join(f"{m},{20 * math.log10(ercs_1) - 10}\n"
+                                                                for m, ercs_1 in ((1, 1e4), (10, 300), (100, 50))))
+    table = {"range_curve": "gain.csv", "calibration_ercs": None, "calibration_range_m": None, "exponent": None}
     laws = [({"exponent": q}, lambda r, q=q: 10 ** (6 / 20) / 0.8 * (100 / r) ** q) for q in (1, 1.3, 2)]
     laws.append((table, lambda r: 300 * (r / 10) ** math.log10(50 / 300)))
     for changes, law in laws:

@@ -96,6 +96,16 @@ def the_beam_is_down_by_half_at_its_half_width(bench):
     near(bench, look(bench, place, suite)[0]["a", "p"]["ercs"], 0.25, 1e-13, "gain both ways")
 
 
+def a_curve_over_elevation_is_the_gain(bench):
+    """Straight in decibels between its rows, by the side, and constant beyond them."""
+    (bench.scratch / "beam.csv").write_text("elevation_rad,level_db\n-0.2,-20\n0.1,-2\n0.2,-10\n")
+    suite = suite_of(wide(mount_z_m=2, elevation_curve="beam.csv"))
+    for rise, level_db in (0.15, -6), (0.05, -5), (-0.1, -14), (-0.19, -19.4), (0.3, -10):
+        place = [body("a", "high", 10, 0, 2 + 10 * math.tan(rise))]
+        echo = look(bench, place, suite)[0]["a", "p"]
+        near(bench, echo["ercs"], 0.5 * 10 ** ((level_db + 8) / 20), 1e-12, f"gain at {rise} rad")
+
+
 def without_heights(seen):
     """Echoes without height_m, which only the road asks for: what a flat world shows."""
     echoes, lost = seen
@@ -332,6 +342,7 @@ CHECKS = [
     ("slant ranges are as published", slant_ranges_are_as_published),
     ("azimuths are those of a cone", azimuths_are_those_of_a_cone),
     ("the beam is down by half at its half width", the_beam_is_down_by_half_at_its_half_width),
+    ("a curve over elevation is the gain", a_curve_over_elevation_is_the_gain),
     ("equal heights change no bit", equal_heights_change_no_bit),
     ("a truck is seen over a car", a_truck_is_seen_over_a_car),
     ("a low reflector hides from a high sensor", a_low_reflector_hides_from_a_high_sensor),

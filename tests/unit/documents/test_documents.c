@@ -26,7 +26,7 @@ static int make_scratch(void **state)
     strcpy(scratch->directory, "/tmp/glint-documents-XXXXXX");
     assert_non_null(mkdtemp(scratch->directory));
     snprintf(scratch->suite, sizeof scratch->suite, "%s/suite.json", scratch->directory);
-    snprintf(scratch->table, sizeof scratch->table, "%s/amplitude.csv", scratch->directory);
+    snprintf(scratch->table, sizeof scratch->table, "%s/levels.csv", scratch->directory);
     snprintf(scratch->pattern, sizeof scratch->pattern, "%s/pattern.csv", scratch->directory);
     *state = scratch;
     return 0;
@@ -140,13 +140,14 @@ static void every_document_that_is_shipped_loads(void **state)
     "\"range_sigma_m\":0,\"range_rate_sigma_mps\":0,\"azimuth_sigma_rad\":0,"                      \
     "\"final_threshold\":true,\"list_order\":\"nearest\",\"list_limit\":0"
 #define TABLES                                                                                     \
-    "\"amplitude_table\":\"amplitude.csv\",\"antenna_pattern\":\"table\","                         \
+    "\"range_curve\":\"levels.csv\",\"antenna_pattern\":\"table\","                                \
     "\"antenna_table\":\"pattern.csv\","
 #define SENSOR(name, range, more) "{\"name\":\"" name "\"," PLACE range more REST "}"
 #define RANGES "\"range_min_m\":1,\"range_max_m\":30,"
 #define SUITE(sensors) "{\"origin\":\"a test\",\"sensors\":[" sensors "]}"
 
-static const char amplitudes[] = "range_m,amplitude\n10,8\n20,2\n";
+/* Amplitudes of 8 and 2 of an ERCS of 1, 10 dBsm. */
+static const char levels[] = "range_m,level_db\n10,8.061799739838872\n20,-3.979400086720376\n";
 static const char pattern[] = "azimuth_rad,sum,delta\n-1,0.5,-1\n0,1,0\n1,0.5,1\n";
 
 static const struct suite *suite_of(struct scratch *scratch, const char *document,
@@ -164,20 +165,20 @@ static void tables_are_found_beside_the_document_and_read(void **state)
     struct scratch *scratch = *state;
     struct diag diag;
     const struct suite *suite =
-        suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES)), amplitudes, pattern, &diag);
+        suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES)), levels, pattern, &diag);
     if (suite == NULL)
         fail_msg("%s", diag.text);
     const struct sensor *sensor = suite_sensor(suite, "a");
     assert_null(suite_sensor(suite, "b"));
     assert_non_null(sensor->amplitude_law.rows);
-    /* Straight in the logarithms of both: at sqrt(10 20) m the amplitude is sqrt(8 2). */
+    /* Straight in dB over the logarithm of range: at sqrt(10 20) m the amplitude is sqrt(8 2). */
     assert_near(radar_reference_amplitude(&sensor->amplitude_law, sqrt(200)), 4.0, 1e-12);
     assert_close(antenna_gain(&sensor->antenna, 0.5), 0.75, 1e-12);
     assert_near(sensor->threshold, 1.9952623149688795, 1e-14);
     assert_close(sensor->half_range_m, 0.15, 0);
     assert_close(sensor->half_range_rate_mps, 0.25, 0);
     suite = suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES "\"cell_extent\":\"half_width\",")),
-                     amplitudes, pattern, &diag);
+                     levels, pattern, &diag);
     assert_close(suite->sensors.items[0].half_range_m, 0.3, 0);
 }
 
@@ -187,11 +188,11 @@ static void the_digest_covers_the_document_and_every_table(void **state)
     static const struct {
         const char *document, *table, *rows;
     } variants[] = {
-        {SUITE(SENSOR("a", RANGES, TABLES)), amplitudes, pattern},
-        {SUITE(SENSOR("b", RANGES, TABLES)), amplitudes, pattern},
-        {SUITE(SENSOR("a", RANGES, TABLES)) "\n", amplitudes, pattern},
-        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n20,2.5\n", pattern},
-        {SUITE(SENSOR("a", RANGES, TABLES)), amplitudes,
+        {SUITE(SENSOR("a", RANGES, TABLES)), levels, pattern},
+        {SUITE(SENSOR("b", RANGES, TABLES)), levels, pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)) "\n", levels, pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,level_db\n10,8\n20,2.5\n", pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)), levels,
          "azimuth_rad,sum,delta\n-1,0.5,-1\n0,1,0\n1,0.5,2\n"},
     };
     char digests[COUNT(variants)][17];
@@ -215,51 +216,69 @@ static void suites_with_contradictory_members_are_refused(void **state)
     struct scratch *scratch = *state;
 #define POWER "\"calibration_ercs\":0.8,\"calibration_range_m\":30,"
 #define PAIR "\"antenna_pattern\":\"dipole_pair\","
+#define BEAM "\"elevation_curve\":\"levels.csv\","
+#define LEVEL "elevation_rad,level_db\n-0.1,-3\n0.1,-3\n"
     static const struct {
         const char *document, *table, *rows, *message;
     } cases[] = {
-        {SUITE(""), amplitudes, pattern, "/suite.json: sensors: none; expected at least one"},
-        {SUITE(SENSOR("a", RANGES, TABLES) "," SENSOR("a", RANGES, TABLES)), amplitudes, pattern,
+        {SUITE(""), levels, pattern, "/suite.json: sensors: none; expected at least one"},
+        {SUITE(SENSOR("a", RANGES, TABLES) "," SENSOR("a", RANGES, TABLES)), levels, pattern,
          "/suite.json: sensors[1].name: \"a\" stands twice"},
-        {SUITE(SENSOR("a", "\"range_min_m\":5,\"range_max_m\":5,", TABLES)), amplitudes, pattern,
+        {SUITE(SENSOR("a", "\"range_min_m\":5,\"range_max_m\":5,", TABLES)), levels, pattern,
          "/suite.json: sensors[0].range_max_m: 5 is not above range_min_m, 5 m"},
-        {SUITE(SENSOR("a", RANGES, TABLES POWER)), amplitudes, pattern,
-         "/suite.json: sensors[0].amplitude_table: expected either a table or calibration_ercs "
+        {SUITE(SENSOR("a", RANGES, TABLES POWER)), levels, pattern,
+         "/suite.json: sensors[0].range_curve: \"levels.csv\"; expected none beside "
+         "calibration_ercs 0.8, calibration_range_m 30 and exponent 2"},
+        {SUITE(SENSOR("a", RANGES, TABLES "\"exponent\":1.2,")), levels, pattern,
+         "/suite.json: sensors[0].range_curve: \"levels.csv\"; expected none beside "
+         "calibration_ercs 0, calibration_range_m 0 and exponent 1.2"},
+        {SUITE(SENSOR("a", RANGES, PAIR)), levels, pattern,
+         "/suite.json: sensors[0].range_curve: expected either a curve or calibration_ercs "
          "and calibration_range_m"},
-        {SUITE(SENSOR("a", RANGES, PAIR)), amplitudes, pattern,
-         "/suite.json: sensors[0].amplitude_table: expected either a table or calibration_ercs "
-         "and calibration_range_m"},
-        {SUITE(SENSOR("a", RANGES, POWER "\"antenna_pattern\":\"table\",")), amplitudes, pattern,
+        {SUITE(SENSOR("a", RANGES, POWER PAIR BEAM "\"elevation_half_width_rad\":0.1,")), LEVEL,
+         pattern,
+         "/suite.json: sensors[0].elevation_curve: \"levels.csv\"; expected none beside "
+         "elevation_half_width_rad 0.1"},
+        {SUITE(SENSOR("a", RANGES, POWER PAIR BEAM)), LEVEL, pattern,
+         "/suite.json: sensors[0].mount_z_m: missing; elevation_curve needs it"},
+        {SUITE(SENSOR("a", RANGES, POWER PAIR BEAM "\"mount_z_m\":1,")),
+         "elevation_rad,level_db\n0.1,0\n0.2,-3\n", pattern,
+         "/levels.csv: elevation_rad: from 0.1 to 0.2; expected at least from 0 to 0"},
+        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"azimuth_curve\":\"levels.csv\",")),
+         "azimuth_rad,level_db\n-1.5,0\n1.4,-3\n", pattern,
+         "/levels.csv: azimuth_rad: from -1.5 to 1.4; expected at least from -1.5 to 1.5, the "
+         "field of view"},
+        {SUITE(SENSOR("a", RANGES, POWER "\"antenna_pattern\":\"table\",")), levels, pattern,
          "/suite.json: sensors[0].antenna_table: missing; antenna_pattern \"table\" needs it"},
-        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"antenna_table\":\"pattern.csv\",")), amplitudes,
+        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"antenna_table\":\"pattern.csv\",")), levels,
          pattern,
          "/suite.json: sensors[0].antenna_table: \"pattern.csv\"; expected only with "
          "antenna_pattern \"table\""},
-        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"cycle_s\":0.0124,")), amplitudes, pattern,
+        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"cycle_s\":0.0124,")), levels, pattern,
          "/suite.json: sensors[0].cell_range_rate_mps: dwell, wavelength/(2 cell_range_rate_mps), "
          "0.0124914 s; expected at most sensors[0].cycle_s, 0.0124 s"},
         {SUITE(SENSOR("a", RANGES, POWER PAIR "\"cycle_s\":0.0125,") "," SENSOR(
              "b", RANGES,
              POWER PAIR
              "\"receiver_bandwidth_hz\":1e5,\"chirp_slope_hzps\":-1e12,\"chirp_s\":1e-4,")),
-         amplitudes, pattern,
+         levels, pattern,
          "/suite.json: sensors[1].range_max_m: beat, 2 range_max_m chirp_slope_hzps/c, 200138 Hz; "
          "expected at most sensors[1].receiver_bandwidth_hz, 100000 Hz"},
         {SUITE(SENSOR("a", RANGES, POWER PAIR "\"false_alarms\":1,\"unambiguous_rate_mps\":60,")),
-         amplitudes, pattern,
+         levels, pattern,
          "/suite.json: sensors[0].false_alarm_range_rate_mps: false alarms to "
          "false_alarm_range_rate_mps, 70 m/s; expected at most sensors[0].unambiguous_rate_mps, 60 "
          "m/s"},
-        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"radome_bias_rad\":0.01,")), amplitudes, pattern,
+        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"radome_bias_rad\":0.01,")), levels, pattern,
          "/suite.json: sensors[0].radome_period_rad: missing; radome_bias_rad needs it"},
-        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n", pattern,
-         "/amplitude.csv: rows: 1; expected at least 2"},
-        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n10,2\n", pattern,
-         "/amplitude.csv: row 3: range_m must ascend"},
-        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n20,0\n", pattern,
-         "/amplitude.csv: row 3, column \"amplitude\": 0 is outside [1e-300, 1e+300]"},
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,level_db\n10,8\n", pattern,
+         "/levels.csv: rows: 1; expected at least 2"},
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,level_db\n10,8\n10,2\n", pattern,
+         "/levels.csv: row 3: range_m must ascend"},
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,level_db\n10,8\n20,2000\n", pattern,
+         "/levels.csv: row 3, column \"level_db\": 2000 is outside [-1000, 1000] dB"},
         {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,gain\n10,8\n", pattern,
-         "/amplitude.csv: column \"amplitude\" is missing; the header is: range_m, gain"},
+         "/levels.csv: column \"level_db\" is missing; the header is: range_m, gain"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct diag diag;
@@ -277,7 +296,7 @@ static void suites_with_contradictory_members_are_refused(void **state)
     for (size_t i = 0; i < COUNT(patterns); i++) {
         struct diag diag;
         assert_null(
-            suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES)), amplitudes, patterns[i], &diag));
+            suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES)), levels, patterns[i], &diag));
         assert_non_null(strstr(diag.text, "/pattern.csv: "));
         assert_int_equal(diag.code, DIAG_CONFIG);
     }

@@ -16,11 +16,17 @@ static const struct antenna ELEMENT = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = 
 
 static const struct antenna_row SKEWED_ROWS[] = {
     {-1.2, 0, -0.3}, {-0.5, 0.4, -0.5}, {0.1, 1, 0.1}, {0.6, 0.7, 0.6}, {1.3, 0.05, 0.4}};
-static const struct antenna SKEWED = {ANTENNA_TABLE, PHASE_CENTRE, SKEWED_ROWS, COUNT(SKEWED_ROWS)};
+static const struct antenna SKEWED = {.pattern = ANTENNA_TABLE,
+                                      .phase = PHASE_CENTRE,
+                                      .rows = SKEWED_ROWS,
+                                      .row_count = COUNT(SKEWED_ROWS)};
 
 static const struct antenna_row EVEN_ROWS[] = {
     {-PI / 2, 0, -0.2}, {-0.7, 0.3, -0.6}, {0, 0.9, 0}, {0.7, 0.3, 0.6}, {PI / 2, 0, 0.2}};
-static const struct antenna EVEN = {ANTENNA_TABLE, PHASE_CENTRE, EVEN_ROWS, COUNT(EVEN_ROWS)};
+static const struct antenna EVEN = {.pattern = ANTENNA_TABLE,
+                                    .phase = PHASE_CENTRE,
+                                    .rows = EVEN_ROWS,
+                                    .row_count = COUNT(EVEN_ROWS)};
 
 static double magnitude(double _Complex pointer)
 {
@@ -340,7 +346,8 @@ static void a_table_is_inverted_where_its_lines_cross_the_ratio(void **state)
 {
     (void)state;
     static const struct antenna_row rows[] = {{0, 1, 0}, {0.2, 0.5, 0.5}};
-    struct antenna antenna = {ANTENNA_TABLE, PHASE_CENTRE, rows, COUNT(rows)};
+    struct antenna antenna = {
+        .pattern = ANTENNA_TABLE, .phase = PHASE_CENTRE, .rows = rows, .row_count = COUNT(rows)};
     /* At the part w of the interval delta : sum = w/2 : 1 - w/2. */
     assert_near(antenna_azimuth_rad(&antenna, 1, 4), 0.08, 1e-15);
     assert_near(antenna_azimuth_rad(&antenna, 1e-300, 4e-300), 0.08, 1e-15);
@@ -372,7 +379,10 @@ static void a_ratio_beyond_a_table_is_its_end(void **state)
     assert_close(antenna_azimuth_rad(&EVEN, 1, 0), PI / 2, 0);
     assert_close(antenna_azimuth_rad(&EVEN, -1, 0), -PI / 2, 0);
     static const struct antenna_row narrow[] = {{-0.3, 1, -0.1}, {0.3, 1, 0.1}};
-    struct antenna antenna = {ANTENNA_TABLE, PHASE_CENTRE, narrow, COUNT(narrow)};
+    struct antenna antenna = {.pattern = ANTENNA_TABLE,
+                              .phase = PHASE_CENTRE,
+                              .rows = narrow,
+                              .row_count = COUNT(narrow)};
     assert_close(antenna_azimuth_rad(&antenna, -0.2, 1), -0.3, 0);
     assert_close(antenna_azimuth_rad(&antenna, 0.2, 1), 0.3, 0);
     assert_close(antenna_azimuth_rad(&antenna, 0, 1), 0, 0);

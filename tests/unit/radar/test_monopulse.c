@@ -16,8 +16,10 @@ static const struct antenna ELEMENT = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = 
 
 static const struct antenna_row ROWS[] = {
     {-1.2, 0, -0.3}, {-0.5, 0.4, -0.5}, {0.1, 1, 0.1}, {0.6, 0.7, 0.6}, {1.3, 0.05, 0.4}};
-static const struct antenna TABLE = {ANTENNA_TABLE, PHASE_CENTRE, ROWS, COUNT(ROWS)};
-static const struct antenna TURNED_TABLE = {ANTENNA_TABLE, PHASE_ELEMENT, ROWS, COUNT(ROWS)};
+static const struct antenna TABLE = {
+    .pattern = ANTENNA_TABLE, .phase = PHASE_CENTRE, .rows = ROWS, .row_count = COUNT(ROWS)};
+static const struct antenna TURNED_TABLE = {
+    .pattern = ANTENNA_TABLE, .phase = PHASE_ELEMENT, .rows = ROWS, .row_count = COUNT(ROWS)};
 
 static const enum monopulse_estimator ESTIMATORS[] = {MONOPULSE_MAGNITUDE, MONOPULSE_RATIO};
 
