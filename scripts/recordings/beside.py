@@ -2,12 +2,14 @@
 import math
 import os
 import statistics
+import subprocess
 import tempfile
 from collections import namedtuple
 
 import chains
 import fitted
 import geometry
+import marginals
 import readers
 import score
 import statics
@@ -83,24 +85,63 @@ degrees at 20 dB
 """)
 
 
-def print_skill(name, us, scores, ideal, scans):
-    skill = [100 * one for one in score.share({key: ideal[key] - scores[key] for key in scores}, ideal, scans)]
-    print(f"{name:38} {'' if us is None else f'{us:.1f}':>10} {skill[0]:6.0f} % {skill[1]:6.0f} to {skill[2]:3.0f}")
+def gains(scores, others, ideal, scans, without=None):
+    """By how many points scores are better than others, with the interval; without: one body left out."""
+    better = {key: others[key] - score for key, score in scores.items() if key[0] != without}
+    return [100 * one for one in score.share(better, ideal, scans)]
 
 
-def print_skills(second, results):
-    scans = len(second.scans)
-    scores = {chain: second.scores(lists) for chain, (lists, _) in Progress("scores").over(results.items(), len(results))}
-    ideal = scores[chains.IDEAL]
+def print_skills(second, results, scores):
+    scans, ideal = len(second.scans), scores[chains.IDEAL]
+    rows = [("an empty list", None, second.scores([[[]] * scans])),
+            *((chain.name, us, scores[chain]) for chain, (_, us) in results.items()),
+            (f"the same body at least {FAR} scans away", None, second.scores_of_itself(FAR.__le__)),
+            ("the same body 1 to 3 scans away", None, second.scores_of_itself(NEAR.__contains__))]
     print(f"{'predictor':38} {'us a frame':>10} {'skill':>8} {'interval':>13}")
-    print_skill("an empty list", None, second.scores([[[]] * scans]), ideal, scans)
-    for chain, own in scores.items():
-        print_skill(chain.name, results[chain][1], own, ideal, scans)
-    print_skill(f"the same body at least {FAR} scans away", None, second.scores_of_itself(FAR.__le__), ideal, scans)
-    print_skill("the same body 1 to 3 scans away", None, second.scores_of_itself(NEAR.__contains__), ideal, scans)
+    for name, us, own in rows:
+        skill, least, most = gains(own, ideal, ideal, scans)
+        print(f"{name:38} {'' if us is None else f'{us:.1f}':>10} {skill:6.0f} % {least:6.0f} to {most:3.0f}")
     blocks = scans / score.block_length(scans)
     if blocks < score.LONG_BLOCKS:
         print(f"too short: intervals of {blocks:.0f} blocks of scans; {score.LONG_BLOCKS} are needed")
+    for chain, before in zip(chains.CHAINS[1:], chains.CHAINS):
+        if gains(scores[chain], scores[before], ideal, scans)[1] > 0:
+            for body in sorted({name for name, _ in ideal}):
+                if gains(scores[chain], scores[before], ideal, scans, body)[1] <= 0:
+                    print(f"vanishes without {body}: the gain of {chain.name} over {before.name}")
+
+
+def print_marginals(second, results, threshold_db):
+    """Numbers of the recording beside the least and largest of the seeds of each chain."""
+    told = marginals.values(second, [scan.detections for scan in second.scans], threshold_db)
+    ranges = {chain: [marginals.values(second, one, threshold_db) for one in lists]
+              for chain, (lists, _) in results.items() if chain != chains.IDEAL}
+    print(f"\n{'* outside':42} {'recorded':>8}", *(f"{chain.name:>27}" for chain in ranges))
+    for name, value in told.items():
+        print(f"{name:42} {value:8.1f}", *(between(value, [one[name] for one in own if name in one])
+                                           for own in ranges.values()))
+
+
+def between(value, own):
+    mark = "*" if not own or marginals.outside(value, own) else " "
+    return f"{f'{min(own):.1f} to {max(own):.1f}' if own else 'none':>26}{mark}"
+
+
+def print_components(second, fit, folder, scores):
+    """The components of the best chain whose replacement costs most."""
+    best = min((chain for chain in scores), key=lambda chain: sum(scores[chain].values()))
+    suite, scans, lost = fitted.write_suite(fit, folder), len(second.scans), []
+    listed = subprocess.run([chains.GLINT, "--list", "effects"], check=True, stdout=subprocess.PIPE, text=True).stdout
+    trials = [(f"without {name}", best._replace(effects=f"all,-{name}"), suite)
+              for name in (line.split()[0] for line in listed.splitlines())]
+    trials += [(f"fluctuation by {law}", best, fitted.write_suite(fit, folder, fluctuation=law))
+               for law in ("swerling_1", "swerling_3")]
+    for name, chain, document in Progress("components").over(trials):
+        lists, _ = chains.run(chain, document, fit.curve, second.scans, second.speeds)
+        lost.append((gains(scores[best], second.scores(lists), scores[chains.IDEAL], scans), name))
+    print(f"\nof {best.name}, most is lost")
+    for (points, least, most), name in sorted(lost, reverse=True)[:3]:
+        print(f"{name:38} {points:6.1f} points, {least:.1f} to {most:.1f}")
 
 
 def compare(folder, suite_folder=None):
@@ -112,9 +153,13 @@ def compare(folder, suite_folder=None):
     with tempfile.TemporaryDirectory() as place:
         suite = fitted.write_suite(fit, suite_folder or place)
         second = part(fit, rest.radar, rest.scans)
+        results = {chain: chains.run(chain, suite, fit.curve, second.scans, second.speeds)
+                   for chain in Progress("chains").over(chains.CHAINS)}
         if second.boxes:
-            results = {chain: chains.run(chain, suite, fit.curve, second.scans, second.speeds)
-                       for chain in Progress("chains").over(chains.CHAINS)}
-            print_skills(second, results)
+            scores = {chain: second.scores(lists) for chain, (lists, _) in results.items()}
+            print_skills(second, results, scores)
+        print_marginals(second, results, fit.sensor["threshold_db"])
+        if second.boxes:
+            print_components(second, fit, place, scores)
     if suite_folder:
         print(f"written: {os.path.relpath(suite)}")

@@ -112,9 +112,8 @@ def noise(radar, scans):
     speeds = statics.ego_speeds(radar, scans)
     still = [statics.standing(radar, scan.detections, speed) for scan, speed in zip(scans, speeds)]
     for i in range(1, len(scans)):
-        expected_m = speeds[i] * (scans[i].time_s - scans[i - 1].time_s)
-        own = statics.pairs(still[i - 1], still[i], statics.driven_m(still[i - 1], still[i], expected_m))
-        found += own if len(own) >= 8 else []  # of fewer, the way between the scans takes up too much
+        own = statics.pairs(still[i - 1], still[i], speeds[i] * (scans[i].time_s - scans[i - 1].time_s))
+        found += own if len(own) >= 8 else []
         rates += [one.range_rate_mps + speeds[i] * x / one.range_m for x, y, one in still[i] if abs(y) < 0.05 * x]
     if len(found) < 40 or len(rates) < 20:
         return {}, 0.05

@@ -12,6 +12,8 @@ import statistics
 import struct
 from collections import namedtuple
 
+import statics
+
 Detection = namedtuple("Detection", "range_m azimuth_rad range_rate_mps snr_db rcs_dbsm", defaults=(None, None))
 Box = namedtuple("Box", "id kind x_m y_m yaw_rad vx_mps vy_mps length_m width_m height_m")
 Scan = namedtuple("Scan", "time_s detections boxes")
@@ -41,7 +43,8 @@ def read(folder):
                 raise Unreadable(f"{found}: {type(error).__name__}: {error}") from None
             if len(recording.scans) < 4 or not any(scan.detections for scan in recording.scans):
                 raise Unreadable(f"{found}: expected four scans or more, with detections")
-            return recording._replace(notes=recording.notes + lacks(recording.scans))
+            return recording._replace(scans=statics.retimed(recording.radar, recording.scans),
+                                      notes=recording.notes + lacks(recording.scans))
     raise Unreadable(f"{folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)")
 
 

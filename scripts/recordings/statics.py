@@ -7,11 +7,15 @@ AZIMUTH_SIGMA_RAD = 0.006  # assumed for errors of the rate that belongs to an a
 GATE_M, GATE_RAD = 0.4, math.radians(1)  # seen again within
 
 
+def densest(values, width):
+    """The values in the window of this width that holds most of them."""
+    values = sorted(values)
+    return max(([one for one in values[i:] if one - begin <= width] for i, begin in enumerate(values)), key=len, default=[])
+
+
 def ego_speed(radar, scan):
     """Speed at which most detections stand still; None where fewer than five agree."""
-    speeds = sorted(-one.range_rate_mps / math.cos(one.azimuth_rad + radar.yaw_rad) for one in scan.detections)
-    same = max(([one for one in speeds[i:] if one - begin <= AGREE_MPS] for i, begin in enumerate(speeds)),
-               key=len, default=[])
+    same = densest([-one.range_rate_mps / math.cos(one.azimuth_rad + radar.yaw_rad) for one in scan.detections], AGREE_MPS)
     return statistics.median(same) if len(same) >= 5 else None
 
 
@@ -41,13 +45,25 @@ def pairs(before, after, driven_m):
         near = [(there_m - range_m, azimuth - angle, one, other) for there_m, azimuth, other in places
                 if abs(azimuth - angle) <= 2 * GATE_RAD and abs(there_m - range_m) <= 2 * GATE_M]
         if near:
-            found.append(min(near, key=lambda pair: abs(pair[0])))
+            found.append(min(near, key=lambda pair: math.hypot(pair[0] / GATE_M, pair[1] / GATE_RAD)))
     return found
 
 
 def driven_m(before, after, expected_m):
-    """The way between two scans that brings most statics together, at 0.6 to 1.8 times the expected one: lists are
-    often sampled at another rate than the radar's."""
-    steps = [expected_m * (0.6 + 0.01 * i) for i in range(121)]
-    best = max(steps, key=lambda way: sum(math.exp(-0.5 * (off / 0.2) ** 2) for off, *_ in pairs(before, after, way)))
-    return best - statistics.median([off for off, *_ in pairs(before, after, best)] or [0])
+    """The way between two scans on which most statics agree, at 0.6 to 1.8 times the expected one, and how many do."""
+    ways = [x - u for x, y, one in before for u, v, _ in after
+            if abs(y - v) <= 2 * GATE_RAD * one.range_m and 0.6 * expected_m <= x - u <= 1.8 * expected_m]
+    same = densest(ways, GATE_M)
+    return statistics.median(same or [expected_m]), len(same)
+
+
+def retimed(radar, scans):
+    """The scans at the times at which the ego's speed brings most statics together: lists are often sampled at another
+    rate than the radar's. Intervals stay as they are where less than eight statics are seen again."""
+    speeds = ego_speeds(radar, scans)
+    still, times = [standing(radar, scan.detections, speed) for scan, speed in zip(scans, speeds)], [scans[0].time_s]
+    for i in range(1, len(scans)):
+        interval_s = scans[i].time_s - scans[i - 1].time_s
+        way_m, shared = driven_m(still[i - 1], still[i], speeds[i] * interval_s)
+        times.append(times[-1] + (way_m / speeds[i] if shared >= 8 else interval_s))
+    return [scan._replace(time_s=time_s) for scan, time_s in zip(scans, times)]

@@ -1,6 +1,7 @@
 """What scripts/realism --recordings finds in recordings: in lists of glint whose law is known, and in a real one.
 
-Usage: /usr/bin/python3 tests/chain/recordings.py BIN_DIR        exit status 1 if any check fails
+Usage: /usr/bin/python3 tests/chain/recordings.py BIN_DIR            exit status 1 if any check fails
+       /usr/bin/python3 tests/chain/recordings.py BIN_DIR --long     200 recordings of glint's own law, for minutes
 
 The lists are glint's own, of a road with posts and four vehicles, written as recording.json. The real recording is
 aimotive-front in GLINT_TEST_DATA; of it only the figures of its page are checked.
@@ -18,10 +19,13 @@ sys.path[:0] = [os.path.join(ROOT, "scripts", "recordings"), os.path.join(ROOT, 
 import beside  # noqa: E402
 import chains  # noqa: E402
 import fitted  # noqa: E402
+import marginals  # noqa: E402
 import readers  # noqa: E402
 import score  # noqa: E402
+from progress import Progress  # noqa: E402
 
 chains.GLINT = os.path.join(os.path.abspath(sys.argv[1]), "glint")
+CHAIN = chains.CHAINS[2]  # all effects
 EGO_MPS, INTERVAL_S = 30.0, 0.06
 RADAR = readers.Radar(3.8, 0.0, 0.0, 77e9)
 LAW = fitted.Curve(68.0, 24.0, 0.04, 0.0001)
@@ -67,7 +71,7 @@ def truth():
 
 def recorded(suite, scans, seed):
     """The scans with lists of one seed."""
-    lists, _ = chains.run(chains.CHAINS[2], suite, LAW, scans, [EGO_MPS] * len(scans), 1, seed)
+    lists, _ = chains.run(CHAIN, suite, LAW, scans, [EGO_MPS] * len(scans), 1, seed)
     return [scan._replace(detections=own) for scan, own in zip(scans, lists[0])]
 
 
@@ -93,6 +97,42 @@ def the_first_half_gives_back_the_law(folder, scans):
             ("range_rate_sigma_mps", fit.sensor["range_rate_sigma_mps"], 0.02, 0.015)):
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} planted")
     check(1.4 <= fit.sensor["cell_range_m"] < 3.2, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
+
+
+def second_half(scans):
+    """As beside.compare has it, but with the boxes and the radar that are known."""
+    return beside.part(truth(), RADAR, scans)
+
+
+def outside(part, ranges):
+    """The marginals that lie outside those of chains."""
+    told = marginals.values(part, [scan.detections for scan in part.scans], 14)
+    return {name for name, value in told.items() if marginals.outside(value, [one[name] for one in ranges if name in one])}
+
+
+def planted_faults_are_marked(folder, suite, scans):
+    """Each fault turns its line red, and the same lists without it do not."""
+    part = second_half(scans)
+    lists, _ = chains.run(CHAIN, suite, LAW, part.scans, part.speeds)
+    ranges = [marginals.values(part, one, 14) for one in lists]
+    steady = fitted.write_suite(truth(), folder, fluctuation="none")
+    later = [scan._replace(boxes=[box._replace(x_m=box.x_m + 0.1 * box.vx_mps) for box in scan.boxes]) for scan in scans]
+    faults_planted = {
+        "strongest cross section, dBsm: mean": changed(scans, lambda one: one._replace(
+            snr_db=one.snr_db + 6, rcs_dbsm=one.rcs_dbsm + 6)),
+        "level change over 1 scans, dB": recorded(steady, world(len(scans)), 1),
+        "statics a scan": [scan._replace(detections=[one for one in scan.detections if one.range_rate_mps > -20])
+                           for scan in scans],
+        "car beyond 20 m, %: none": changed(scans, lambda one: one._replace(azimuth_rad=-one.azimuth_rad)),
+        "depth behind the near face, m: median": later}
+    sound = outside(part, ranges)
+    check(len(sound) <= 5, f"sound lists lie outside: {sorted(sound)}")
+    for name, faulty in faults_planted.items():
+        check(name in outside(second_half(faulty), ranges) and name not in sound, f"a planted fault is not marked: {name}")
+
+
+def changed(scans, how):
+    return [scan._replace(detections=[how(one) for one in scan.detections]) for scan in scans]
 
 
 def energy_scores_follow_their_closed_form():
@@ -139,11 +179,40 @@ def the_real_recording_shows_what_its_page_says():
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} stands beside the recording")
 
 
+def recordings_of_the_same_law(count):
+    """Prints, for each marginal, how many of so many recordings lie inside the seeds of a chain: with the suite that made
+    them, where 95 % are expected, and with the suite fitted on their first halves."""
+    inside, counts = {}, {}
+    with tempfile.TemporaryDirectory() as folder:
+        suite = fitted.write_suite(truth(), folder)
+        for seed in Progress("recordings").over(range(1000, 1000 + count)):
+            first, second = beside.halves(readers.Recording(RADAR, recorded(suite, world(80), seed), []))
+            found = fitted.fit(first)._replace(annotation=fitted.Annotation(0, 0))
+            own = os.path.join(folder, "fitted")
+            os.makedirs(own, exist_ok=True)
+            for how, (place, fit) in {"known": (suite, truth()), "fitted": (None, found)}.items():
+                part = beside.part(fit, RADAR, second.scans)
+                lists, _ = chains.run(CHAIN, place or fitted.write_suite(fit, own, fluctuation="log_normal"), LAW,
+                                      part.scans, part.speeds, first=seed * 100)
+                red = outside(part, [marginals.values(part, one, fit.sensor["threshold_db"]) for one in lists])
+                for name in marginals.values(part, [scan.detections for scan in part.scans], fit.sensor["threshold_db"]):
+                    inside[name, how] = inside.get((name, how), 0) + (name not in red)
+                    counts[name, how] = counts.get((name, how), 0) + 1
+    for name in sorted({name for name, _ in counts}):
+        print(f"{name:42}", *(f"{how} {100 * inside[name, how] / counts[name, how]:5.1f} % of {counts[name, how]}"
+                              for how in ("known", "fitted") if (name, how) in counts))
+
+
 def main():
+    if sys.argv[2:] == ["--long"]:
+        recordings_of_the_same_law(200)
+        return
     energy_scores_follow_their_closed_form()
     with tempfile.TemporaryDirectory() as folder:
         suite = fitted.write_suite(truth(), folder)
-        the_first_half_gives_back_the_law(folder, recorded(suite, world(40), 1))
+        scans = recorded(suite, world(40), 1006)
+        the_first_half_gives_back_the_law(folder, scans)
+        planted_faults_are_marked(folder, suite, scans)
     with tempfile.TemporaryDirectory() as folder:
         view_of_delft_is_read(folder)
     the_real_recording_shows_what_its_page_says()
