@@ -51,12 +51,16 @@ static double reach_m(const struct sensor *sensor, double azimuth_rad, double er
 
 static void add_ranges(const struct sensor *sensor, struct datasheet *sheet)
 {
+    double level_db = elementary_hypot(
+        elementary_hypot(sensor->level_constant_db, sensor->level_slow_db), sensor->level_fast_db);
     struct detection_law detection = {
         .fluctuation = sensor->fluctuation,
         .fluctuation_sigma_db = sensor->fluctuation_sigma_db,
         .threshold = sensor->threshold,
         .final_threshold = sensor->final_threshold ? sensor->threshold : 0,
         .noise = sensor->pointer_sigma,
+        .level_mean_db = sensor->level_keeps == LEVEL_KEEPS_MEAN ? level_mean_db(level_db) : 0,
+        .level_sigma_db = level_db,
     };
     sheet->chance[0] = detection_probability(&detection, sensor->threshold);
     sheet->chance[1] = 0.9;
@@ -133,6 +137,19 @@ static void add_resolution(const struct sensor *sensor, struct text *text)
         text_add_word(text, "without a limit in elevation\n");
 }
 
+/* How bodies of one class differ; nothing where they do not. */
+static void add_levels(const struct sensor *sensor, struct text *text)
+{
+    if (sensor->level_constant_db == 0 && sensor->level_slow_db == 0 && sensor->level_fast_db == 0)
+        return;
+    text_format(
+        text,
+        "  levels of bodies   1 sigma: %.3g dB, %.3g dB over %.4g m driven, %.3g dB over aspect "
+        "and range; %s kept\n",
+        sensor->level_constant_db, sensor->level_slow_db, sensor->level_slow_m,
+        sensor->level_fast_db, sensor->level_keeps == LEVEL_KEEPS_MEAN ? "mean" : "median");
+}
+
 static void add_figures(const struct sensor *sensor, const struct datasheet *sheet,
                         struct text *text)
 {
@@ -145,6 +162,7 @@ static void add_figures(const struct sensor *sensor, const struct datasheet *she
     add_resolution(sensor, text);
     add_ambiguity(sensor, text);
     add_update(sensor, text);
+    add_levels(sensor, text);
     text_format(text, "  false alarms       %.3g a scan\n", sensor->false_alarms);
     if (sensor->list_limit > 0)
         text_format(text, "  list               the %s %lld\n",

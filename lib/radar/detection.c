@@ -7,14 +7,15 @@
 #include "radar/level.h"
 
 #define LN_10 2.30258509299404568402
-/* What a Gaussian number is beyond 3 deviations with, where the log-normal law is cut. */
+/* Deviations at which the log-normal law is cut, and what a Gaussian number is beyond them with. */
+#define CUT 3
 #define BEYOND_CUT 0.00134989803163
 
-/* A standard Gaussian number by Box and Muller, cut at 3 from above. */
+/* A standard Gaussian number by Box and Muller, cut from above. */
 static double cut_gaussian(const double uniform[4])
 {
     double radius = sqrt(-2 * elementary_log(uniform[0]));
-    return elementary_min(radius * elementary_sincos_turns(uniform[1]).cos, 3);
+    return elementary_min(radius * elementary_sincos_turns(uniform[1]).cos, CUT);
 }
 
 double detection_fluctuation(enum fluctuation_law law, double sigma_db, const double uniform[4])
@@ -57,16 +58,22 @@ double detection_in_noise(double amplitude, double threshold, double noise)
     return elementary_max(0, elementary_min(1, 1 - threshold / power * sum / steps));
 }
 
-/* How likely a fluctuating power is, per decibel. */
-static double density(const struct detection_law *detection, double power_db)
+/* How a power varies. A normal law in decibels is cut at `most` deviations from above. */
+struct power_law {
+    enum fluctuation_law law;
+    double mean_db, sigma_db, most;
+};
+
+/* How likely a varying power is, per decibel. */
+static double density(const struct power_law *varying, double power_db)
 {
-    double power = elementary_pow(10, power_db / 10), sigma_db = detection->fluctuation_sigma_db;
-    double deviations = (power_db - level_mean_db(sigma_db)) / sigma_db;
-    if (detection->fluctuation == FLUCTUATION_SWERLING_1)
+    double power = elementary_pow(10, power_db / 10);
+    double deviations = (power_db - varying->mean_db) / varying->sigma_db;
+    if (varying->law == FLUCTUATION_SWERLING_1)
         return LN_10 / 10 * power * elementary_exp(-power);
-    if (detection->fluctuation == FLUCTUATION_SWERLING_3)
+    if (varying->law == FLUCTUATION_SWERLING_3)
         return LN_10 / 10 * 4 * power * power * elementary_exp(-2 * power);
-    return elementary_exp(-deviations * deviations / 2) / (sigma_db * sqrt(2 * PI));
+    return elementary_exp(-deviations * deviations / 2) / (varying->sigma_db * sqrt(2 * PI));
 }
 
 /* An echo that meets the first threshold, at the final one. */
@@ -79,42 +86,74 @@ static double passes(const struct detection_law *detection, double amplitude)
 
 /* Simpson's rule over the power in decibels, with steps that grow from 0: the final threshold
  * decides close to the first one. */
-static double integral(const struct detection_law *detection, double amplitude, double from,
-                       double to)
+static double integral(const struct detection_law *detection, const struct power_law *varying,
+                       double amplitude, double from, double to)
 {
     enum { STEPS = 256 };
     double sum = 0;
     for (int i = 1; i <= STEPS; i++) {
         double part = (double)i / STEPS, power_db = from + (to - from) * part * part;
         double weight = i == STEPS ? 1 : i % 2 == 1 ? 4 : 2;
-        sum += weight * 2 * part * density(detection, power_db) *
+        sum += weight * 2 * part * density(varying, power_db) *
                passes(detection, amplitude * units_amplitude_from_db(power_db));
     }
     return (to - from) * sum / (3 * STEPS);
 }
 
-double detection_probability(const struct detection_law *detection, double amplitude)
+static double varying_probability(const struct detection_law *detection,
+                                  const struct power_law *varying, double amplitude)
 {
-    double sigma_db = detection->fluctuation_sigma_db, least = detection->threshold / amplitude;
-    bool log_normal = detection->fluctuation == FLUCTUATION_LOG_NORMAL;
-    if (detection->fluctuation == FLUCTUATION_NONE || (log_normal && sigma_db == 0))
+    double mean_db = varying->mean_db, sigma_db = varying->sigma_db;
+    double least = detection->threshold / amplitude;
+    bool normal = varying->law == FLUCTUATION_LOG_NORMAL;
+    if (varying->law == FLUCTUATION_NONE || (normal && sigma_db == 0))
         return least <= 1 ? passes(detection, amplitude) : 0;
-    double mean_db = level_mean_db(sigma_db);
-    double from = log_normal ? mean_db - 9 * sigma_db : -90,
-           to = log_normal ? mean_db + 3 * sigma_db : 17;
+    double from = normal ? mean_db - 9 * sigma_db : -90,
+           to = normal ? mean_db + varying->most * sigma_db : 17;
     if (least > 0)
         from = elementary_max(from, units_amplitude_db(least));
     if (from > to)
         return 0;
-    double cut =
-        log_normal ? BEYOND_CUT * passes(detection, amplitude * units_amplitude_from_db(to)) : 0;
-    return integral(detection, amplitude, from, to) + cut;
+    double cut = normal && varying->most == CUT
+                     ? BEYOND_CUT * passes(detection, amplitude * units_amplitude_from_db(to))
+                     : 0;
+    return integral(detection, varying, amplitude, from, to) + cut;
+}
+
+/* The mean over levels of a fluctuating echo's probability, which is smooth, by the trapezoidal
+ * rule, which converges exponentially under a normal law. */
+static double levelled_probability(const struct detection_law *detection,
+                                   const struct power_law *varying, double amplitude)
+{
+    double sigma_db = detection->level_sigma_db, step_db = elementary_min(sigma_db / 2, 2);
+    double sum = 0, total = 0;
+    for (double db = -8 * sigma_db; db < 8 * sigma_db; db += step_db) {
+        double weight = elementary_exp(-db * db / (2 * sigma_db * sigma_db));
+        double level = units_amplitude_from_db(detection->level_mean_db + db);
+        sum += weight * varying_probability(detection, varying, amplitude * level);
+        total += weight;
+    }
+    return sum / total;
+}
+
+double detection_probability(const struct detection_law *detection, double amplitude)
+{
+    double sigma_db = detection->fluctuation_sigma_db;
+    struct power_law echo = {detection->fluctuation, level_mean_db(sigma_db), sigma_db, CUT};
+    struct power_law body = {FLUCTUATION_LOG_NORMAL, detection->level_mean_db,
+                             detection->level_sigma_db, 9};
+    if (body.sigma_db == 0)
+        return varying_probability(detection, &echo, amplitude);
+    if (echo.law == FLUCTUATION_NONE)
+        return varying_probability(detection, &body, amplitude);
+    return levelled_probability(detection, &echo, amplitude);
 }
 
 double detection_amplitude(const struct detection_law *detection, double probability)
 {
     double highest = elementary_max(detection->threshold, detection->final_threshold);
-    double low = 1e-3 * highest, high = 1e4 * highest;
+    double above_db = 80 + 5 * detection->level_sigma_db - detection->level_mean_db;
+    double low = 1e-3 * highest, high = highest * units_amplitude_from_db(above_db);
     while (high > low * (1 + 1e-7)) {
         double middle = sqrt(low * high);
         if (detection_probability(detection, middle) < probability)

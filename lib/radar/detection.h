@@ -5,9 +5,9 @@
  * a log-normal law cut at 3 standard deviations (3GPP TR 38.901), whose mean is 0.997 for 3.41 dB.
  * A scan is one look, so that Swerling's cases 2 and 4 are the same as 1 and 3.
  *
- * An echo of the mean amplitude A is detected if A f meets one threshold and |A f + n| another,
- * with complex Gaussian noise n. A steady echo passes the second threshold T with the probability
- * Q(sqrt 2 A/noise, sqrt 2 T/noise), Marcum's function. */
+ * An echo of the mean amplitude A, which its body's level may change, is detected if A f meets one
+ * threshold and |A f + n| another, with complex Gaussian noise n. A steady echo passes the second
+ * threshold T with the probability Q(sqrt 2 A/noise, sqrt 2 T/noise), Marcum's function. */
 #pragma once
 
 enum fluctuation_law {
@@ -24,10 +24,11 @@ double detection_fluctuation(enum fluctuation_law law, double sigma_db, const do
 /* All amplitudes are linear and of one unit. */
 struct detection_law {
     enum fluctuation_law fluctuation;
-    double fluctuation_sigma_db; /* of the log-normal law */
-    double threshold;            /* without noise; 0: none */
-    double final_threshold;      /* with noise; 0: none */
-    double noise;                /* RMS of n, both quadratures together; 0: none */
+    double fluctuation_sigma_db;          /* of the log-normal law */
+    double threshold;                     /* without noise; 0: none */
+    double final_threshold;               /* with noise; 0: none */
+    double noise;                         /* RMS of n, both quadratures together; 0: none */
+    double level_mean_db, level_sigma_db; /* of a normal level in dB (MODEL 14.22) beside f */
 };
 
 /* The probability that |amplitude + n| >= threshold, for amplitude >= 0 and threshold > 0: within

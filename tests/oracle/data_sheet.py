@@ -35,6 +35,8 @@ RADARS = {
     "swerling_3": radar(fluctuation="swerling_3", exponent=1.3),
     "log_normal": radar(fluctuation="log_normal", fluctuation_sigma_db=5),
     "no final threshold": radar(fluctuation="swerling_1", final_threshold=False),
+    "levels": radar(level_constant_db=4, level_slow_db=2, level_fast_db=3, level_keeps="median"),
+    "levels and swerling_1": radar(fluctuation="swerling_1", level_constant_db=5),
     "by_snr": radar(sigma_law="by_snr", range_step_m=0.3, azimuth_floor_rad=0.02, pointer_sigma=0.1 * THRESHOLD),
 }
 
@@ -53,10 +55,10 @@ def sheet_of(bench, document):
 
 
 def look(bench, document, kind, range_m, degrees, draws):
-    """The targets of a post, in as many frames."""
+    """The targets of a post, in as many scenes of a frame each."""
     place = range_m * math.cos(math.radians(degrees)), range_m * math.sin(math.radians(degrees))
-    frames = listen(bench, frames_of([thing("post", kind, *place)], draws), [document])
-    return [target for one in frames for target in one["targets"]]
+    frames = [dict(one, scene=f"s{one['frame']}", frame=0, last=True) for one in frames_of([thing("post", kind, *place)], draws)]
+    return [target for one in listen(bench, frames, [document]) for target in one["targets"]]
 
 
 def detection(bench):

@@ -2,7 +2,7 @@
 
 Usage: python3 tests/oracle/effects_reception.py BIN_DIR
 
-Fluctuation, rain and fog, ambiguity, interference and coherence. Exit status 1 if any check fails. Statistics
+Fluctuation, levels, rain and fog, ambiguity, interference and coherence. Exit status 1 if any check fails. Statistics
 use fixed seeds and are held to five standard errors.
 """
 
@@ -204,6 +204,40 @@ def detection(bench):
         check_share(bench, len(targets_of(out, name)), FRAMES, chance, f"{name}: detected")
 
 
+# ---- levels -----------------------------------------------------------------------------------
+
+
+def levels(bench):
+    """MODEL 14.22: mean and deviation over bodies; a body that stays in place keeps its level in every scan, and
+    with all of its parts the level of a neighbouring place."""
+    widths = {"constant": {"level_constant_db": 5}, "slow": {"level_slow_db": 4}, "fast": {"level_fast_db": 3},
+              "all": {"level_constant_db": 5, "level_slow_db": 4, "level_fast_db": 3, "level_keeps": "median"}}
+    sensors = [radar(name, calibration_range_m=8e5, **width) for name, width in widths.items()]
+    things = [dict(spot(f"o{i}", 40), travelled_m=20 * i) for i in range(100)]
+    frames = [dict(one, scene=f"s{i}", frame=0) for i, one in enumerate(frames_of(things, 200))]
+    out = receive(bench, frames, sensors, "all,-merging")
+    for name, width in widths.items():
+        deviation = math.sqrt(sum(value * value for key, value in width.items() if key.endswith("_db")))
+        decibels = [20 * math.log10(one["cell_amplitude"] / (THRESHOLD * (8e5 / 40) ** 2)) for one in targets_of(out, name)]
+        count, mean = len(decibels), sum(decibels) / len(decibels)
+        expected = 0 if name == "all" else -math.log(10) / 20 * deviation ** 2
+        spread = math.sqrt(sum((one - mean) ** 2 for one in decibels) / count)
+        bench.check(count == 20000, f"{name}: {count} targets")
+        bench.check(abs(mean - expected) < 5 * deviation / math.sqrt(count), f"{name}: mean {mean} dB")
+        bench.check(abs(spread / deviation - 1) < 5 / math.sqrt(2 * count), f"{name}: {spread} dB")
+        bench.check(all("level" in one["effects"] for one in targets_of(out, name)), f"{name}: not in the label")
+    still = frames_of([spot("a", 40), spot("b", 60)], 60)
+    for name in widths:
+        found = {(one["cell_range_m"], one["cell_amplitude"]) for one in targets_of(receive(bench, still, sensors), name)}
+        bench.check(len(found) == 2, f"{name}: a standing body has {len(found) - 1} levels")
+    walk = [dict(one, objects=[dict(thing, travelled_m=2 * i, x_m=thing["x_m"] + 0.04 * i) if thing["id"] == "a" else thing
+                               for thing in one["objects"]]) for i, one in enumerate(still)]
+    moved = receive(bench, walk, sensors)
+    halves = receive(bench, walk[:20], sensors) + receive(bench, walk[20:], sensors)
+    bench.check(halves == moved, "shards joined are not the whole")
+    check_switch(bench, walk, sensors, "level")
+
+
 # ---- ambiguity --------------------------------------------------------------------------------
 
 
@@ -395,6 +429,7 @@ CHECKS = [
     ("weather attenuates as published", weather),
     ("what rain takes below the threshold is lost by as much", weather_loses),
     ("echoes fluctuate by their law, each on its own", fluctuation),
+    ("bodies have levels by their widths, and keep them", levels),
     ("fluctuating echoes are detected as often as published", detection),
     ("rates and ranges fold where they should", ambiguity),
     ("what folds onto another shares its cell", folded_together),

@@ -271,6 +271,25 @@ static void fluctuation_costs_range(void **state)
     assert_near(sheet.range_m[0][1][1], 50 * pow(-log(0.9), 0.25), 1e-5);
 }
 
+/* Levels of 3, 2 and 6 dB are one of 7 dB; 9 in 10 are above its mean less 1.281552 deviations. */
+static void levels_cost_range(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    struct datasheet sheet;
+    sensor.level_constant_db = 3;
+    sensor.level_slow_db = 2;
+    sensor.level_fast_db = 6;
+    for (int keeps = LEVEL_KEEPS_MEAN; keeps <= LEVEL_KEEPS_MEDIAN; keeps++) {
+        double mean_db = keeps == LEVEL_KEEPS_MEAN ? -log(10) / 20 * 49 : 0;
+        sensor.level_keeps = (enum level_keeps)keeps;
+        suite_derive(&sensor);
+        datasheet_of(&sensor, &sheet);
+        assert_close(sheet.chance[0], erfc(-mean_db / 7 / sqrt(2)) / 2, 1e-6);
+        assert_near(sheet.range_m[0][1][1], 50 * pow(10, (mean_db - 1.2815516 * 7) / 40), 1e-5);
+    }
+}
+
 static void accuracy_follows_law_noise_and_steps(void **state)
 {
     (void)state;
@@ -356,6 +375,7 @@ int main(void)
         cmocka_unit_test(echoes_are_detected_where_they_meet_the_threshold),
         cmocka_unit_test(ranges_end_at_the_sensors_own),
         cmocka_unit_test(fluctuation_costs_range),
+        cmocka_unit_test(levels_cost_range),
         cmocka_unit_test(accuracy_follows_law_noise_and_steps),
         cmocka_unit_test(without_noise_rows_of_accuracy_say_how_strong_an_echo_is),
         cmocka_unit_test(sensors_that_differ_in_their_mount_share_a_sheet),

@@ -104,7 +104,11 @@ static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
                                                 FLUCTUATION_LOG_NORMAL};
     static const double noises[] = {0.25, 1};
     for (int i = 0; i < 6; i++) {
-        struct detection_law detection = {laws[i / 2], 3.41, 2, 2, noises[i % 2]};
+        struct detection_law detection = {.fluctuation = laws[i / 2],
+                                          .fluctuation_sigma_db = 3.41,
+                                          .threshold = 2,
+                                          .final_threshold = 2,
+                                          .noise = noises[i % 2]};
         double amplitude = 1.5 + 0.5 * i;
         int64_t found = 0;
         for (int k = 0; k < DRAWS; k++) {
@@ -122,15 +126,40 @@ static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
     }
 }
 
+/* The normal tail without noise; with a fluctuation beside it, its closed form over many levels. */
+static void a_level_beside_the_fluctuation_spreads_the_echo(void **state)
+{
+    (void)state;
+    for (double amplitude = 0.5; amplitude < 40; amplitude *= 2.1) {
+        struct detection_law level = {.threshold = 2, .level_mean_db = -4, .level_sigma_db = 6};
+        double short_db = 20 * log10(2 / amplitude) + 4;
+        assert_close(detection_probability(&level, amplitude), erfc(short_db / 6 / sqrt(2)) / 2,
+                     1e-6);
+        level.fluctuation = FLUCTUATION_SWERLING_1;
+        double expected = 0;
+        for (int i = -5000; i < 5000; i++) {
+            double deviations = (i + 0.5) / 500;
+            double power = 4 / pow(amplitude * pow(10, (-4 + 6 * deviations) / 20), 2);
+            expected += exp(-power - deviations * deviations / 2) / sqrt(2 * acos(-1)) / 500;
+        }
+        assert_close(detection_probability(&level, amplitude), expected, 1e-6);
+    }
+}
+
 static void the_amplitude_of_a_probability_is_detected_with_it(void **state)
 {
     (void)state;
-    struct detection_law detection = {FLUCTUATION_SWERLING_1, 0, 2, 2, 0.25};
+    struct detection_law detection = {
+        .fluctuation = FLUCTUATION_SWERLING_1, .threshold = 2, .final_threshold = 2, .noise = 0.25};
     double probability = detection_probability(&detection, 5);
     assert_near(detection_amplitude(&detection, probability), 5.0, 1e-6);
     /* A steady echo just above the first threshold passes the final one with more than 0.5. */
     detection.fluctuation = FLUCTUATION_NONE;
     assert_near(detection_amplitude(&detection, 0.3), 2.0, 1e-6);
+    detection.level_mean_db = -100;
+    detection.level_sigma_db = 30;
+    double far = detection_amplitude(&detection, 0.99);
+    assert_close(detection_probability(&detection, far), 0.99, 1e-6);
 }
 
 int main(void)
@@ -141,6 +170,7 @@ int main(void)
         cmocka_unit_test(fluctuating_echoes_are_detected_as_published),
         cmocka_unit_test(without_a_final_threshold_the_laws_tails_decide),
         cmocka_unit_test(both_thresholds_together_are_those_of_drawn_echoes),
+        cmocka_unit_test(a_level_beside_the_fluctuation_spreads_the_echo),
         cmocka_unit_test(the_amplitude_of_a_probability_is_detected_with_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
