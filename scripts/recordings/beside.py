@@ -77,8 +77,8 @@ def print_found(recording, fit):
 boxes      lists are {lag_s:.2f} s older, and near faces lie {inset_m:.2f} m inside
 ego        {speed_mps:.1f} m/s on average, by what stands
 threshold  {sensor['threshold_db']:.1f} dB over the noise
-receiver   0 dBsm has {law.at_1_m:.1f} - {law.per_decade:.1f} lg R - {law.per_deg2:.3f} az^2 - {law.per_deg4:.5f} az^4 dB \
-(R in m, az in degrees)
+receiver   0 dBsm has {", ".join(f"{level:.1f} dB at {range_m:.0f} m" for range_m, level in law.over_range)}
+           aside {", ".join(f"{level:.1f} dB at {math.degrees(angle):.1f}" for angle, level in law.over_azimuth)} degrees
 cells      {sensor['cell_range_m']:.2f} m, {sensor['cell_range_rate_mps']:.2f} m/s
 noise      {sensor['range_sigma_m']:.2f} m, {sensor['range_rate_sigma_mps']:.3f} m/s, {math.degrees(azimuth_rad):.2f} \
 degrees at 20 dB

@@ -1,4 +1,5 @@
 """What the first half of a recording says of its annotation and of its radar; the latter as a suite with sources."""
+import bisect
 import json
 import math
 import os
@@ -21,12 +22,21 @@ SHIPPED = ("range_floor_m diffraction curved_sides micro_motion bounces fluctuat
            "cell_range_rate_mps range_sigma_m range_rate_sigma_mps").split()
 
 
-class Curve(namedtuple("Curve", "at_1_m per_decade per_deg2 per_deg4", defaults=(0, 0))):
-    """Signal-to-noise ratio in dB of 0 dBsm: at 1 m, and how it falls over range and over azimuth in degrees."""
+class Curve(namedtuple("Curve", "over_range over_azimuth")):
+    """Signal-to-noise ratio in dB of 0 dBsm on boresight, rows (range in m, dB), straight over lg R between them; and what
+    is lost aside, rows (azimuth in rad, dB)."""
 
     def snr_db(self, range_m, azimuth_rad):
-        square = math.degrees(azimuth_rad) ** 2
-        return self.at_1_m - self.per_decade * math.log10(range_m) - self.per_deg2 * square - self.per_deg4 * square ** 2
+        rows = [(math.log10(row_m), level) for row_m, level in self.over_range]
+        return sum(part * level for x, of in ((math.log10(range_m), rows), (azimuth_rad, self.over_azimuth))
+                   for part, (_, level) in zip(parts(x, [knot for knot, _ in of]), of))
+
+
+def parts(x, knots):
+    """How much each knot weighs at x, if values are straight between knots and constant beyond them."""
+    x, i = min(max(x, knots[0]), knots[-1]), min(max(bisect.bisect(knots, x), 1), len(knots) - 1)
+    way = (x - knots[i - 1]) / (knots[i] - knots[i - 1])
+    return [1 - way if k == i - 1 else way if k == i else 0 for k in range(len(knots))]
 
 
 def quantile(values, share):
@@ -71,18 +81,23 @@ def annotation(recording):
 
 
 def curve(detections, threshold_db):
-    """By least squares where lists have both figures. With cross sections alone, the weakest tenth of each eighth of the
+    """By least squares where lists have both figures. With cross sections alone, the weakest tenth of each sixth of the
     ranges meets the threshold. Without cross sections 40 dB a decade are assumed."""
-    if all(None not in one for one in detections):
-        squares = [math.degrees(one.azimuth_rad) ** 2 for one in detections]
-        rows = [(1, -math.log10(one.range_m), -square, -square ** 2) for one, square in zip(detections, squares)]
-        return Curve(*least_squares(rows, [one.snr_db - one.rcs_dbsm for one in detections]))
+    ordered, aside = sorted(detections), 1.01 * max(abs(one.azimuth_rad) for one in detections)
+    azimuths = [aside * i / 4 for i in range(-4, 5)]
+    flat = [(azimuth, 0) for azimuth in azimuths]
     if any(one.rcs_dbsm is None for one in detections):
-        return Curve(threshold_db + 40 * math.log10(max(one.range_m for one in detections)), 40)
-    ordered = sorted(detections)
-    parts = [ordered[len(ordered) * i // 8:len(ordered) * (i + 1) // 8] for i in range(8)]
-    rows = [(1, -math.log10(statistics.median(one.range_m for one in part))) for part in parts]
-    return Curve(*least_squares(rows, [threshold_db - quantile([one.rcs_dbsm for one in part], 0.1) for part in parts]))
+        return Curve([(1, threshold_db + 40 * math.log10(ordered[-1].range_m)), (ordered[-1].range_m, threshold_db)], flat)
+    if any(one.snr_db is None for one in detections):
+        sixths = [ordered[len(ordered) * i // 6:len(ordered) * (i + 1) // 6] for i in range(6)]
+        return Curve([(one[len(one) // 2].range_m, threshold_db - quantile([one.rcs_dbsm for one in one], 0.1))
+                      for one in sixths], flat)
+    logs = [math.log10(ordered[(len(ordered) - 1) * i // 3].range_m) for i in range(4)]
+    rows = [parts(math.log10(one.range_m), logs) + parts(one.azimuth_rad, azimuths) for one in ordered]
+    rows = [row[:8] + row[9:] for row in rows]  # nothing is lost on boresight
+    levels = least_squares(rows, [one.snr_db - one.rcs_dbsm for one in ordered])
+    return Curve([(10 ** log, level) for log, level in zip(logs, levels)],
+                 list(zip(azimuths, levels[4:8] + [0] + levels[8:])))
 
 
 def completed(scans, law):
@@ -137,9 +152,9 @@ def fit(recording):
     scatter, azimuth_noise = noise(radar, scans)
     found = {"mount_x_m": radar.x_m, "mount_y_m": radar.y_m, "mount_yaw_rad": radar.yaw_rad, "carrier_hz": radar.carrier_hz,
              "range_min_m": min(one.range_m for one in detections), "range_max_m": max(one.range_m for one in detections),
-             "field_of_view_rad": 2.02 * max(abs(one.azimuth_rad) for one in detections), "threshold_db": threshold_db,
-             "calibration_ercs": 1.0, "calibration_range_m": 10 ** ((law.at_1_m + 10 - threshold_db) / law.per_decade),
-             "exponent": law.per_decade / 20, "antenna_table": "antenna.csv", **cells(scans), **scatter}
+             "field_of_view_rad": 2 * law.over_azimuth[-1][0], "threshold_db": threshold_db,
+             "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "antenna_table": "antenna.csv", **cells(scans),
+             **scatter}
     with open(os.path.join(ROOT, "data", "sensors", "lrr77-full.json"), encoding="utf-8") as file:
         shipped = json.load(file)["sensors"][0]
     assumed = {"cell_phase": "by_path", "cell_extent": "half_width", "pointer_sigma": 1}
@@ -152,13 +167,14 @@ def fit(recording):
 
 def write_suite(of, folder, **changed):
     """The suite and its antenna, with some members changed, in a folder; its path."""
-    with open(os.path.join(folder, "antenna.csv"), "w", encoding="ascii") as out:
-        out.write("azimuth_rad,sum,delta\n")
-        for i in range(-120, 121):
-            azimuth = 0.55 * of.sensor["field_of_view_rad"] * i / 120
-            lit = 10 ** ((of.curve.snr_db(1, azimuth) - of.curve.at_1_m) / 20)
-            ratio = math.sinh(azimuth / (math.sqrt(2) * of.azimuth_noise))  # as noisy in every direction
-            out.write(f"{azimuth:.9g},{lit:.9g},{lit * ratio:.9g}\n")
+    aside = of.curve.over_azimuth[-1][0]
+    steep = math.sqrt(2) * of.azimuth_noise  # the ratio of delta to sum makes azimuths as noisy in every direction
+    ratios = [(aside * i / 50, 1, math.sinh(aside * i / 50 / steep)) for i in range(-50, 51)]
+    for name, head, rows in (("range", "range_m,level_db", of.curve.over_range),
+                             ("azimuth", "azimuth_rad,level_db", of.curve.over_azimuth),
+                             ("antenna", "azimuth_rad,sum,delta", ratios)):
+        with open(os.path.join(folder, name + ".csv"), "w", encoding="ascii") as out:
+            out.write("\n".join([head] + [",".join(f"{value:.9g}" for value in row) for row in rows]) + "\n")
     place = os.path.join(folder, "-".join(["recorded", *map(str, changed.values())]) + ".json")
     with open(place, "w", encoding="utf-8") as out:
         json.dump({"origin": "Written by scripts/realism --recordings.", "sensors": [{**of.sensor, **changed}]}, out, indent=2)

@@ -28,7 +28,7 @@ chains.GLINT = os.path.join(os.path.abspath(sys.argv[1]), "glint")
 CHAIN = chains.CHAINS[2]  # all effects
 EGO_MPS, INTERVAL_S = 30.0, 0.06
 RADAR = readers.Radar(3.8, 0.0, 0.0, 77e9)
-LAW = fitted.Curve(68.0, 24.0, 0.04, 0.0001)
+LAW = fitted.Curve([(1, 68.0), (10, 44.0), (1000, -4.0)], [(math.radians(one), -0.06 * one * one) for one in range(-18, 19)])
 VEHICLES = [("near", "car", 28.0, 3.6, 2.5), ("van", "van", 45.0, -3.5, -4.0), ("far", "car", 70.0, 0.2, 1.0),
             ("truck", "truck", 95.0, -3.6, -5.0)]
 SIZES = {"car": (4.5, 1.8, 1.5), "van": (5.5, 2.0, 2.3), "truck": (10.0, 2.5, 3.5), "post": (0.1, 0.1, 1.0)}
@@ -59,9 +59,8 @@ def world(count):
 def truth():
     """The suite of the lists."""
     sensor = {"name": "radar", "mount_x_m": RADAR.x_m, "mount_y_m": 0, "mount_yaw_rad": 0, "carrier_hz": RADAR.carrier_hz,
-              "range_min_m": 5, "range_max_m": 180, "field_of_view_rad": 0.6, "threshold_db": 14, "calibration_ercs": 1,
-              "calibration_range_m": 10 ** ((LAW.at_1_m + 10 - 14) / LAW.per_decade), "exponent": LAW.per_decade / 20,
-              "cell_range_m": 1.4, "cell_range_rate_mps": 0.2, "range_sigma_m": 0.08, "range_rate_sigma_mps": 0.02,
+              "range_min_m": 5, "range_max_m": 180, "field_of_view_rad": 0.6, "threshold_db": 14,
+              "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "cell_range_m": 1.4, "cell_range_rate_mps": 0.2, "range_sigma_m": 0.08, "range_rate_sigma_mps": 0.02,
               "azimuth_floor_rad": 0.003, "azimuth_sigma_rad": 0.003, "antenna_table": "antenna.csv",
               "range_floor_m": 0.5, "fluctuation": "log_normal", "cell_phase": "by_path", "cell_extent": "half_width",
               "antenna_pattern": "table", "phase_reference": "centre", "angle_estimator": "ratio", "pointer_sigma": 1,
@@ -92,8 +91,8 @@ def the_first_half_gives_back_the_law(folder, scans):
     fit = fitted.fit(readers.read(folder))
     for what, value, expected, within in (
             ("lag_s", fit.annotation.lag_s, 0.12, 0.06), ("inset_m", fit.annotation.inset_m, 0.3, 0.25),
-            ("threshold_db", fit.sensor["threshold_db"], 14, 0.7), ("dB at 1 m", fit.curve.at_1_m, 68, 0.01),
-            ("dB a decade", fit.curve.per_decade, 24, 0.01), ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03),
+            ("threshold_db", fit.sensor["threshold_db"], 14, 0.7), ("dB at 30 m", fit.curve.snr_db(30, 0.1), LAW.snr_db(30, 0.1), 0.5),
+            ("dB at 90 m", fit.curve.snr_db(90, 0), LAW.snr_db(90, 0), 0.5), ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03),
             ("range_rate_sigma_mps", fit.sensor["range_rate_sigma_mps"], 0.02, 0.015)):
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} planted")
     check(1.4 <= fit.sensor["cell_range_m"] < 3.2, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
@@ -173,7 +172,8 @@ def the_real_recording_shows_what_its_page_says():
     fit = fitted.fit(beside.halves(recording)[0])
     for what, value, expected, within in (
             ("lag_s", fit.annotation.lag_s, 0.13, 0.03), ("threshold_db", fit.sensor["threshold_db"], 14.2, 0.3),
-            ("dB at 1 m", fit.curve.at_1_m, 68.1, 1), ("dB a decade", fit.curve.per_decade, 24.4, 1),
+            ("dB at 45 m", fit.curve.snr_db(45, 0), 27.8, 1.2), ("dB at 100 m", fit.curve.snr_db(100, 0), 19.3, 1.2),
+            ("dB at 45 m, 12 degrees", fit.curve.snr_db(45, math.radians(12)), 19.0, 2),
             ("cell_range_m", fit.sensor["cell_range_m"], 1.4, 0.3),
             ("cell_range_rate_mps", fit.sensor["cell_range_rate_mps"], 0.2, 0.05)):
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} stands beside the recording")
