@@ -134,8 +134,9 @@ def print_components(second, fit, folder, scores):
     listed = subprocess.run([chains.GLINT, "--list", "effects"], check=True, stdout=subprocess.PIPE, text=True).stdout
     trials = [(f"without {name}", best._replace(effects=f"all,-{name}"), suite)
               for name in (line.split()[0] for line in listed.splitlines())]
-    trials += [(f"fluctuation by {law}", best, fitted.write_suite(fit, folder, fluctuation=law))
-               for law in ("swerling_1", "swerling_3")]
+    steady = {"level_constant_db": 0, "level_slow_db": 0, "level_fast_db": 0}
+    trials += [(f"{law} instead of levels", best, fitted.write_suite(fit, folder, **steady, fluctuation=law))
+               for law in ("log_normal", "swerling_1", "swerling_3")]
     for name, chain, document in Progress("components").over(trials):
         lists, _ = chains.run(chain, document, fit.curve, second.scans, second.speeds)
         lost.append((gains(scores[best], second.scores(lists), scores[chains.IDEAL], scans), name))

@@ -17,9 +17,13 @@ Fit = namedtuple("Fit", "annotation curve azimuth_noise sensor")
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
 # Members that lists do not show, and figures for which a half may have too few detections: those of lrr77-full.
-SHIPPED = ("range_floor_m diffraction curved_sides micro_motion bounces fluctuation fluctuation_sigma_db antenna_pattern "
-           "phase_reference angle_estimator final_threshold list_order list_limit azimuth_sigma_rad cell_range_m "
-           "cell_range_rate_mps range_sigma_m range_rate_sigma_mps").split()
+SHIPPED = ("range_floor_m diffraction curved_sides micro_motion bounces antenna_pattern phase_reference angle_estimator "
+           "final_threshold list_order list_limit azimuth_sigma_rad cell_range_m cell_range_rate_mps range_sigma_m "
+           "range_rate_sigma_mps").split()
+LEVEL = "[A] the middle between two 77 GHz radars on roads (MODEL 14.22)"
+ASSUMED = {"cell_phase": ("by_path", "[A] as lrr77-coherent"), "cell_extent": ("half_width", "[A] cells are least distances"),
+           "pointer_sigma": (1, "[A] amplitudes are ratios to the noise"), "level_keeps": ("median", "[A] a typical body"),
+           "level_constant_db": (4.5, LEVEL), "level_slow_db": (2.5, LEVEL), "level_fast_db": (2.9, LEVEL)}
 
 
 class Curve(namedtuple("Curve", "over_range over_azimuth")):
@@ -157,12 +161,11 @@ def fit(recording):
              **scatter}
     with open(os.path.join(ROOT, "data", "sensors", "lrr77-full.json"), encoding="utf-8") as file:
         shipped = json.load(file)["sensors"][0]
-    assumed = {"cell_phase": "by_path", "cell_extent": "half_width", "pointer_sigma": 1}
-    sources = {**{name: shipped["sources"][name] for name in SHIPPED},
-               **{name: "[A] amplitudes are ratios to the noise, and cells least distances" for name in assumed},
-               **{name: "[F] the recording, its first half" for name in found}}
+    members = {name: (shipped[name], shipped["sources"][name]) for name in SHIPPED} | ASSUMED | {
+        name: (value, "[F] the recording, its first half") for name, value in found.items()}
     return Fit(annotation(recording), law, azimuth_noise,
-               {"name": "radar", **{name: shipped[name] for name in SHIPPED}, **assumed, **found, "sources": sources})
+               {"name": "radar", **{name: value for name, (value, _) in members.items()},
+                "sources": {name: source for name, (_, source) in members.items()}})
 
 
 def write_suite(of, folder, **changed):
