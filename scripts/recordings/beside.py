@@ -118,13 +118,9 @@ def print_marginals(second, results, threshold_db):
               for chain, (lists, _) in results.items() if chain != chains.IDEAL}
     print(f"\n{'* outside':42} {'recorded':>8}", *(f"{chain.name:>27}" for chain in ranges))
     for name, value in told.items():
-        print(f"{name:42} {value:8.1f}", *(between(value, [one[name] for one in own if name in one])
-                                           for own in ranges.values()))
-
-
-def between(value, own):
-    mark = "*" if not own or marginals.outside(value, own) else " "
-    return f"{f'{min(own):.1f} to {max(own):.1f}' if own else 'none':>26}{mark}"
+        cells = [[one[name] for one in own if name in one] for own in ranges.values()]
+        print(f"{name:42} {value:8.1f}", *(f"{f'{min(own):.1f} to {max(own):.1f}' if own else 'none':>26}"
+                                           + " *"[marginals.outside(value, own)] for own in cells))
 
 
 def print_components(second, fit, folder, scores):

@@ -21,7 +21,7 @@ SHIPPED = ("range_floor_m diffraction curved_sides micro_motion bounces antenna_
            "final_threshold list_order list_limit azimuth_sigma_rad cell_range_m cell_range_rate_mps range_sigma_m "
            "range_rate_sigma_mps").split()
 LEVEL = "[A] the middle between two 77 GHz radars on roads (MODEL 14.22)"
-ASSUMED = {"cell_phase": ("by_path", "[A] as lrr77-coherent"), "cell_extent": ("half_width", "[A] cells are least distances"),
+ASSUMED = {"cell_phase": ("by_path", "[A] as lrr77-coherent"), "cell_extent": ("half_width", "[A] a least distance"),
            "pointer_sigma": (1, "[A] amplitudes are ratios to the noise"), "level_keeps": ("median", "[A] a typical body"),
            "level_constant_db": (4.5, LEVEL), "level_slow_db": (2.5, LEVEL), "level_fast_db": (2.9, LEVEL)}
 
@@ -180,5 +180,5 @@ def write_suite(of, folder, **changed):
             out.write("\n".join([head] + [",".join(f"{value:.9g}" for value in row) for row in rows]) + "\n")
     place = os.path.join(folder, "-".join(["recorded", *map(str, changed.values())]) + ".json")
     with open(place, "w", encoding="utf-8") as out:
-        json.dump({"origin": "Written by scripts/realism --recordings.", "sensors": [{**of.sensor, **changed}]}, out, indent=2)
+        json.dump({"origin": "Made by scripts/realism --recordings.", "sensors": [{**of.sensor, **changed}]}, out, indent=2)
     return place

@@ -41,7 +41,7 @@ def memory(levels, scans):
     """Changes of the level of a body's strongest detection, {(id, scan): dBsm}, and semivariances."""
     found = {}
     for lag in sorted({1, 3, 10, scans // 6, scans // 3}):
-        changes = [level - levels[name, scan + lag] for (name, scan), level in levels.items() if (name, scan + lag) in levels]
+        changes = [level - levels[of, scan + lag] for (of, scan), level in levels.items() if (of, scan + lag) in levels]
         if len(changes) > 1 and lag in (1, 10):
             found[f"level change over {lag} scans, dB"] = statistics.fmean(map(abs, changes))
         if len(changes) > 1 and lag <= scans // 3:
@@ -68,5 +68,5 @@ def recurrence(part, lists, strong_db):
 
 
 def outside(value, others):
-    """Is a number less than all others or more? Of 39 others of its law, 1 time in 20 at most."""
-    return not min(others) <= value <= max(others)
+    """Is a number less than all others or more? Of 39 others of its law, 1 time in 20 at most. Of no others it is."""
+    return not others or not min(others) <= value <= max(others)

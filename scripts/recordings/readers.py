@@ -10,6 +10,7 @@ import os
 import re
 import statistics
 import struct
+import sys
 from collections import namedtuple
 
 import statics
@@ -29,23 +30,19 @@ ARTICULATED_M = 12  # longer trucks are articulated
 KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
 
 
-class Unreadable(ValueError):
-    """What is wrong with a recording, and in which file."""
-
-
 def read(folder):
-    """The recording of a folder in one of three layouts."""
+    """The recording of a folder in one of three layouts; ends the program if it cannot be read."""
     for pattern, reader in (("recording.json", own), ("**/extrinsic_matrices.json", aimotive), ("**/velodyne", kitti)):
         for found in sorted(glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))[:1]:
             try:
                 recording = reader(folder, found)
             except (KeyError, TypeError, ValueError, OSError, StopIteration, struct.error) as error:
-                raise Unreadable(f"{found}: {type(error).__name__}: {error}") from None
+                sys.exit(f"realism: {found}: {type(error).__name__}: {error}")
             if len(recording.scans) < 4 or not any(scan.detections for scan in recording.scans):
-                raise Unreadable(f"{found}: expected four scans or more, with detections")
+                sys.exit(f"realism: {found}: expected four scans or more, with detections")
             return recording._replace(scans=statics.retimed(recording.radar, recording.scans),
                                       notes=recording.notes + lacks(recording.scans))
-    raise Unreadable(f"{folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)")
+    sys.exit(f"realism: {folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)")
 
 
 def lacks(scans):

@@ -10,6 +10,7 @@ import json
 import math
 import os
 import struct
+import subprocess
 import sys
 import tempfile
 
@@ -60,7 +61,8 @@ def truth():
     """The suite of the lists."""
     sensor = {"name": "radar", "mount_x_m": RADAR.x_m, "mount_y_m": 0, "mount_yaw_rad": 0, "carrier_hz": RADAR.carrier_hz,
               "range_min_m": 5, "range_max_m": 180, "field_of_view_rad": 0.6, "threshold_db": 14,
-              "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "cell_range_m": 1.4, "cell_range_rate_mps": 0.2, "range_sigma_m": 0.08, "range_rate_sigma_mps": 0.02,
+              "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "cell_range_m": 1.4,
+              "cell_range_rate_mps": 0.2, "range_sigma_m": 0.08, "range_rate_sigma_mps": 0.02,
               "azimuth_floor_rad": 0.003, "azimuth_sigma_rad": 0.003, "antenna_table": "antenna.csv",
               "range_floor_m": 0.5, "fluctuation": "log_normal", "cell_phase": "by_path", "cell_extent": "half_width",
               "antenna_pattern": "table", "phase_reference": "centre", "angle_estimator": "ratio", "pointer_sigma": 1,
@@ -91,8 +93,10 @@ def the_first_half_gives_back_the_law(folder, scans):
     fit = fitted.fit(readers.read(folder))
     for what, value, expected, within in (
             ("lag_s", fit.annotation.lag_s, 0.12, 0.06), ("inset_m", fit.annotation.inset_m, 0.3, 0.25),
-            ("threshold_db", fit.sensor["threshold_db"], 14, 0.7), ("dB at 30 m", fit.curve.snr_db(30, 0.1), LAW.snr_db(30, 0.1), 0.5),
-            ("dB at 90 m", fit.curve.snr_db(90, 0), LAW.snr_db(90, 0), 0.5), ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03),
+            ("threshold_db", fit.sensor["threshold_db"], 14, 0.7),
+            ("dB at 30 m", fit.curve.snr_db(30, 0.1), LAW.snr_db(30, 0.1), 0.5),
+            ("dB at 90 m", fit.curve.snr_db(90, 0), LAW.snr_db(90, 0), 0.5),
+            ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03),
             ("range_rate_sigma_mps", fit.sensor["range_rate_sigma_mps"], 0.02, 0.015)):
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} planted")
     check(1.4 <= fit.sensor["cell_range_m"] < 3.2, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
@@ -109,6 +113,29 @@ def outside(part, ranges):
     return {name for name, value in told.items() if marginals.outside(value, [one[name] for one in ranges if name in one])}
 
 
+def folders_without_a_recording_or_with_half_of_one_are_refused(folder):
+    """And a recording without boxes says what is left out."""
+    def said(text=None):
+        if text is not None:
+            with open(os.path.join(folder, "recording.json"), "w", encoding="utf-8") as out:
+                out.write(text)
+        return subprocess.run([os.path.join(ROOT, "scripts", "realism"), "--recordings", folder], capture_output=True,
+                              text=True, check=False)
+
+    for text, expected in ((None, "expected recording.json"), ("{}", "KeyError: 'scans'"),
+                           ('{"radar": {"x_m": 0}, "scans": []}', "TypeError")):
+        done = said(text)
+        check(done.returncode == 1 and expected in done.stderr and "Traceback" not in done.stderr,
+              f"{text}: {done.stderr or done.stdout}")
+    bare = [scan._replace(boxes=[], detections=[readers.Detection(20.0 + 3 * k, 0.02 * k, -20.0, 20.0) for k in range(9)])
+            for scan in world(8)]
+    write_own(folder, bare)
+    done = said()
+    check(done.returncode == 0 and "no boxes with ids" in done.stdout and "no cross section" in done.stdout
+          and "statics a scan" in done.stdout and "skill" not in done.stdout.split("boxes      ")[1],
+          f"without boxes: {done.stdout}{done.stderr}")
+
+
 def planted_faults_are_marked(folder, suite, scans):
     """Each fault turns its line red, and the same lists without it do not."""
     part = second_half(scans)
@@ -117,8 +144,8 @@ def planted_faults_are_marked(folder, suite, scans):
     steady = fitted.write_suite(truth(), folder, fluctuation="none")
     later = [scan._replace(boxes=[box._replace(x_m=box.x_m + 0.1 * box.vx_mps) for box in scan.boxes]) for scan in scans]
     faults_planted = {
-        "strongest cross section, dBsm: mean": changed(scans, lambda one: one._replace(
-            snr_db=one.snr_db + 6, rcs_dbsm=one.rcs_dbsm + 6)),
+        "strongest cross section, dBsm: mean": changed(
+            scans, lambda one: one._replace(snr_db=one.snr_db + 6, rcs_dbsm=one.rcs_dbsm + 6)),
         "level change over 1 scans, dB": recorded(steady, world(len(scans)), 1),
         "statics a scan": [scan._replace(detections=[one for one in scan.detections if one.range_rate_mps > -20])
                            for scan in scans],
@@ -145,7 +172,7 @@ def energy_scores_follow_their_closed_form():
 
 
 def view_of_delft_is_read(folder):
-    """A car 20 m ahead, 4 m to the left, that turns by 0.2 rad, and its detection; labels with ids move, others are left out."""
+    """A car 20 m ahead and 4 m to the left, turned by 0.2 rad, that comes nearer at 3 m/s; and its detection."""
     for name in ("velodyne", "calib", "label_2_with_track_ids"):
         os.makedirs(os.path.join(folder, name))
     for i in range(6):
@@ -215,6 +242,8 @@ def main():
         planted_faults_are_marked(folder, suite, scans)
     with tempfile.TemporaryDirectory() as folder:
         view_of_delft_is_read(folder)
+    with tempfile.TemporaryDirectory() as folder:
+        folders_without_a_recording_or_with_half_of_one_are_refused(folder)
     the_real_recording_shows_what_its_page_says()
     sys.exit(1 if faults else 0)
 
