@@ -2,8 +2,9 @@
 #include "effects/effect.h"
 
 const struct effect effect_height = {
-    .summary = "the sensor sees over an object that is low enough",
-    .cause = "mount_z_m of a sensor",
+    .summary =
+        "the sensor sees over an object that is low enough, and under one that is high enough",
+    .cause = "mount_z_m of a sensor, height_m and clearance_m of an object's class",
     .left_out_when = "the sensor has no mount_z_m or occlusion is left out",
     .cost = "a height of the sight line per object in the way",
     .home = EFFECT_HOME_IDEAL,

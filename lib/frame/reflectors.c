@@ -136,6 +136,8 @@ static const struct field reflector_set_fields[] = {
     {FIELD_NAMES_OF(struct reflector_set, objects, "ids of the objects that reflect like this")},
     {OPTIONAL_FLAG(struct reflector_set, blocks, "does the outline stop sight lines?")},
     {OPTIONAL_FLAG(struct reflector_set, raised, "can a radar look under it?")},
+    {OPTIONAL_REAL(struct reflector_set, clearance_m, 0, 100,
+                   "of its underside above the road; absent: nothing passes under it")},
     {OPTIONAL_LIST(struct reflector_set, points, &point_record, "corners, wheel houses, poles"),
      FIELD_STEADY},
     {OPTIONAL_LIST(struct reflector_set, planes, &plane_record, "flat sides"), FIELD_STEADY},

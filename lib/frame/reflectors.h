@@ -72,6 +72,7 @@ struct reflector_set {
     LIST_OF(const char *) objects; /* ids */
     bool blocks;                   /* do the objects' outlines stop sight lines? */
     bool raised;                   /* can a radar look under the objects? (MODEL 2.5) */
+    double clearance_m;            /* of the objects' undersides above the road; 0: none */
     LIST_OF(struct point_reflector) points;
     LIST_OF(struct plane_reflector) planes;
     LIST_OF(struct post_row) rows;

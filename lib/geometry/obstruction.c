@@ -103,17 +103,22 @@ static double height_m(const struct obstruction_line *line, double fraction)
     return line->from_height_m + fraction * (line->to_height_m - line->from_height_m);
 }
 
-/* The line's least height above the top over its interval inside the outline. */
-static double above_m(const struct obstruction_line *line, struct inside_interval inside,
-                      double top_m)
+/* The line's least height above the top over its interval inside the outline, or its least distance
+ * below the bottom. */
+static double clear_m(const struct obstruction_line *line, struct inside_interval inside,
+                      struct obstruction_heights body)
 {
-    return elementary_min(height_m(line, inside.begin), height_m(line, inside.end)) - top_m;
+    double begin_m = height_m(line, inside.begin), end_m = height_m(line, inside.end);
+    double above_m = elementary_min(begin_m, end_m) - body.top_m;
+    if (body.bottom_m == 0)
+        return above_m;
+    return elementary_max(above_m, body.bottom_m - elementary_max(fabs(begin_m), fabs(end_m)));
 }
 
-double obstruction_above_m(const struct vec2 *corners, size_t count, double top_m,
-                           const struct obstruction_line *line)
+double obstruction_clear_m(const struct vec2 *corners, size_t count,
+                           struct obstruction_heights body, const struct obstruction_line *line)
 {
-    return above_m(line, inside_interval_of(corners, count, line), top_m);
+    return clear_m(line, inside_interval_of(corners, count, line), body);
 }
 
 /* nu of the easier way beside the body, to the left or to the right. */
@@ -137,18 +142,29 @@ static double beside(const struct vec2 *corners, size_t count, const struct obst
     return elementary_min(left, right);
 }
 
-/* nu of the way over the top. */
-static double above(const struct obstruction_line *line, struct inside_interval inside,
-                    double top_m, double wavelength_m)
+/* nu of an edge across the line at both ends of its interval inside the outline, the greater one.
+ * Depths are those of the line in the shadow. */
+static double across(const struct obstruction_line *line, struct inside_interval inside,
+                     double begin_depth_m, double end_depth_m, double wavelength_m)
 {
     double length_m = vec2_length(vec2_sub(line->to, line->from));
-    double front =
-        obstruction_edge_parameter(top_m - height_m(line, inside.begin), inside.begin * length_m,
-                                   (1 - inside.begin) * length_m, wavelength_m);
-    double back =
-        obstruction_edge_parameter(top_m - height_m(line, inside.end), inside.end * length_m,
-                                   (1 - inside.end) * length_m, wavelength_m);
+    double front = obstruction_edge_parameter(begin_depth_m, inside.begin * length_m,
+                                              (1 - inside.begin) * length_m, wavelength_m);
+    double back = obstruction_edge_parameter(end_depth_m, inside.end * length_m,
+                                             (1 - inside.end) * length_m, wavelength_m);
     return elementary_max(front, back);
+}
+
+/* nu of the easier way over the top or under the bottom. */
+static double over_or_under(const struct obstruction_line *line, struct inside_interval inside,
+                            struct obstruction_heights body, double wavelength_m)
+{
+    double begin_m = height_m(line, inside.begin), end_m = height_m(line, inside.end);
+    double over = across(line, inside, body.top_m - begin_m, body.top_m - end_m, wavelength_m);
+    if (body.bottom_m == 0)
+        return over;
+    return elementary_min(over, across(line, inside, fabs(begin_m) - body.bottom_m,
+                                       fabs(end_m) - body.bottom_m, wavelength_m));
 }
 
 static double factor_at(double parameter)
@@ -156,20 +172,22 @@ static double factor_at(double parameter)
     return parameter < DARKEST_PARAMETER ? obstruction_edge_amplitude_factor(parameter) : 0;
 }
 
-struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
+struct obstruction obstruction_of(const struct vec2 *corners, size_t count,
+                                  struct obstruction_heights body,
                                   const struct obstruction_line *line, double wavelength_m)
 {
     bool touched = obstruction_blocks(corners, count, line->from, line->to);
-    if (wavelength_m == 0 && (!touched || isinf(top_m)))
+    if (wavelength_m == 0 && (!touched || (isinf(body.top_m) && body.bottom_m == 0)))
         return (struct obstruction){.factor = touched ? 0 : 1};
     struct inside_interval inside = inside_interval_of(corners, count, line);
-    double straight = touched && above_m(line, inside, top_m) <= 0 ? 0 : 1;
+    double straight = touched && clear_m(line, inside, body) <= 0 ? 0 : 1;
     if (wavelength_m == 0 || vec2_same(line->from, line->to))
         return (struct obstruction){.factor = straight, .over = touched && straight == 1};
     if (!touched && inside.end - inside.begin == 1)
         return (struct obstruction){.factor = 1};
     double round = beside(corners, count, line, touched, wavelength_m);
-    double factor = factor_at(elementary_min(round, above(line, inside, top_m, wavelength_m)));
+    double factor =
+        factor_at(elementary_min(round, over_or_under(line, inside, body, wavelength_m)));
     return (struct obstruction){
         .factor = factor, .bent = factor != straight, .over = factor != factor_at(round)};
 }

@@ -1,7 +1,10 @@
 /* Obstruction of sight lines by a body; knife-edge diffraction (MODEL 2.5, 14.3, 14.4).
  *
- * A body is an upright prism over the convex outline through count corners, counter-clockwise, up
- * to top_m. A top_m of INFINITY is the flat world, in which no line passes above anything.
+ * A body is an upright prism over the convex outline through count corners, counter-clockwise, from
+ * bottom_m to top_m above the road. A top_m of INFINITY is the flat world, in which no line passes
+ * above anything; below a bottom_m of 0 none passes either. A line that the road mirrors is
+ * unfolded (MODEL 14.3): its heights behind the road are negative, where the body's image stands.
+ * Only the way under a body counts them so.
  *
  * Whether a line touches the outline is exact for the given coordinates (predicates.h). A line is
  * blocked also if it touches an outline in one point only, at a corner, along an edge or at the
@@ -26,29 +29,37 @@ struct obstruction_line {
     double from_height_m, to_height_m;
 };
 
-/* The least height of a line that touches the outline above the body's top; negative below the top.
- */
-double obstruction_above_m(const struct vec2 *corners, size_t count, double top_m,
-                           const struct obstruction_line *line);
+/* The heights of a body over the road. */
+struct obstruction_heights {
+    double bottom_m, top_m;
+};
+
+/* The height by which a line that touches the outline passes above the body's top or below its
+ * bottom all along, the greater of both; negative if it does neither. */
+double obstruction_clear_m(const struct vec2 *corners, size_t count,
+                           struct obstruction_heights body, const struct obstruction_line *line);
 
 struct obstruction {
     double factor; /* on amplitude, both ways together, in [0, 1] */
     bool bent;     /* diffraction changes the factor */
-    bool over;     /* the body's height changes the factor */
+    bool over;     /* the body's height or its clearance changes the factor */
 };
 
 /* The obstruction of a line by a body.
  *
  * Without diffraction (wavelength_m 0) the body blocks, with the factor 0, a line that touches its
- * outline and is not above its top all along; for other lines the factor is 1. A line inside the
+ * outline and is neither above its top nor below its bottom all along; for other lines the factor
+ * is
+ * 1. A line inside the
  * outline from end to end is free.
  *
  * With diffraction the body is a knife edge on the path with the least loss: to the left, to the
- * right or over the top. The edge of a side is the corner with the largest nu, for the distances of
- * the corner's foot on the line from both ends; if the line does not touch the outline, only
- * corners between both ends count. From two Fresnel radii inside the shadow on, nu >= 2 sqrt(2),
- * the factor is 0. */
-struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
+ * right, over the top or under the bottom. The edge of a side is the corner with the largest nu,
+ * for the distances of the corner's foot on the line from both ends; if the line does not touch the
+ * outline, only corners between both ends count. From two Fresnel radii inside the shadow on, nu >=
+ * 2 sqrt(2), the factor is 0. */
+struct obstruction obstruction_of(const struct vec2 *corners, size_t count,
+                                  struct obstruction_heights body,
                                   const struct obstruction_line *line, double wavelength_m);
 
 /* The diffraction parameter of ITU-R P.526, nu = depth sqrt(2 (d1 + d2)/(lambda d1 d2)). depth_m is

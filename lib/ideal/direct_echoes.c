@@ -56,9 +56,11 @@ struct candidate {
     double under_vehicles;
     double margin_m;  /* the least sight margin so far */
     uint64_t effects; /* the effects that changed a value so far */
-    bool line_known;  /* line_of_sight and under are set */
+    bool line_known;  /* the line and what follows are set */
+    struct obstruction_line line;
     struct line_of_sight line_of_sight;
-    bool under; /* the line leads under raised vehicles */
+    bool under;   /* the line leads under raised vehicles */
+    bool by_road; /* the line is that of the wave that the road mirrors */
 };
 
 static struct obstruction_line line_from_sensor(const struct look *look,
@@ -68,15 +70,58 @@ static struct obstruction_line line_from_sensor(const struct look *look,
                                      candidate->height_m};
 }
 
-/* Distance of an echo's line from being blocked. For a line under raised vehicles the depth in them
- * counts too, as the echo would change if the line passed beside them. */
-static double blocking_margin_m(const struct look *look, const struct look_body *body,
-                                const struct obstruction_line *line, bool under)
+/* May the wave that the road mirrors reach the candidate? An upright side mirrors it away from the
+ * sensor, and a reflector without a height has no such way. */
+static bool has_road_way(const struct look *look, const struct candidate *candidate)
 {
-    double margin_m = line_of_sight_margin_m(look, &body, 1, line, under, false);
-    if (!under)
+    return look->sees_under && candidate->side == NULL && candidate->z > 0;
+}
+
+/* That wave's line, unfolded at the road (MODEL 14.3). */
+static struct obstruction_line line_by_road(const struct look *look,
+                                            const struct candidate *candidate)
+{
+    struct obstruction_line line = line_from_sensor(look, candidate);
+    line.to_height_m = -line.to_height_m;
+    return line;
+}
+
+/* Distance of an echo's line from being blocked. For a line under raised vehicles or by the road
+ * the depth of the straight line in vehicles counts too, as the echo would change if it passed
+ * beside them. */
+static double blocking_margin_m(const struct look *look, const struct look_body *body,
+                                const struct candidate *candidate)
+{
+    const struct obstruction_line straight = line_from_sensor(look, candidate);
+    double margin_m =
+        line_of_sight_margin_m(look, &body, 1, &candidate->line, candidate->under, false);
+    if (!candidate->under && !candidate->by_road)
         return margin_m;
-    return elementary_min(margin_m, line_of_sight_margin_m(look, &body, 1, line, false, true));
+    return elementary_min(margin_m, line_of_sight_margin_m(look, &body, 1, &straight, false, true));
+}
+
+/* Distance of a blocked candidate from the nearest way that would let it through. */
+static double blocked_margin_m(const struct look *look, const struct look_body *body,
+                               const struct candidate *candidate)
+{
+    bool under = candidate->under_vehicles > 0;
+    double margin_m = line_of_sight_margin_m(look, &body, 1, &candidate->line, under, true);
+    if (!has_road_way(look, candidate))
+        return margin_m;
+    const struct obstruction_line line = line_by_road(look, candidate);
+    return elementary_min(margin_m, line_of_sight_margin_m(look, &body, 1, &line, false, true));
+}
+
+/* Takes the way by the road if more of the echo passes there. */
+static void try_road(const struct look *look, struct candidate *candidate)
+{
+    const struct obstruction_line line = line_by_road(look, candidate);
+    struct line_of_sight way = line_of_sight_past_blockers(look, NULL, &line, false);
+    candidate->by_road = way.factor > candidate->line_of_sight.factor;
+    if (!candidate->by_road)
+        return;
+    candidate->line = line;
+    candidate->line_of_sight = way;
 }
 
 /* The line of sight past the blockers, or under the raised ones if more of the echo passes there.
@@ -87,14 +132,21 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
         return;
     const struct obstruction_line line = line_from_sensor(look, candidate);
     candidate->line_known = true;
+    candidate->line = line;
     candidate->line_of_sight = line_of_sight_past_blockers(look, candidate->side, &line, false);
+    if (has_road_way(look, candidate) && candidate->line_of_sight.factor != 1)
+        try_road(look, candidate);
     if (candidate->under_vehicles != 0 && candidate->line_of_sight.factor != 1) {
         struct line_of_sight under =
             line_of_sight_past_blockers(look, candidate->side, &line, true);
         under.factor *= candidate->under_vehicles;
         under.effects |= EFFECT_BIT(EFFECT_OCCLUSION);
         candidate->under = under.factor > candidate->line_of_sight.factor;
-        candidate->line_of_sight = candidate->under ? under : candidate->line_of_sight;
+        if (!candidate->under)
+            return;
+        candidate->by_road = false;
+        candidate->line = line;
+        candidate->line_of_sight = under;
     }
 }
 
@@ -131,13 +183,13 @@ static bool in_reach(struct look *look, const struct look_body *body, struct can
     return false;
 }
 
-/* Sets the echo's height over the road and its extent, if the road mirrors and both the sensor and
- * the reflector have a height. */
+/* Sets the echo's height over the road and its extent, if the road mirrors beside the straight wave
+ * and both the sensor and the reflector have a height. */
 static void describe_height(const struct look *look, const struct look_body *body,
                             const struct candidate *candidate, struct echo *echo)
 {
     bool mirroring = look->frame->conditions.road != ROAD_UNKNOWN;
-    if (!(mirroring && look->height_m > 0 && candidate->z > 0))
+    if (!(mirroring && look->height_m > 0 && candidate->z > 0) || candidate->by_road)
         return;
     echo->height_m = candidate->height_m;
     echo->extent_m = candidate->extent * body->object->height_m;
@@ -197,18 +249,15 @@ static void add_candidate(struct look *look, const struct look_body *body,
     candidate->ercs *= gain;
     if (!in_reach(look, body, candidate, &read))
         return;
-    const struct obstruction_line line = line_from_sensor(look, candidate);
     find_line_of_sight(look, candidate);
     if (candidate->line_of_sight.by != NULL) {
-        bool under = candidate->under_vehicles > 0;
         lose(look, body, candidate->reflector, candidate->place, LOSS_BLOCKED,
-             candidate->line_of_sight.by,
-             margins ? line_of_sight_margin_m(look, &body, 1, &line, under, true) : 0);
+             candidate->line_of_sight.by, margins ? blocked_margin_m(look, body, candidate) : 0);
         return;
     }
     if (margins)
-        candidate->margin_m = elementary_min(
-            candidate->margin_m, blocking_margin_m(look, body, &line, candidate->under));
+        candidate->margin_m =
+            elementary_min(candidate->margin_m, blocking_margin_m(look, body, candidate));
     add_echo(look, body, candidate, &read, velocity);
 }
 

@@ -202,7 +202,7 @@ static bool pass_leg(const struct look *look, struct route *route, struct obstru
 static double upright_margin_m(const struct look *look, const struct mirror_face *face,
                                double height_m)
 {
-    double top_m = look_top_m(look, face->body), below_m = top_m - height_m;
+    double top_m = look_heights(look, face->body).top_m, below_m = top_m - height_m;
     double bottom_m = isinf(top_m) ? 0 : face->plane->bottom * top_m;
     return bottom_m > 0 ? elementary_min(below_m, height_m - bottom_m) : below_m;
 }

@@ -206,7 +206,7 @@ static struct line_of_sight past_body(const struct look *look, const struct look
     if (crossing == CROSSING_SURE && blocks_sharply(look))
         return (struct line_of_sight){.factor = 0, .by = body};
     struct obstruction obstruction =
-        obstruction_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
+        obstruction_of(body->corner, 4, look_heights(look, body), line, look->wavelength_m);
     return (struct line_of_sight){
         .factor = obstruction.factor,
         .by = obstruction.factor == 0 ? body : NULL,
@@ -295,11 +295,11 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
                 elementary_min(nearest_m, line_of_sight_outline_margin_m(corner, 4, from, to));
             continue;
         }
-        double above_m = obstruction_above_m(corner, 4, look_top_m(look, body), line);
-        if (above_m > 0 || soft_m > 0)
-            nearest_m = elementary_min(nearest_m, elementary_max(above_m, 0));
+        double clear_m = obstruction_clear_m(corner, 4, look_heights(look, body), line);
+        if (clear_m > 0 || soft_m > 0)
+            nearest_m = elementary_min(nearest_m, elementary_max(clear_m, 0));
         double depth_m =
-            elementary_min(line_of_sight_depth_margin_m(corner, 4, from, to), -above_m);
+            elementary_min(line_of_sight_depth_margin_m(corner, 4, from, to), -clear_m);
         deepest_m = elementary_max(deepest_m, depth_m - soft_m);
     }
     return blocked ? deepest_m : nearest_m;

@@ -1,7 +1,7 @@
 /* Part of an echo that all bodies together let through.
  *
- * Each body on the line blocks it or lets it pass (MODEL 2.5), over its top (14.3) or around its
- * edges (14.4); obstruction.h has the formulas for one body.
+ * Each body on the line blocks it or lets it pass (MODEL 2.5), over its top or under its bottom
+ * (14.3) or around its edges (14.4); obstruction.h has the formulas for one body.
  *
  * Two sides in line are one wall if one begins where the other ends. Then neither body blocks a
  * line to a foot on the other's side, though its outline may touch that line. If both sides share
@@ -61,7 +61,7 @@ struct line_of_sight line_of_sight_along(const struct look *look,
  * distance of a reflector from being lost, or from not being lost (MODEL 2.5, 11.1). */
 
 /* Of a line past all bodies that block, except the given ones and, with under, raised ones. If the
- * line is not blocked: its least distance from a body, beside it or over its top; infinite without
+ * line is not blocked: its least distance from a body, beside, over or under it; infinite without
  * bodies or occlusion, 0 in a soft shadow (MODEL 14.4). If it is blocked: its greatest depth in a
  * body; with diffraction, the depth beyond twice the line's widest Fresnel radius. */
 double line_of_sight_margin_m(const struct look *look, const struct look_body *const *except,

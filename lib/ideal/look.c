@@ -74,6 +74,7 @@ static int attach_reflectors(struct look *look, struct diag *diag)
     look->sets = arena_get(frame->arena, frame->reflectors.count * sizeof *look->sets);
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
+        look->sees_under |= look->sees_over && set->clearance_m > 0;
         look->sets[i] = (struct look_set){
             .reflectors = set,
             .shape = reflectors_shape(set, frame->arena),
@@ -238,10 +239,14 @@ bool look_out_of_reach(const struct look *look, const struct look_body *body,
            (silhouette->nearest_m > LEVEL * rise_m && look_out_of_view(look, silhouette));
 }
 
-double look_top_m(const struct look *look, const struct look_body *body)
+struct obstruction_heights look_heights(const struct look *look, const struct look_body *body)
 {
-    return look->sees_over && body->object->height_m > 0 ? body->object->height_m
-                                                         : (double)INFINITY;
+    double height_m = body->object->height_m;
+    bool seen_under = look->sees_under && body->set != NULL;
+    return (struct obstruction_heights){
+        .bottom_m = seen_under ? body->set->reflectors->clearance_m : 0,
+        .top_m = look->sees_over && height_m > 0 ? height_m : (double)INFINITY,
+    };
 }
 
 double look_reflector_height_m(const struct look *look, const struct look_body *body, double z)

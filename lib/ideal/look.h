@@ -12,6 +12,7 @@
 #include "documents/suite.h"
 #include "frame/frame.h"
 #include "geometry/kinematics.h"
+#include "geometry/obstruction.h"
 #include "geometry/silhouette.h"
 
 /* A reflector set of the frame, and the bodies that carry its reflectors. */
@@ -50,7 +51,8 @@ struct look {
     double time_s; /* of the measurement */
     struct sensor_pose pose;
     double height_m;          /* of the sensor over the road; 0: the scene is flat */
-    bool sees_over;           /* the sensor may see over objects */
+    bool sees_over;           /* the sensor may see over objects and under them */
+    bool sees_under;          /* and a class of the frame has a clearance */
     double wavelength_m;      /* for diffraction; 0: none is simulated */
     double rim_m;             /* width of the zone beside a body where diffraction is felt */
     bool ego_moved;           /* between the measurement and the frame's time */
@@ -78,8 +80,9 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
  * and gives the sensor's height. */
 double look_reflector_height_m(const struct look *look, const struct look_body *body, double z);
 
-/* Height up to which a body hides what is behind it; INFINITY if nothing is seen over it. */
-double look_top_m(const struct look *look, const struct look_body *body);
+/* Heights between which a body hides what is behind it; a top of INFINITY if nothing is seen over
+ * it, a bottom of 0 if nothing is seen under it. */
+struct obstruction_heights look_heights(const struct look *look, const struct look_body *body);
 
 /* Range, azimuth and range rate of a point in the plane. */
 struct kinematics look_kinematics(const struct look *look, struct vec2 place, struct vec2 velocity);

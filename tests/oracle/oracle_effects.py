@@ -76,6 +76,7 @@ class Body(oracle.Body):
         self.height = item["height_m"] or document["height_m"]
         self.corners = [a for a, _ in self.outline()]
         self.blocks = self.model.get("blocks", False)
+        self.clearance = self.model.get("clearance_m", 0)
         self.sides = [self.segment(side) for side in self.model.get("planes", [])]
         self.mirrors = [(self.segment(side), side) for side in self.model.get("mirrors", [])]
 
@@ -144,10 +145,10 @@ class Line:
         return self.heights[0] + share * (self.heights[1] - self.heights[0])
 
 
-def over_the_top(body, line, length, wavelength, ends):
-    """(nu of the way over a body, how far the line stays above its top)."""
+def across(depth_at, length, wavelength, ends):
+    """(nu of an edge across a line, how far the line stays clear of it), by the line's depth in its shadow."""
     ends = [min(max(share, 0.0), 1.0) for share in ends]
-    depths = [body.height - line.height(share) for share in ends]
+    depths = [depth_at(share) for share in ends]
     ways = [edge(depth, share * length, (1 - share) * length, wavelength) for depth, share in zip(depths, ends)]
     return max(ways), -max(depths)
 
@@ -155,11 +156,15 @@ def over_the_top(body, line, length, wavelength, ends):
 def passage(body, line, wavelength, wider):
     """(the factor of one body on the line, nu of its easiest way round or None)."""
     inside = touches(body.corners, line.a, line.b, wider)
-    tall = line.heights is None or body.height == 0
+    edges = []
+    if line.heights and body.height > 0:
+        edges.append(lambda share: body.height - line.height(share))
+    if line.heights and body.clearance > 0:
+        edges.append(lambda share: abs(line.height(share)) - body.clearance)
     length = math.hypot(*minus(line.b, line.a))
     if not wavelength or length == 0:
-        over = not tall and inside and over_the_top(body, line, length, 1.0, inside)[1] > wider
-        return (0.0 if inside and not over else 1.0), None
+        free = inside and any(across(depth_at, length, 1.0, inside)[1] > wider for depth_at in edges)
+        return (0.0 if inside and not free else 1.0), None
     if not inside and stretch(body.corners, line.a, line.b, -wider) == (0.0, 1.0):
         return 1.0, None
     towards = unit(minus(line.b, line.a))
@@ -170,8 +175,8 @@ def passage(body, line, wavelength, wider):
         return 1.0, None
     feet = [(min(max(along, 0.0), length), aside) for along, aside in feet]
     ways = [max(edge(sign * aside, along, length - along, wavelength) for along, aside in feet) for sign in (1, -1)]
-    if not tall:
-        ways.append(over_the_top(body, line, length, wavelength, inside or crossings(body.corners, line.a, line.b))[0])
+    crossed = inside or crossings(body.corners, line.a, line.b)
+    ways += [across(depth_at, length, wavelength, crossed)[0] for depth_at in edges]
     return loss_factor(min(ways)), min(ways)
 
 
@@ -333,7 +338,8 @@ def rate_along(scene, body, place):
 class Direct:
     """One reflector, its direct way, and what its ghosts need of that way."""
 
-    def __init__(self, scene, body, item, place):
+    def __init__(self, scene, body, item, place, plane=False):
+        self.plane = plane
         self.body, self.name, self.place, self.rise = body, item["name"], place, scene.rise(body, item)
         self.heights = (item["z"] * body.height, item.get("extent", 0) * body.height) if item.get("z") else None
         self.leg = Leg(scene, place, rate_along(scene, body, place), self.rise)
@@ -344,6 +350,17 @@ class Direct:
         self.way = self.way or Way(scene, Line(scene.place, self.place, scene.heights(self.rise)), free)
         return self.way
 
+    def passes_by_road_too(self, scene, free):
+        """The easier of both ways, and whether it is that by the road; ghosts have none by the road."""
+        way, heights = self.passes(scene, free), scene.heights(self.rise)
+        if not self.heights or self.plane or "height" not in scene.effects or way.factor == 1 \
+                or not any(body.clearance for body in scene.bodies):
+            return way, False
+        road = Way(scene, Line(scene.place, self.place, (heights[0], -heights[1])), free)
+        equal = road.factor != way.factor and near(road.factor, way.factor, 100)
+        road.doubtful = way.doubtful = road.doubtful or way.doubtful or equal
+        return (road, True) if road.factor > way.factor else (way, False)
+
 
 def note(scene, scan, direct, ercs, reason, doubtful, post=False, free=()):
     """Enters a direct echo, or the reason of its loss."""
@@ -352,9 +369,9 @@ def note(scene, scan, direct, ercs, reason, doubtful, post=False, free=()):
     limit, limit_doubt = scene.limits(leg.range, leg.azimuth)
     if post and limit == "out_of_range" and not limit_doubt:
         return
-    way = None
+    way, by_road = None, False
     if reason is None or doubtful:
-        way = direct.passes(scene, {direct.body, *free})
+        way, by_road = direct.passes_by_road_too(scene, {direct.body, *free})
         doubtful = doubtful or limit_doubt or ((limit is None or limit_doubt) and way.doubtful)
     if doubtful:
         scan.doubtful.add(key)
@@ -365,7 +382,8 @@ def note(scene, scan, direct, ercs, reason, doubtful, post=False, free=()):
         scan.lost[key] = (reason, by)
     else:
         scan.echoes[key] = Echo(key, range=leg.range, azimuth=leg.azimuth, rate=leg.rate, departure=0.0,
-                                ercs=ercs * leg.gain * way.factor, along=leg.plane_m, heights=direct.heights)
+                                ercs=ercs * leg.gain * way.factor, along=leg.plane_m,
+                                heights=None if by_road else direct.heights)
 
 
 def see_point(scene, scan, body, point, local, doubtful, post):
@@ -380,7 +398,7 @@ def see_point(scene, scan, body, point, local, doubtful, post):
 def see_plane(scene, scan, body, plane):
     side = body.segment(plane)
     foot, height, there, doubtful = foot_of(side, plane.get("margin_m", 0), scene.place)
-    direct = Direct(scene, body, plane, foot)
+    direct = Direct(scene, body, plane, foot, plane=True)
     free = [other for other in scene.blockers if any(joined(side, mine) for mine in other.sides)]
     note(scene, scan, direct, side_ercs(scene, plane, height), None if there else "no_specular_point", doubtful,
          free=free)

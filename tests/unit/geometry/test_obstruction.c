@@ -4,6 +4,7 @@
 #include "sample.h"
 
 #define HIGH ((double)INFINITY)
+#define UP_TO(top) ((struct obstruction_heights){0, (top)})
 #define WAVELENGTH_M 0.0124
 
 /* 4 m by 2 m, from (8, -1) to (12, 1). */
@@ -39,7 +40,7 @@ static void in_a_flat_world_only_the_outline_decides(void **state)
         struct obstruction_line line = random_case(&random, corners);
         bool touches = obstruction_blocks(corners, 4, line.from, line.to);
         blocked += touches;
-        assert_close(obstruction_of(corners, 4, HIGH, &line, 0).factor, touches ? 0 : 1, 0);
+        assert_close(obstruction_of(corners, 4, UP_TO(HIGH), &line, 0).factor, touches ? 0 : 1, 0);
     }
     assert_true(blocked > 10000);
 }
@@ -62,9 +63,9 @@ static void a_line_above_the_top_all_along_is_free(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        assert_close(obstruction_above_m(car, 4, cases[i].top_m, &cases[i].line), cases[i].above_m,
-                     1e-14);
-        assert_close(obstruction_of(car, 4, cases[i].top_m, &cases[i].line, 0).factor,
+        assert_close(obstruction_clear_m(car, 4, UP_TO(cases[i].top_m), &cases[i].line),
+                     cases[i].above_m, 1e-14);
+        assert_close(obstruction_of(car, 4, UP_TO(cases[i].top_m), &cases[i].line, 0).factor,
                      cases[i].above_m > 0 ? 1 : 0, 0);
     }
 }
@@ -99,18 +100,73 @@ static void the_lowest_place_over_a_body_counts(void **state)
         if (lowest_m == HIGH)
             continue;
         over++;
-        double above_m = obstruction_above_m(corners, 4, 0, &line);
+        double above_m = obstruction_clear_m(corners, 4, UP_TO(0), &line);
         assert_true(above_m <= lowest_m + 1e-12 && above_m > lowest_m - 3.01 / STEPS);
     }
     assert_true(over > 500);
+}
+
+/* A line below the bottom passes, at the height that is farthest from the road; so does the
+ * unfolded line that the road mirrors, and a body without a bottom lets none pass. */
+static void a_line_passes_under_a_body_with_a_bottom(void **state)
+{
+    (void)state;
+    static const struct {
+        double from_height_m, to_height_m, bottom_m, clear_m;
+    } cases[] = {
+        {0.5, 0.5, 0.6, 0.1},  {0.5, 0.5, 0.4, -0.1},
+        {0.2, 0.7, 0.6, 0.1},  /* 0.5 where it leaves */
+        {0.5, -0.5, 0.2, 0.1}, /* 0.1 where it enters, -0.1 where it leaves */
+        {1, -0.25, 0.6, 0.1},  /* 0.5 where it enters */
+        {0.25, -1, 0.6, 0.1},  /* -0.5 where it leaves */
+        {0, 0, 0, -2},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct obstruction_line line = {
+            {0, 0}, {20, 0}, cases[i].from_height_m, cases[i].to_height_m};
+        struct obstruction_heights body = {cases[i].bottom_m, 2};
+        assert_close(obstruction_clear_m(car, 4, body, &line), cases[i].clear_m, 1e-14);
+        struct obstruction seen = obstruction_of(car, 4, body, &line, 0);
+        assert_close(seen.factor, cases[i].clear_m > 0 ? 1 : 0, 0);
+        assert_int_equal(seen.over, cases[i].clear_m > 0);
+    }
+}
+
+/* ITU-R P.526, equations (26) and (31), written out: a sensor at 0.5 m and a corner of a car at
+ * 0.48 m, 40 m away, with a van of 6.5 m whose underside is at 0.19 m; the wave goes by the road.
+ */
+static void a_van_costs_a_knife_edge_under_it(void **state)
+{
+    (void)state;
+    const double wavelength_m = 299792458 / 76.5e9, sensor_m = 0.5, corner_m = 0.48, far_m = 40;
+    int from_10_to_14_db = 0;
+    for (double begin_m = 8; begin_m < 26; begin_m += 0.1) {
+        const struct vec2 van[] = {
+            {begin_m + 6.5, 1.08}, {begin_m, 1.08}, {begin_m, -1.08}, {begin_m + 6.5, -1.08}};
+        struct obstruction_line line = {{0, 0}, {far_m, 0}, sensor_m, -corner_m};
+        double worst = -HIGH;
+        for (int end = 0; end < 2; end++) {
+            double d1 = begin_m + (end ? 6.5 : 0), d2 = far_m - d1;
+            double h = fabs(sensor_m - (sensor_m + corner_m) * d1 / far_m) - 0.19;
+            worst = fmax(worst, h * sqrt(2 * (d1 + d2) / (wavelength_m * d1 * d2)));
+        }
+        double x = worst - 0.1;
+        double loss_db = worst > -0.78 ? 2 * (6.9 + 20 * log10(sqrt(x * x + 1) + x)) : 0;
+        struct obstruction_heights body = {0.19, 2.86};
+        double factor = obstruction_of(van, 4, body, &line, wavelength_m).factor;
+        if (worst < 2.8)
+            assert_close(-20 * log10(factor), loss_db, 1e-9);
+        from_10_to_14_db += loss_db >= 10 && loss_db <= 14;
+    }
+    assert_in_range(from_10_to_14_db, 10, 40);
 }
 
 static void a_line_inside_from_end_to_end_is_free(void **state)
 {
     (void)state;
     const struct obstruction_line line = {{9, 0.5}, {11, -0.9}, 1, 1};
-    assert_close(obstruction_of(car, 4, HIGH, &line, 0).factor, 1, 0);
-    assert_close(obstruction_of(car, 4, HIGH, &line, WAVELENGTH_M).factor, 1, 0);
+    assert_close(obstruction_of(car, 4, UP_TO(HIGH), &line, 0).factor, 1, 0);
+    assert_close(obstruction_of(car, 4, UP_TO(HIGH), &line, WAVELENGTH_M).factor, 1, 0);
 }
 
 static void soft_shadows_begin_where_hard_ones_do(void **state)
@@ -122,9 +178,11 @@ static void soft_shadows_begin_where_hard_ones_do(void **state)
     for (int i = 0; i < 300000; i++) {
         struct vec2 corners[4];
         struct obstruction_line line = random_case(&random, corners);
-        double top_m = i % 2 ? HIGH : sample_between(&random, 0, 3);
-        double hard = obstruction_of(corners, 4, top_m, &line, 0).factor;
-        double factor = obstruction_of(corners, 4, top_m, &line, WAVELENGTH_M).factor;
+        struct obstruction_heights body = UP_TO(i % 2 ? HIGH : sample_between(&random, 0, 3));
+        if (i % 3 == 0)
+            body.bottom_m = sample_between(&random, 0, 3);
+        double hard = obstruction_of(corners, 4, body, &line, 0).factor;
+        double factor = obstruction_of(corners, 4, body, &line, WAVELENGTH_M).factor;
         assert_true(factor >= 0 && factor <= 1);
         assert_true(hard == 1 ? factor > edge - 1e-6 : factor < edge + 1e-6);
         soft += factor > 0 && factor < 1;
@@ -143,9 +201,10 @@ static void a_factor_that_diffraction_or_height_changes_is_marked(void **state)
         struct obstruction_line line = random_case(&random, corners);
         double top_m = i % 4 == 0 ? HIGH : sample_between(&random, 0, 3);
         double wavelength_m = i % 3 == 0 ? 0 : WAVELENGTH_M;
-        struct obstruction obstruction = obstruction_of(corners, 4, top_m, &line, wavelength_m);
-        double hard = obstruction_of(corners, 4, top_m, &line, 0).factor;
-        double endless = obstruction_of(corners, 4, HIGH, &line, wavelength_m).factor;
+        struct obstruction obstruction =
+            obstruction_of(corners, 4, UP_TO(top_m), &line, wavelength_m);
+        double hard = obstruction_of(corners, 4, UP_TO(top_m), &line, 0).factor;
+        double endless = obstruction_of(corners, 4, UP_TO(HIGH), &line, wavelength_m).factor;
         assert_int_equal(obstruction.bent, obstruction.factor != hard);
         assert_int_equal(obstruction.over, obstruction.factor != endless);
         bent += obstruction.bent;
@@ -170,7 +229,7 @@ static void shadows_change_without_jumps(void **state)
                 line.from.y = line.to.y = shift_m;
             double top_m = upwards ? 1 - shift_m : HIGH;
             double factor =
-                obstruction_of(upwards ? car : pole, 4, top_m, &line, WAVELENGTH_M).factor;
+                obstruction_of(upwards ? car : pole, 4, UP_TO(top_m), &line, WAVELENGTH_M).factor;
             assert_true(fabs(factor - before) < 0.005 || (before < 1.01 * last && factor == 0) ||
                         (factor < 1.01 * last && before == 0));
             before = factor;
@@ -198,7 +257,7 @@ static void edges_out_of_reach_change_nothing(void **state)
             obstruction_blocks(corners, 4, line.from, line.to))
             continue;
         clear++;
-        assert_close(obstruction_of(corners, 4, HIGH, &line, WAVELENGTH_M).factor, 1, 0);
+        assert_close(obstruction_of(corners, 4, UP_TO(HIGH), &line, WAVELENGTH_M).factor, 1, 0);
     }
     assert_true(clear > 100000);
 }
@@ -208,8 +267,8 @@ static void a_line_of_length_zero_has_no_diffraction(void **state)
     (void)state;
     const struct obstruction_line inside = {{10, 0}, {10, 0}, 1, 1},
                                   corner = {{8, 1}, {8, 1}, 1, 1};
-    assert_close(obstruction_of(car, 4, HIGH, &inside, WAVELENGTH_M).factor, 1, 0);
-    assert_close(obstruction_of(car, 4, HIGH, &corner, WAVELENGTH_M).factor, 0, 0);
+    assert_close(obstruction_of(car, 4, UP_TO(HIGH), &inside, WAVELENGTH_M).factor, 1, 0);
+    assert_close(obstruction_of(car, 4, UP_TO(HIGH), &corner, WAVELENGTH_M).factor, 0, 0);
 }
 
 int main(void)
@@ -218,6 +277,8 @@ int main(void)
         cmocka_unit_test(in_a_flat_world_only_the_outline_decides),
         cmocka_unit_test(a_line_above_the_top_all_along_is_free),
         cmocka_unit_test(the_lowest_place_over_a_body_counts),
+        cmocka_unit_test(a_line_passes_under_a_body_with_a_bottom),
+        cmocka_unit_test(a_van_costs_a_knife_edge_under_it),
         cmocka_unit_test(a_line_inside_from_end_to_end_is_free),
         cmocka_unit_test(soft_shadows_begin_where_hard_ones_do),
         cmocka_unit_test(a_factor_that_diffraction_or_height_changes_is_marked),

@@ -794,9 +794,9 @@ static void soft_shadows_count_once_for_every_leg(void **state)
         struct box box = {.length_m = 0.3, .width_m = 0.3, .heading = {1, 0}};
         box.motion.position_m = (struct vec2){cases[i].x_m, cases[i].y_m};
         motion_box_outline(&box, corner);
-        double factor =
-            obstruction_of(corner, 4, (double)INFINITY, &cases[i].leg, units_wavelength_m(77e9))
-                .factor;
+        double factor = obstruction_of(corner, 4, (struct obstruction_heights){0, (double)INFINITY},
+                                       &cases[i].leg, units_wavelength_m(77e9))
+                            .factor;
         assert_true(factor > 0.01 && factor < 0.99);
         assert_near(ercs[1][0] / ercs[0][0], pow(factor, cases[i].one_way), 1e-9);
         assert_near(ercs[1][1] / ercs[0][1], pow(factor, cases[i].both), 1e-9);

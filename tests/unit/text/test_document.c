@@ -201,7 +201,8 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
          "facing_rad, full_rad, zero_rad, shape, ercs, moving_part, under_vehicles, lobe"},
         {"true", "1", "reflectors.blocks: a number; expected true or false"},
         {"\"blocks\": true", "\"objects\": []",
-         "reflectors.objects: unknown key; expected one of blocks, raised, points, planes, "
+         "reflectors.objects: unknown key; expected one of blocks, raised, clearance_m, points, "
+         "planes, "
          "rows, mirrors"},
         {"[{", "[3, {", "reflectors.points[0]: a number; expected an object"},
         {"\"ercs\": 1", "\"ercs\": 1, \"shape\": \"flat\"",
