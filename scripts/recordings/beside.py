@@ -124,8 +124,8 @@ def print_marginals(second, results, threshold_db):
 
 
 def print_components(second, fit, folder, scores):
-    """The components of the best chain whose replacement costs most."""
-    best = min((chain for chain in scores), key=lambda chain: sum(scores[chain].values()))
+    """The components whose replacement costs most, of the best chain with all effects."""
+    best = min((chain for chain in scores if chain.effects == "auto"), key=lambda chain: sum(scores[chain].values()))
     suite, scans, lost = fitted.write_suite(fit, folder), len(second.scans), []
     listed = subprocess.run([chains.GLINT, "--list", "effects"], check=True, stdout=subprocess.PIPE, text=True).stdout
     trials = [(f"without {name}", best._replace(effects=f"all,-{name}"), suite)
