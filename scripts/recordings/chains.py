@@ -4,6 +4,7 @@ import math
 import os
 import resource
 import subprocess
+import sys
 import tempfile
 from collections import namedtuple
 
@@ -49,11 +50,13 @@ def run(chain, suite, law, scans, speeds, seeds=SEEDS, first=1):
         text = (f"glint-extract '{traffic.name}' | glint-ideal --sensors '{suite}' --effects {chain.effects} --sections none"
                 f" | {chain.sensor} | {chain.noise}")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        made = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=os.path.join(ROOT, chain.data)),
-                              check=True, stdout=subprocess.PIPE).stdout
+        done = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=os.path.join(ROOT, chain.data)),
+                              check=False, stdout=subprocess.PIPE)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode:
+        sys.exit(f"realism: {text}: exit status {done.returncode}")
     spent_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    lists = [[detection(target, law) for target in json.loads(line)["targets"]] for line in made.splitlines()]
+    lists = [[detection(target, law) for target in json.loads(line)["targets"]] for line in done.stdout.splitlines()]
     return ([lists[i:i + len(scans)] for i in range(0, len(lists), len(scans))], 1e6 * spent_s / (seeds * len(scans)))
 
 
