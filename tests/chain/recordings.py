@@ -9,6 +9,7 @@ aimotive-front in GLINT_TEST_DATA; of it only the figures of its page are checke
 import json
 import math
 import os
+import random
 import struct
 import subprocess
 import sys
@@ -35,7 +36,9 @@ LAW = fitted.Curve([(1, 68.0), (10, 44.0), (1000, -4.0)], [(math.radians(one), -
 VEHICLES = [("near", "car", 28.0, 3.6, 2.5), ("van", "van", 45.0, -3.5, -4.0), ("far", "car", 70.0, 0.2, 1.0),
             ("truck", "truck", 95.0, -3.6, -5.0)]
 SIZES = {"car": (4.5, 1.8, 1.5), "van": (5.5, 2.0, 2.3), "truck": (10.0, 2.5, 3.5), "post": (0.1, 0.1, 1.0)}
-STEADY = {"level_constant_db": 0, "level_slow_db": 0, "level_fast_db": 0}  # as truth() has them
+# Members that lists do not show, as truth() has them.
+UNSEEN = {"level_constant_db": 0, "level_slow_db": 0, "level_fast_db": 0, "diffraction": False, "curved_sides": False,
+          "micro_motion": False, "bounces": 0}
 faults = []
 
 
@@ -47,13 +50,14 @@ def check(good, text):
 
 def world(count):
     """Scans without detections: four vehicles at their own rates, and posts on both sides of the road."""
-    scans = []
+    scans, generator = [], random.Random(5)
+    places = [generator.random() for _ in range(180)]
     for i in range(count):
         then, boxes = i * INTERVAL_S, []
         for name, kind, x, y, vx in VEHICLES:
             boxes.append(readers.Box(name, kind, x + vx * then, y, 0.0, vx, 0.0, *SIZES[kind]))
         for k in range(180):
-            x = 4.5 * k + 3 * math.sin(7 * k) - EGO_MPS * then
+            x = 4.5 * (k + places[k]) - EGO_MPS * then
             if 0 < x < 180:
                 boxes.append(readers.Box(f"post{k}", "post", x, 6.0 if k % 2 else -7.0, 0.0, -EGO_MPS, 0.0, *SIZES["post"]))
         scans.append(readers.Scan(then, [], boxes))
@@ -102,7 +106,7 @@ def the_first_half_gives_back_the_law(folder, scans):
             ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03),
             ("range_rate_sigma_mps", fit.sensor["range_rate_sigma_mps"], 0.02, 0.015)):
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} planted")
-    check(1.4 <= fit.sensor["cell_range_m"] < 3.2, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
+    check(1.3 <= fit.sensor["cell_range_m"] < 2.6, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
 
 
 def second_half(scans):
@@ -174,6 +178,18 @@ def energy_scores_follow_their_closed_form():
         check(abs(score.energy_score(lists, []) - expected) < 1e-12, f"energy score of {seen} in 8")
 
 
+def intervals_of_20_blocks_hold_the_expected_ratio(trials=80, scans=200):
+    """Nine of ten of scans that depend on their neighbours (of 400 tries 366 did, and 316 of 25 scans)."""
+    held = 0
+    for trial in range(trials):
+        generator = random.Random(trial)
+        shared = [generator.gauss(0, 1) for _ in range(scans + 3)]
+        parts = {("1", i): 0.4 + 0.2 * sum(shared[i:i + 3]) for i in range(scans)}
+        _, least, most = score.share(parts, {key: 1 for key in parts}, scans, 200)
+        held += least <= 0.4 <= most
+    check(held >= 0.85 * trials, f"intervals of {scans} scans held {held} of {trials}")
+
+
 def places_turn_with_their_box():
     """A box that heads left has what lies farther left ahead of it; its nearest point is on its side."""
     box = readers.Box("1", "car", 20.0, 5.0, math.pi / 2, 0, 0, 4.0, 2.0, 1.5)
@@ -239,7 +255,7 @@ def recordings_of_the_same_law(count):
             os.makedirs(own, exist_ok=True)
             for how, (place, fit) in {"known": (suite, truth()), "fitted": (None, found)}.items():
                 part = beside.part(fit, RADAR, second.scans)
-                lists, _ = chains.run(CHAIN, place or fitted.write_suite(fit, own, **STEADY, fluctuation="log_normal"),
+                lists, _ = chains.run(CHAIN, place or fitted.write_suite(fit, own, **UNSEEN, fluctuation="log_normal"),
                                       LAW, part.scans, part.speeds, first=seed * 100)
                 red = outside(part, [marginals.values(part, one, fit.sensor["threshold_db"]) for one in lists])
                 for name in marginals.values(part, [scan.detections for scan in part.scans], fit.sensor["threshold_db"]):
@@ -255,6 +271,7 @@ def main():
         recordings_of_the_same_law(200)
         return
     energy_scores_follow_their_closed_form()
+    intervals_of_20_blocks_hold_the_expected_ratio()
     places_turn_with_their_box()
     with tempfile.TemporaryDirectory() as folder:
         suite = fitted.write_suite(truth(), folder)
