@@ -26,6 +26,7 @@ CLASSES = {"car": "car", "van": "van", "truck": "truck", "truck/bus": "truck", "
            "motor": "motorcycle", "moped_scooter": "motorcycle", "bike": "bicycle", "bicycle": "bicycle",
            "cyclist": "bicycle", "pedestrian": "pedestrian"}
 STANDING = {"post", "guardrail", "wall"}  # classes that are no road users
+MOST = 400  # scans, so that 39 lists of each fit into memory
 ARTICULATED_M = 12  # longer trucks are articulated
 KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
 
@@ -40,8 +41,9 @@ def read(folder):
                 sys.exit(f"realism: {found}: {type(error).__name__}: {error}")
             if len(recording.scans) < 4 or not any(scan.detections for scan in recording.scans):
                 sys.exit(f"realism: {found}: expected four scans or more, with detections")
-            return recording._replace(scans=statics.retimed(recording.radar, recording.scans),
-                                      notes=recording.notes + lacks(recording.scans))
+            scans = recording.scans[:MOST]
+            return recording._replace(scans=statics.retimed(recording.radar, scans), notes=recording.notes + lacks(scans) + (
+                [f"scans after the first {MOST} are left out"] if len(recording.scans) > MOST else []))
     sys.exit(f"realism: {folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)")
 
 
