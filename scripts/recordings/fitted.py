@@ -17,9 +17,9 @@ Fit = namedtuple("Fit", "annotation curve azimuth_noise sensor")
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
 # Members that lists do not show, and figures for which a half may have too few detections: those of lrr77-full.
-SHIPPED = ("range_floor_m diffraction curved_sides micro_motion bounces antenna_pattern phase_reference angle_estimator "
-           "final_threshold list_order list_limit azimuth_sigma_rad cell_range_m cell_range_rate_mps range_sigma_m "
-           "range_rate_sigma_mps").split()
+SHIPPED = ("range_min_m range_floor_m diffraction curved_sides micro_motion bounces antenna_pattern phase_reference "
+           "angle_estimator final_threshold list_order list_limit azimuth_sigma_rad cell_range_m cell_range_rate_mps "
+           "range_sigma_m range_rate_sigma_mps").split()
 LEVEL = "[A] the middle between two 77 GHz radars on roads (MODEL 14.22)"
 ASSUMED = {"cell_phase": ("by_path", "[A] as lrr77-coherent"), "cell_extent": ("half_width", "[A] a least distance"),
            "pointer_sigma": (1, "[A] amplitudes are ratios to the noise"), "level_keeps": ("median", "[A] a typical body"),
@@ -155,8 +155,8 @@ def fit(recording):
     scans = completed(recording.scans, law)
     scatter, azimuth_noise = noise(radar, scans)
     found = {"mount_x_m": radar.x_m, "mount_y_m": radar.y_m, "mount_yaw_rad": radar.yaw_rad, "carrier_hz": radar.carrier_hz,
-             "range_min_m": min(one.range_m for one in detections), "range_max_m": max(one.range_m for one in detections),
-             "field_of_view_rad": 2 * law.over_azimuth[-1][0], "threshold_db": threshold_db,
+             "range_max_m": max(one.range_m for one in detections), "threshold_db": threshold_db,
+             "field_of_view_rad": 2 * law.over_azimuth[-1][0],
              "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "antenna_table": "antenna.csv", **cells(scans),
              **scatter}
     with open(os.path.join(ROOT, "data", "sensors", "lrr77-full.json"), encoding="utf-8") as file:
