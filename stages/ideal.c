@@ -3,6 +3,7 @@
 #include "ideal/direct_echoes.h"
 #include "ideal/ghost_echoes.h"
 #include "ideal/look.h"
+#include "ideal/roadside_echoes.h"
 #include "radar/scan_timing.h"
 #include "run/suite_choice.h"
 
@@ -70,6 +71,7 @@ static int add_sensor(struct frame *frame, const struct sensor *sensor,
         return -1;
     direct_echoes_add(&look);
     ghost_echoes_add(&look);
+    roadside_echoes_add(&look);
     effects_count_scan(selection);
     return 0;
 }

@@ -44,6 +44,27 @@ void random_gaussian_pair(const struct random_address *address, enum random_purp
     make_gaussian(uniform, gaussian);
 }
 
+double random_gaussian_exceeded(double probability)
+{
+    double offset = 0.5 - probability;
+    if (fabs(offset) <= 0.425) {
+        double r = 0.180625 - offset * offset;
+        return offset * (((59.10937472 * r + 159.29113202) * r + 50.434271938) * r + 3.3871327179) /
+               (((67.1875636 * r + 78.757757664) * r + 17.895169469) * r + 1);
+    }
+    double r = sqrt(-elementary_log(offset > 0 ? probability : 1 - probability)), value;
+    if (r <= 5) {
+        r -= 1.6;
+        value = (((0.17023821103 * r + 1.3067284816) * r + 2.75681539) * r + 1.4234372777) /
+                ((0.12021132975 * r + 0.7370016425) * r + 1);
+    } else {
+        r -= 5;
+        value = (((0.017337203997 * r + 0.42868294337) * r + 3.081226386) * r + 6.657905115) /
+                ((0.012258202635 * r + 0.24197894225) * r + 1);
+    }
+    return offset > 0 ? value : -value;
+}
+
 struct random_sequence random_sequence_at(struct random_address address,
                                           enum random_purpose purpose)
 {

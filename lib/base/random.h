@@ -34,6 +34,8 @@ enum random_purpose {
     RANDOM_LEVEL = 19,          /* the part of a body's level that stays */
     RANDOM_LEVEL_SLOW = 20,     /* knots of the part that changes as body and ego drive */
     RANDOM_LEVEL_FAST = 21,     /* knots of the part that changes with aspect and range */
+    RANDOM_ROADSIDE = 22,       /* per scene, strip and cell: what stands beside the road, with the
+                                 * strip and the cell in place of frame, sensor and item */
     RANDOM_OWN = 1 << 16,       /* any number from here to 2^31 - 1, one for each purpose of the
                                  * stages that run together */
 };
@@ -62,6 +64,10 @@ void random_gaussian(const struct random_address *address, enum random_purpose p
 /* The first two of the draws of random_gaussian. */
 void random_gaussian_pair(const struct random_address *address, enum random_purpose purpose,
                           uint32_t index, double gaussian[2]);
+
+/* The value that a standard Gaussian exceeds with this probability in (0, 1), within 2e-7 of its
+ * size or of 1: algorithm AS 241, PPND7 (Wichura 1988). It falls with the probability. */
+double random_gaussian_exceeded(double probability);
 
 /* The draws at one address, one after another. */
 struct random_sequence {

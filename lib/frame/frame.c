@@ -337,14 +337,18 @@ static uint64_t hash_echo_id(struct echo_id id)
     return hash;
 }
 
+struct random_address frame_draw_address_of_scene(const struct frame *frame)
+{
+    return (struct random_address){.seed = frame->seed,
+                                   .scene = hash_text(HASH_START, frame->scene)};
+}
+
 struct random_address frame_draw_address_of_scan(const struct frame *frame, const char *sensor)
 {
-    return (struct random_address){
-        .seed = frame->seed,
-        .scene = hash_text(HASH_START, frame->scene),
-        .frame = (uint64_t)frame->frame,
-        .sensor = hash_text(HASH_START, sensor),
-    };
+    struct random_address address = frame_draw_address_of_scene(frame);
+    address.frame = (uint64_t)frame->frame;
+    address.sensor = hash_text(HASH_START, sensor);
+    return address;
 }
 
 struct random_address frame_draw_address_in(struct random_address scan, struct echo_id id)

@@ -19,6 +19,7 @@
 #include "frame/reflectors.h"
 #include "frame/sections.h"
 #include "frame/sightings.h"
+#include "propagation/roadside.h"
 #include "radar/antenna.h"
 #include "text/field.h"
 
@@ -100,7 +101,7 @@ enum path {
     PATH_WALL_OBJECT_WALL, /* sensor, wall, object, wall, sensor */
     PATH_WHEEL,            /* direct, from a point on a rolling wheel */
     PATH_LIMB,             /* direct, from an arm or a leg */
-    PATH_CLUTTER,          /* direct, from the ground */
+    PATH_CLUTTER,          /* direct, from the ground or the roadside */
     PATH_FALSE_ALARM,      /* no echo but noise */
     PATH_COUNT,
 };
@@ -251,6 +252,7 @@ struct frame {
     double origin_x_m, origin_y_m;
     uint64_t sections; /* set of enum carried: the choice of what it carries */
     struct conditions conditions;
+    LIST_OF(struct roadside_strip) roadside; /* the same in every frame of a scene */
     LIST_OF(struct object) objects;
     LIST_OF(struct class_document) vehicles; /* by class; empty before extraction */
     LIST_OF(struct reflector_set) reflectors;
@@ -393,6 +395,9 @@ struct target *frame_add_target(struct frame *frame, const struct cell *cell, do
 /* Addresses of random numbers (random.h) contain the frame's seed, scene and number, the sensor and
  * the identity of the echo; of a cell, of its leader. The address of a scan contains no echo. */
 struct random_address frame_draw_address_of_scan(const struct frame *frame, const char *sensor);
+
+/* The address of the scene, for what is the same in all its frames and for all sensors. */
+struct random_address frame_draw_address_of_scene(const struct frame *frame);
 
 /* The address of an echo in that scan. */
 struct random_address frame_draw_address_in(struct random_address scan, struct echo_id id);

@@ -160,7 +160,7 @@ static bool is_surely_lost(const struct look *look, const struct look_body *body
         return false;
     struct silhouette place =
         silhouette_of_place(vec2_sub(candidate->place, look->pose.position_m));
-    if (look->selection->log == NULL && look_out_of_reach(look, body, &place))
+    if (look->selection->log == NULL && look_out_of_reach(look, body->object->height_m, &place))
         return true;
     find_line_of_sight(look, candidate);
     return candidate->line_of_sight.by != NULL;
@@ -351,7 +351,7 @@ static bool is_skipped(struct look *look, const struct look_body *body, const st
     struct look_extent extent = look_reflectors_extent(look, body, set);
     bool skippable =
         !reports_all(look) && look->selection->log == NULL && set->reflectors->rows.count == 0;
-    if (skippable && look_out_of_reach(look, body, &extent.silhouette))
+    if (skippable && look_out_of_reach(look, body->object->height_m, &extent.silhouette))
         return true;
     line_of_sight_find_blockers(look, body, &extent);
     return skippable && !effects_forced(look->selection, EFFECT_OCCLUSION) &&

@@ -357,7 +357,7 @@ static bool may_have_path(const struct look *look, const struct look_body *body,
     struct silhouette straight = silhouette_of_place(vec2_sub(place, look->pose.position_m));
     struct silhouette mirrored = silhouette_of_place(vec2_sub(bounce, look->pose.position_m));
     if (!effects_forced(look->selection, EFFECT_GHOSTS) && look_out_of_view(look, &mirrored) &&
-        look_out_of_reach(look, body, &straight))
+        look_out_of_reach(look, body->object->height_m, &straight))
         return false;
     double onward_m = vec2_length(vec2_sub(place, bounce));
     double way_m = mirrored.nearest_m + onward_m + straight.nearest_m;
@@ -471,7 +471,7 @@ static void add_ghosts_of(struct look *look, const struct mirror_faces *faces,
     const struct reflectors_shape *shape = body->set->shape;
     double radius_m = shape->share * body->radius_m + shape->inset_m;
     struct look_extent extent = look_reflectors_extent(look, body, body->set);
-    bool in_view = all || !look_out_of_reach(look, body, &extent.silhouette);
+    bool in_view = all || !look_out_of_reach(look, body->object->height_m, &extent.silhouette);
     if (!in_view && look_out_of_range(look, &extent.silhouette))
         return;
     for (size_t i = 0; i < faces->list.count; i++) {

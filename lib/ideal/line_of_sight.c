@@ -153,6 +153,14 @@ bool line_of_sight_next_side_has_foot(const struct look *look, const struct side
     return false;
 }
 
+void line_of_sight_note(const struct look *look, bool some)
+{
+    const struct selection *selection = look->selection;
+    effects_note(selection, EFFECT_OCCLUSION, some);
+    effects_note(selection, EFFECT_HEIGHT, look->sees_over && some);
+    effects_note(selection, EFFECT_DIFFRACTION, look->wavelength_m > 0 && some);
+}
+
 void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
                                  const struct look_extent *wanted)
 {
@@ -171,10 +179,7 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
             (size_t)((body != own) &
                      (all | silhouette_overlaps(&body->shadow.silhouette, &wanted->silhouette)));
     }
-    bool some = all || look->blocker_count > 0;
-    effects_note(selection, EFFECT_OCCLUSION, some);
-    effects_note(selection, EFFECT_HEIGHT, look->sees_over && some);
-    effects_note(selection, EFFECT_DIFFRACTION, look->wavelength_m > 0 && some);
+    line_of_sight_note(look, all || look->blocker_count > 0);
 }
 
 /* True if a body hides everything behind its outline. */

@@ -35,6 +35,9 @@ struct side line_of_sight_side(const struct look_body *body, double from_x, doub
  * there, which then has the foot (hard case 33). */
 bool line_of_sight_next_side_has_foot(const struct look *look, const struct side *side);
 
+/* Notes in the selection's log that bodies may hide something, or that none can. */
+void line_of_sight_note(const struct look *look, bool some);
+
 /* Sets look->blockers to the bodies that may hide reflectors of own within an extent. Under auto
  * their shadows overlap the extent; with forced occlusion they are all bodies that block, except
  * own; without occlusion there are none. */

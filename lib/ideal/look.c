@@ -230,11 +230,10 @@ bool look_out_of_view(const struct look *look, const struct silhouette *silhouet
     return silhouette_outside(silhouette, look->view_right, look->view_left);
 }
 
-bool look_out_of_reach(const struct look *look, const struct look_body *body,
+bool look_out_of_reach(const struct look *look, double height_m,
                        const struct silhouette *silhouette)
 {
-    double rise_m =
-        look->height_m > 0 ? elementary_max(look->height_m, 2 * body->object->height_m) : 0;
+    double rise_m = look->height_m > 0 ? elementary_max(look->height_m, 2 * height_m) : 0;
     return look_out_of_range(look, silhouette) ||
            (silhouette->nearest_m > LEVEL * rise_m && look_out_of_view(look, silhouette));
 }

@@ -113,8 +113,9 @@ struct margins look_sight_margins(const struct look *look, double margin_m);
 bool look_out_of_range(const struct look *look, const struct silhouette *silhouette);
 bool look_out_of_view(const struct look *look, const struct silhouette *silhouette);
 
-/* True only if nothing of the body within the silhouette can be in range and in view. */
-bool look_out_of_reach(const struct look *look, const struct look_body *body,
+/* True only if nothing up to this height over the road within the silhouette can be in range and in
+ * view. */
+bool look_out_of_reach(const struct look *look, double height_m,
                        const struct silhouette *silhouette);
 
 /* Factor on a point's ERCS towards a viewer, which is the sensor or a bounce on the way to it: the

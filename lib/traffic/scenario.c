@@ -52,6 +52,8 @@ static const struct field scenario_fields[] = {
     {FIELD_REAL_IN(struct scenario, rate_hz, 0.1, 1e4, "frames in a second")},
     {FIELD_REAL_IN(struct scenario, duration_s, 0, 1e6, "the last frame is not later")},
     {OPTIONAL_RECORD(struct scenario, conditions, &conditions_record, "road and weather")},
+    {OPTIONAL_LIST(struct scenario, roadside, &roadside_strip_record,
+                   "what stands still beside the road and is no object")},
     {FIELD_LIST_OF(struct scenario, objects, &actor_record,
                    "all objects, the ego too unless it is one of roads")},
     {OPTIONAL_LIST(struct scenario, roads, &roadway_record,
@@ -178,8 +180,18 @@ static void shift_actor(struct actor *actor, struct vec2 origin_m)
     actor->y_m -= origin_m.y;
 }
 
+static void shift_strip(struct roadside_strip *strip, struct vec2 origin_m)
+{
+    strip->from_x_m -= origin_m.x;
+    strip->from_y_m -= origin_m.y;
+    strip->to_x_m -= origin_m.x;
+    strip->to_y_m -= origin_m.y;
+}
+
 void scenario_shift(struct scenario *scenario, struct vec2 origin_m)
 {
+    for (size_t i = 0; i < scenario->roadside.count; i++)
+        shift_strip(&scenario->roadside.items[i], origin_m);
     for (size_t i = 0; i < scenario->objects.count; i++)
         shift_actor(&scenario->objects.items[i], origin_m);
     for (size_t i = 0; i < scenario->roads.count; i++)
@@ -446,6 +458,8 @@ void scenario_fill(const struct scenario *scenario, int64_t number, struct frame
     frame->time_s = scenario_time_s(scenario, number);
     frame->interval_s = 1 / scenario->rate_hz;
     frame->conditions = scenario->conditions;
+    frame->roadside.items = scenario->roadside.items;
+    frame->roadside.count = scenario->roadside.count;
     for (size_t i = 0; i < scenario->objects.count; i++)
         *list_add(&frame->objects, frame->arena) =
             object_of(&scenario->objects.items[i], frame->time_s);

@@ -40,6 +40,7 @@ struct scenario {
     double rate_hz;
     double duration_s;
     struct conditions conditions;
+    LIST_OF(struct roadside_strip) roadside;
     LIST_OF(struct actor) objects;
     LIST_OF(struct roadway) roads; /* lib/traffic/road_traffic.h */
     double warmup_s;

@@ -398,7 +398,7 @@ const tests = {
                 await page.keyboard.press('n');
                 assert.match(await panelText(page), /echo of noise, nothing but noise, no\. 1/);
                 await page.keyboard.press('n');
-                assert.match(await panelText(page), /echo of clutter, the ground, no\. 1/);
+                assert.match(await panelText(page), /echo of clutter, the ground or roadside, no\. 1/);
                 await page.click('#panel .row');
                 assert.match(await panelText(page), /echo of clutter \(not in this frame\)/);
                 await page.keyboard.press('Escape');

@@ -112,7 +112,7 @@ function showLegend() {
 
 const kindWords = {
     ghost: 'ghost: seen by way of a mirror',
-    clutter: 'clutter: an echo of the ground',
+    clutter: 'clutter: an echo of the ground or roadside',
     false_alarm: 'false alarm: nothing but noise',
 };
 

@@ -45,7 +45,7 @@ function words(name) {
 const otherPaths = {
     wheel: 'a point of a turning wheel',
     limb: 'an arm or a leg',
-    clutter: 'the ground',
+    clutter: 'the ground or roadside',
     false_alarm: 'nothing but noise',
 };
 

@@ -189,6 +189,21 @@ static void neighbouring_addresses_are_uncorrelated(void **state)
     }
 }
 
+/* The density at x times the error of x is the error of the probability. */
+static void a_gaussian_exceeds_the_value_with_the_probability(void **state)
+{
+    (void)state;
+    for (double probability = RANDOM_LEAST; probability < 1; probability *= 1.1) {
+        double value = random_gaussian_exceeded(probability);
+        double density = exp(-value * value / 2) / sqrt(2 * acos(-1));
+        assert_close(0.5 * erfc(value / sqrt(2)), probability,
+                     2e-7 * fmax(1, fabs(value)) * density);
+        assert_close(random_gaussian_exceeded(1 - probability), -value,
+                     probability > 1e-4 ? 1e-9 : 1);
+    }
+    assert_close(random_gaussian_exceeded(0.5), 0, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -201,6 +216,7 @@ int main(void)
         cmocka_unit_test(gaussian_draws_have_gaussian_tails),
         cmocka_unit_test(the_four_gaussians_of_a_block_are_uncorrelated),
         cmocka_unit_test(neighbouring_addresses_are_uncorrelated),
+        cmocka_unit_test(a_gaussian_exceeds_the_value_with_the_probability),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,12 +39,23 @@ static void a_spread_of_0_changes_nothing(void **state)
     assert_close(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo), 1, 0);
 }
 
+static void what_stands_beside_the_road_keeps_its_own_level(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct echo echo = effect_bench_echo(100);
+    bench->sensor.fluctuation = FLUCTUATION_SWERLING_1;
+    assert_true(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo) != 1);
+    echo.effects = EFFECT_BIT(EFFECT_ROADSIDE);
+    assert_close(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo), 1, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(the_factor_follows_the_draw_of_its_echo),
         EFFECT_TEST(another_echo_and_another_scan_have_other_factors),
         EFFECT_TEST(a_spread_of_0_changes_nothing),
+        EFFECT_TEST(what_stands_beside_the_road_keeps_its_own_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

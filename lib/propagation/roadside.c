@@ -1,0 +1,133 @@
+#include "propagation/roadside.h"
+
+#include "radar/radar_equation.h"
+
+/* Length of a cell of a strip without a spacing, and the greatest width of any cell. */
+#define CELL_M 4.0
+
+/* Value of a member that the strip leaves to its kind. */
+#define OF_KIND (-1e3)
+
+const char *const roadside_kinds[] = {
+    [ROADSIDE_OTHER] = "other",           [ROADSIDE_RAIL] = "rail",
+    [ROADSIDE_POLES] = "poles",           [ROADSIDE_KERB] = "kerb",
+    [ROADSIDE_VEGETATION] = "vegetation", NULL};
+
+static const struct field strip_fields[] = {
+    {FIELD_CHOICE_OF(struct roadside_strip, kind, roadside_kinds,
+                     "names the echoes, and has the numbers that are absent here")},
+    {FIELD_REAL_IN(struct roadside_strip, from_x_m, -1e9, 1e9, "where the strip begins")},
+    {FIELD_REAL_IN(struct roadside_strip, from_y_m, -1e9, 1e9, "where the strip begins")},
+    {FIELD_REAL_IN(struct roadside_strip, to_x_m, -1e9, 1e9, "where the strip ends")},
+    {FIELD_REAL_IN(struct roadside_strip, to_y_m, -1e9, 1e9, "where the strip ends")},
+    {OPTIONAL_REAL(struct roadside_strip, width_m, 0, 100, "half of it to each side")},
+    {OPTIONAL_REAL(struct roadside_strip, spacing_m, 0.1, 1e4,
+                   "one scatterer in each such length, at a random place in it")},
+    {OPTIONAL_REAL(struct roadside_strip, per_m2, 0, 10,
+                   "mean number of scatterers; without spacing_m")},
+    {OPTIONAL_REAL(struct roadside_strip, rcs_dbsm, -100, 100, "median cross section"),
+     .absent = OF_KIND},
+    {OPTIONAL_REAL(struct roadside_strip, spread_db, 0, 30,
+                   "standard deviation of the cross sections"),
+     .absent = OF_KIND},
+    {OPTIONAL_REAL(struct roadside_strip, height_m, 0, 100, "top over the road; 0: not known"),
+     .absent = OF_KIND},
+    {0},
+};
+
+const struct record roadside_strip_record = {
+    FIELD_TABLE(struct roadside_strip, strip_fields, "strip",
+                "A straight strip beside the road, and how much on it echoes.")};
+
+/* Where these numbers come from: MODEL 14.23. */
+static const struct roadside_strip kinds[] = {
+    [ROADSIDE_OTHER] = {.rcs_dbsm = -20},
+    [ROADSIDE_RAIL] = {.spacing_m = 4, .rcs_dbsm = -8.5, .spread_db = 9, .height_m = 0.75},
+    [ROADSIDE_POLES] = {.spacing_m = 50, .rcs_dbsm = 0, .spread_db = 6, .height_m = 5},
+    [ROADSIDE_KERB] = {.spacing_m = 2, .rcs_dbsm = -20, .spread_db = 6, .height_m = 0.12},
+    [ROADSIDE_VEGETATION] = {.per_m2 = 0.05, .rcs_dbsm = -20, .spread_db = 9, .height_m = 1},
+};
+
+static double said(double member, double of_kind)
+{
+    return member == OF_KIND ? of_kind : member;
+}
+
+/* Sets the cells: those of a strip without a spacing are thinned out in no place by its length. */
+static void divide(struct roadside_grid *grid, double width_m, double spacing_m, double per_m2)
+{
+    grid->spaced = spacing_m > 0;
+    grid->along_m = grid->spaced ? spacing_m : CELL_M;
+    grid->along_count = (int64_t)ceil(grid->length_m / grid->along_m);
+    grid->across_count = grid->spaced || width_m <= CELL_M ? 1 : (int64_t)ceil(width_m / CELL_M);
+    grid->across_m = width_m / (double)grid->across_count;
+    grid->mean = grid->spaced ? 1 : per_m2 * grid->along_m * grid->across_m;
+}
+
+struct roadside_grid roadside_grid_of(const struct roadside_strip *strip)
+{
+    const struct roadside_strip *kind = &kinds[strip->kind];
+    const struct roadside_strip *number = strip->spacing_m > 0 || strip->per_m2 > 0 ? strip : kind;
+    struct vec2 from = {strip->from_x_m, strip->from_y_m}, to = {strip->to_x_m, strip->to_y_m};
+    struct vec2 run = vec2_sub(to, from);
+    double median_dbsm = said(strip->rcs_dbsm, kind->rcs_dbsm);
+    struct roadside_grid grid = {
+        .from_m = from,
+        .length_m = vec2_length(run),
+        .median_ercs = radar_ercs(radar_cross_section_from_dbsm_m2(median_dbsm)),
+        .spread = said(strip->spread_db, kind->spread_db) * (elementary_log(10) / 20),
+        .height_m = said(strip->height_m, kind->height_m),
+    };
+    divide(&grid, strip->width_m, number->spacing_m, number->per_m2);
+    if (grid.length_m > 0)
+        grid.heading = vec2_scale(1 / grid.length_m, run);
+    return grid;
+}
+
+/* The place at distances in cells from the beginning and from the right border. */
+static struct vec2 place_at(const struct roadside_grid *grid, double along, double across)
+{
+    double left_m = (across - 0.5 * (double)grid->across_count) * grid->across_m;
+    struct vec2 ahead = vec2_scale(along * grid->along_m, grid->heading);
+    return vec2_add(vec2_add(grid->from_m, ahead), vec2_scale(left_m, vec2_left(grid->heading)));
+}
+
+struct vec2 roadside_cell_middle(const struct roadside_grid *grid, int64_t along, int64_t across)
+{
+    return place_at(grid, (double)along + 0.5, (double)across + 0.5);
+}
+
+struct roadside_series roadside_series_of(const struct roadside_grid *grid,
+                                          struct random_address scene, size_t strip, int64_t along,
+                                          int64_t across)
+{
+    scene.frame = strip;
+    scene.sensor = (uint64_t)along;
+    scene.item = (uint64_t)across;
+    return (struct roadside_series){
+        .grid = grid, .address = scene, .along = along, .across = across};
+}
+
+bool roadside_next(struct roadside_series *series, double least_ercs,
+                   struct roadside_scatterer *found)
+{
+    const struct roadside_grid *grid = series->grid;
+    double uniform[4], along;
+    do {
+        if (grid->spaced && series->taken > 0)
+            return false;
+        random_uniform(&series->address, RANDOM_ROADSIDE, series->taken, uniform);
+        series->waited -= elementary_log(uniform[0]);
+        double stronger = grid->spaced ? uniform[0] : series->waited / grid->mean;
+        if (!(stronger < 1))
+            return false;
+        found->rank = series->taken++;
+        found->ercs =
+            grid->median_ercs * elementary_exp(grid->spread * random_gaussian_exceeded(stronger));
+        if (found->ercs < least_ercs)
+            return false;
+        along = (double)series->along + uniform[1];
+    } while (along * grid->along_m > grid->length_m);
+    found->place_m = place_at(grid, along, (double)series->across + uniform[2]);
+    return true;
+}

@@ -1,0 +1,222 @@
+#include "support/look_scene.h"
+
+#include "frame/frame_order.h"
+#include "geometry/obstruction.h"
+#include "ideal/roadside_echoes.h"
+
+/* A rail and a meadow along x, and a rail across. */
+static void add_roadside(struct scene *scene)
+{
+    static const struct roadside_strip strips[] = {
+        {.kind = ROADSIDE_RAIL,
+         .from_x_m = -200,
+         .from_y_m = 6,
+         .to_x_m = 300,
+         .to_y_m = 6,
+         .spacing_m = 4,
+         .rcs_dbsm = -8,
+         .spread_db = 9},
+        {.kind = ROADSIDE_VEGETATION,
+         .from_x_m = -200,
+         .from_y_m = -15,
+         .to_x_m = 300,
+         .to_y_m = -15,
+         .width_m = 14,
+         .per_m2 = 0.05,
+         .rcs_dbsm = -20,
+         .spread_db = 9},
+        {.kind = ROADSIDE_RAIL,
+         .from_x_m = 60,
+         .from_y_m = -40,
+         .to_x_m = 55,
+         .to_y_m = 40,
+         .spacing_m = 3,
+         .rcs_dbsm = -8,
+         .spread_db = 9},
+    };
+    for (size_t i = 0; i < sizeof strips / sizeof strips[0]; i++)
+        *list_add(&scene->frame.roadside, &scene->arena) = strips[i];
+    scene->sensor.threshold_db = 6;
+    scene->sensor.calibration_ercs = 0.2;
+    scene->sensor.calibration_range_m = 60;
+    scene->sensor.exponent = 2;
+    scene->sensor.range_floor_m = 0.5;
+    suite_derive(&scene->sensor);
+}
+
+/* The echoes that a selection makes now, by number, in a list that stays. */
+static struct echo_span see_as(struct scene *scene, const struct selection *selection,
+                               struct look *look)
+{
+    struct diag diag = {0};
+    size_t before = scene->frame.echoes.count;
+    if (look_begin(look, &scene->frame, &scene->sensor, selection, scene->frame.time_s, &diag) != 0)
+        fail_msg("%s", diag.text);
+    roadside_echoes_add(look);
+    size_t count = scene->frame.echoes.count - before;
+    struct echo *copy = arena_get(&scene->arena, (count + 1) * sizeof *copy);
+    memcpy(copy, scene->frame.echoes.items + before, count * sizeof *copy);
+    return (struct echo_span){copy, count};
+}
+
+static const struct echo *find(struct echo_span echoes, const struct echo *wanted)
+{
+    for (size_t i = 0; i < echoes.count; i++)
+        if (frame_order_echo_ids(&echoes.items[i].id, &wanted->id) == 0)
+            return &echoes.items[i];
+    return NULL;
+}
+
+static struct vec2 world_place(const struct look *look, const struct echo *echo)
+{
+    struct vec2 ray = vec2_turn(vec2_heading(echo->azimuth_rad), look->pose.boresight);
+    return vec2_add(look->pose.position_m, vec2_scale(echo->range_m, ray));
+}
+
+static void the_same_scatterer_stays_in_the_world(void **state)
+{
+    struct scene *scene = *state;
+    struct look first, second;
+    add_roadside(scene);
+    struct echo_span before = see_as(scene, &automatic, &first);
+    struct object *ego = frame_object(&scene->frame, "e");
+    scene->frame.frame = 9;
+    scene->frame.time_s = 10.4;
+    scene->sensor.name = "corner";
+    scene->sensor.mount_x_m = 2;
+    scene->sensor.mount_y_m = 1;
+    scene->sensor.mount_yaw_rad = 0.3;
+    ego->x_m = 12;
+    ego->y_m = 1;
+    ego->yaw_rad = 0.1;
+    struct echo_span after = see_as(scene, &automatic, &second);
+    int same = 0;
+    for (size_t i = 0; i < before.count; i++) {
+        const struct echo *again = find(after, &before.items[i]);
+        if (again == NULL)
+            continue;
+        struct vec2 was = world_place(&first, &before.items[i]);
+        struct vec2 is = world_place(&second, again);
+        assert_close(is.x, was.x, 1e-9);
+        assert_close(is.y, was.y, 1e-9);
+        same++;
+    }
+    assert_in_range(before.count, 60, 400);
+    assert_true(same > (int)before.count / 2);
+}
+
+static void scatterers_stand_and_have_labels_of_their_own(void **state)
+{
+    struct scene *scene = *state;
+    struct look look;
+    add_roadside(scene);
+    struct object *ego = frame_object(&scene->frame, "e");
+    ego->vx_mps = 20;
+    ego->vy_mps = 1;
+    struct echo_span echoes = see_as(scene, &automatic, &look);
+    for (size_t i = 0; i < echoes.count; i++) {
+        const struct echo *echo = &echoes.items[i];
+        assert_close(echo->range_rate_mps,
+                     -20 * cos(echo->azimuth_rad) - 1 * sin(echo->azimuth_rad), 1e-9);
+        assert_string_equal(echo->id.object, "roadside");
+        assert_int_equal(echo->id.path, PATH_CLUTTER);
+        assert_true(echo->effects == EFFECT_BIT(EFFECT_ROADSIDE));
+        for (size_t j = 0; j < i; j++)
+            assert_true(frame_order_echo_ids(&echoes.items[j].id, &echo->id) != 0);
+    }
+    assert_int_equal(frame_counted_echoes(&scene->frame.counts.items[0], PATH_CLUTTER),
+                     echoes.count);
+}
+
+/* A car 20 m ahead, 4 m by 2 m, between the sensor and the cross rail. */
+static void a_body_hides_what_stands_behind_it(void **state)
+{
+    struct scene *scene = *state;
+    struct look look;
+    add_roadside(scene);
+    struct echo_span open = see_as(scene, &automatic, &look);
+    add_object(scene, "car", 20, 0);
+    add_set(scene, "car");
+    struct echo_span behind = see_as(scene, &automatic, &look);
+    int hidden = 0;
+    for (size_t i = 0; i < open.count; i++) {
+        struct vec2 place = world_place(&look, &open.items[i]);
+        bool blocked = obstruction_blocks(look.bodies[0].corner, 4, (struct vec2){0, 0}, place);
+        assert_true(blocked == (find(behind, &open.items[i]) == NULL));
+        hidden += blocked;
+    }
+    assert_int_equal(open.count - behind.count, hidden);
+    assert_true(hidden > 1);
+}
+
+/* 9 dB more of threshold leave out what is weaker by that much, and change no other echo. */
+static void a_higher_threshold_only_leaves_out_the_weakest(void **state)
+{
+    struct scene *scene = *state;
+    struct look look;
+    add_roadside(scene);
+    struct echo_span all = see_as(scene, &automatic, &look);
+    double weakest = 1;
+    scene->sensor.calibration_ercs *= pow(10, 9.0 / 20);
+    suite_derive(&scene->sensor);
+    struct echo_span strong = see_as(scene, &automatic, &look);
+    assert_true(strong.count > 20 && strong.count < all.count);
+    for (size_t i = 0; i < all.count; i++) {
+        const struct echo *echo = find(strong, &all.items[i]);
+        if (echo == NULL)
+            continue;
+        assert_memory_equal(echo, &all.items[i], sizeof *echo);
+        weakest = fmin(weakest, echo->ercs * pow(60 / echo->range_m, 2));
+    }
+    assert_near(weakest, 0.1 * 0.2 * pow(10, 9.0 / 20), 0.3);
+}
+
+static void auto_makes_the_echoes_of_all(void **state)
+{
+    struct scene *scene = *state;
+    uint64_t random = 5;
+    add_roadside(scene);
+    add_random_bodies(scene, &random);
+    for (int i = 0; i < 60; i++) {
+        struct look look;
+        struct object *ego = frame_object(&scene->frame, "e");
+        scene->sensor.field_of_view_rad = i % 2 == 0 ? 0.5 : 2 * PI;
+        scene->sensor.mount_z_m = i % 3 == 0 ? 0.5 : 0;
+        scene->sensor.range_max_m = sample_between(&random, 5, 150);
+        ego->x_m = sample_between(&random, -250, 350);
+        ego->y_m = sample_between(&random, -60, 60);
+        ego->yaw_rad = sample_between(&random, -PI, PI);
+        struct echo_span few = see_as(scene, &automatic, &look);
+        struct echo_span all = see_as(scene, &everything, &look);
+        assert_int_equal(few.count, all.count);
+        assert_memory_equal(few.items, all.items, few.count * sizeof *few.items);
+    }
+}
+
+static void without_strips_or_the_effect_there_are_no_echoes(void **state)
+{
+    struct scene *scene = *state;
+    struct look look;
+    struct effect_log log = {0};
+    struct selection none = {.allowed = EFFECT_BIT(EFFECT_OCCLUSION), .log = &log};
+    assert_int_equal(see_as(scene, &everything, &look).count, 0);
+    add_roadside(scene);
+    assert_int_equal(see_as(scene, &none, &look).count, 0);
+    assert_true(log.left_out == EFFECT_BIT(EFFECT_ROADSIDE));
+    none.allowed |= EFFECT_BIT(EFFECT_ROADSIDE);
+    assert_true(see_as(scene, &none, &look).count > 0);
+    assert_true((log.simulated & EFFECT_BIT(EFFECT_ROADSIDE)) != 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        SCENE_TEST(the_same_scatterer_stays_in_the_world),
+        SCENE_TEST(scatterers_stand_and_have_labels_of_their_own),
+        SCENE_TEST(a_body_hides_what_stands_behind_it),
+        SCENE_TEST(a_higher_threshold_only_leaves_out_the_weakest),
+        SCENE_TEST(auto_makes_the_echoes_of_all),
+        SCENE_TEST(without_strips_or_the_effect_there_are_no_echoes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
