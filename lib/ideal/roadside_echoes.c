@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "ideal/line_of_sight.h"
+#include "radar/level.h"
 
 /* The least amplitude of an echo over the threshold. */
 #define FAINTEST 0.1
@@ -12,6 +13,7 @@ struct roadside {
     struct roadside_grid grid;
     struct random_address scene; /* address of what is drawn */
     struct echo echo;            /* what all its echoes have in common */
+    double level;                /* standard deviation of the logarithm of a level's factor */
     double height_m;             /* of its scatterers' middle; the sensor's if it is not known */
     int64_t cells;               /* of this and all other strips */
     int64_t first_cell;          /* number of its first cell among them */
@@ -46,6 +48,14 @@ static struct margins margins_of(const struct look *look, double reach_m,
         look, elementary_min(reach_m, line_of_sight_margin_m(look, NULL, 0, line, false, false)));
 }
 
+/* The factor on amplitude of a scatterer's level, which changes with its range. */
+static double level_of(const struct roadside *side, const struct echo *echo)
+{
+    struct random_address line = side->scene;
+    line.item = (uint64_t)echo->id.number;
+    return elementary_exp(side->level * level_on_line(&line, RANDOM_ROADSIDE_LEVEL, echo->range_m));
+}
+
 /* Adds the scatterer's echo if it is in range, in view and not hidden. */
 static void add_scatterer(struct look *look, const struct roadside *side,
                           const struct roadside_scatterer *one, int64_t cell)
@@ -66,7 +76,7 @@ static void add_scatterer(struct look *look, const struct roadside *side,
         return;
     struct echo *echo = add_echo(look, side, &read);
     echo->id.number = 1 + side->first_cell + cell + one->rank * side->cells;
-    echo->ercs = sight.factor * gain * one->ercs;
+    echo->ercs = sight.factor * gain * one->ercs * level_of(side, echo);
     echo->effects = effects | sight.effects;
     echo->margins = margins_of(look, elementary_min(within_m, read.range_m * inside_rad), &line);
 }
@@ -120,7 +130,8 @@ static struct roadside roadside_of(const struct look *look, size_t number)
     const struct roadside_strip *strip = &look->frame->roadside.items[number];
     struct roadside side = {.number = number,
                             .grid = roadside_grid_of(strip),
-                            .scene = frame_draw_address_of_scene(look->frame)};
+                            .scene = frame_draw_address_of_scene(look->frame),
+                            .level = strip->level_db * (elementary_log(10) / 20)};
     double top_m = side.grid.height_m;
     bool latency = look->ego_moved;
     bool mirroring = look->frame->conditions.road != ROAD_UNKNOWN && look->height_m > 0;

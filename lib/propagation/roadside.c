@@ -30,6 +30,9 @@ static const struct field strip_fields[] = {
     {OPTIONAL_REAL(struct roadside_strip, spread_db, 0, 30,
                    "standard deviation of the cross sections"),
      .absent = OF_KIND},
+    {OPTIONAL_REAL(struct roadside_strip, level_db, 0, 20,
+                   "standard deviation of a scatterer's level over range; absent: 2 dB"),
+     .absent = 2},
     {OPTIONAL_REAL(struct roadside_strip, height_m, 0, 100, "top over the road; 0: not known"),
      .absent = OF_KIND},
     {0},
@@ -42,7 +45,7 @@ const struct record roadside_strip_record = {
 /* Where these numbers come from: MODEL 14.23. */
 static const struct roadside_strip kinds[] = {
     [ROADSIDE_OTHER] = {.rcs_dbsm = -20},
-    [ROADSIDE_RAIL] = {.spacing_m = 4, .rcs_dbsm = -8.5, .spread_db = 9, .height_m = 0.75},
+    [ROADSIDE_RAIL] = {.spacing_m = 4, .rcs_dbsm = -9.5, .spread_db = 9, .height_m = 0.75},
     [ROADSIDE_POLES] = {.spacing_m = 50, .rcs_dbsm = 0, .spread_db = 6, .height_m = 5},
     [ROADSIDE_KERB] = {.spacing_m = 2, .rcs_dbsm = -20, .spread_db = 6, .height_m = 0.12},
     [ROADSIDE_VEGETATION] = {.per_m2 = 0.05, .rcs_dbsm = -20, .spread_db = 9, .height_m = 1},

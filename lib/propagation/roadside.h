@@ -31,6 +31,7 @@ struct roadside_strip {
     double per_m2;    /* mean number; both 0: those of the kind */
     double rcs_dbsm;  /* median cross section */
     double spread_db; /* standard deviation of the cross sections in dB, which are normal */
+    double level_db;  /* standard deviation of a level over range, with knots of 1 m */
     double height_m;  /* of the top over the road; 0: not known */
 };
 
