@@ -187,7 +187,7 @@ static void absent_numbers_are_those_of_the_kind(void **state)
     struct roadside_grid grid = roadside_grid_of(&rail);
     assert_true(grid.spaced);
     assert_int_equal(grid.along_count, 5);
-    assert_close(grid.median_ercs, radar_ercs(pow(10, -0.85)), 1e-12);
+    assert_close(grid.median_ercs, radar_ercs(pow(10, -0.95)), 1e-12);
     assert_close(grid.spread, 9 * log(10) / 20, 1e-12);
     assert_close(grid.height_m, 0.75, 0);
     rail.per_m2 = 2;
