@@ -104,7 +104,7 @@ def print_skills(second, results, scores):
     blocks = scans / score.block_length(scans)
     if blocks < score.LONG_BLOCKS:
         print(f"too short: intervals of {blocks:.0f} blocks of scans; {score.LONG_BLOCKS} are needed")
-    for chain, before in zip(chains.CHAINS[1:], chains.CHAINS):
+    for chain, before in zip(chains.CHAINS[1:4], chains.CHAINS):
         if gains(scores[chain], scores[before], ideal, scans)[1] > 0:
             for body in sorted({name for name, _ in ideal}):
                 if gains(scores[chain], scores[before], ideal, scans, body)[1] <= 0:
@@ -116,16 +116,17 @@ def print_marginals(second, results, threshold_db):
     told = marginals.values(second, [scan.detections for scan in second.scans], threshold_db)
     ranges = {chain: [marginals.values(second, one, threshold_db) for one in lists]
               for chain, (lists, _) in results.items() if chain != chains.IDEAL}
-    print(f"\n{'* outside':42} {'recorded':>8}", *(f"{chain.name:>27}" for chain in ranges))
+    print(f"\n{'* outside':42} {'recorded':>8}", *(f"{chain.name:>20}" for chain in ranges))
     for name, value in told.items():
         cells = [[one[name] for one in own if name in one] for own in ranges.values()]
-        print(f"{name:42} {value:8.1f}", *(f"{f'{min(own):.1f} to {max(own):.1f}' if own else 'none':>26}"
+        print(f"{name:42} {value:8.1f}", *(f"{f'{min(own):.1f} to {max(own):.1f}' if own else 'none':>19}"
                                            + " *"[marginals.outside(value, own)] for own in cells))
 
 
 def print_components(second, fit, folder, scores):
     """The components whose replacement costs most, of the best chain with all effects."""
-    best = min((chain for chain in scores if chain.effects == "auto"), key=lambda chain: sum(scores[chain].values()))
+    with_all = [chain for chain in scores if chain.effects == "auto" and not chain.road]
+    best = min(with_all, key=lambda chain: sum(scores[chain].values()))
     suite, scans, lost = fitted.write_suite(fit, folder), len(second.scans), []
     listed = subprocess.run([chains.GLINT, "--list", "effects"], check=True, stdout=subprocess.PIPE, text=True).stdout
     trials = [(f"without {name}", best._replace(effects=f"all,-{name}"), suite)

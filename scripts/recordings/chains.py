@@ -17,15 +17,22 @@ SEEDS = 39
 PAPER = ("visibility,plane_reflection,rows,occlusion,ambiguity,merging,superposition,threshold,angle_noise,range_noise,"
          "final_threshold,list_limit")
 
-# data: the folder that vehicle documents come from
-Chain = namedtuple("Chain", "name effects sensor noise data", defaults=("glint-sensor", "glint-noise", "data"))
+# data: the folder that vehicle documents come from; road: the scenario with the strips of its roadside
+Chain = namedtuple("Chain", "name effects sensor noise data road", defaults=("glint-sensor", "glint-noise", "data", None))
 IDEAL = Chain("ideal echoes", PAPER, "glint-sensor-perfect", "glint-noise-none")
 CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("all effects", "auto"),
-          Chain("all effects, data/detailed", "auto", data="data/detailed")]
+          Chain("with data/detailed", "auto", data="data/detailed"), Chain("with a roadside", "auto", road="motorway")]
 
 
-def frames(scans, speeds, seed):
-    """Frames of traffic, one a scan: the ego drives straight ahead at these speeds."""
+def roadside(road, scans, speeds):
+    """The strips of a scenario, as long as the ego's way."""
+    way_m = max(speeds) * (scans[-1].time_s - scans[0].time_s)
+    with open(os.path.join(ROOT, "data", "scenarios", f"{road}.json"), encoding="utf-8") as file:
+        return [strip | {"to_x_m": way_m + 400} for strip in json.load(file)["roadside"]]
+
+
+def frames(scans, speeds, seed, strips):
+    """Frames of traffic, one a scan: the ego drives straight ahead at these speeds, between strips of a roadside."""
     ways = {}
     for i, (scan, speed) in enumerate(zip(scans, speeds)):
         interval_s = scans[max(i, 1)].time_s - scans[max(i, 1) - 1].time_s
@@ -34,7 +41,8 @@ def frames(scans, speeds, seed):
             driven_m = math.hypot(speed + box.vx_mps, box.vy_mps) * interval_s
             ways[box.id] = ways[box.id] + driven_m if box.id in ways else 0
         yield {"version": 0, "scene": f"seed{seed}", "frame": i, "time_s": scan.time_s - scans[0].time_s,
-               "interval_s": interval_s, "seed": str(seed), "ego": "ego", "last": i + 1 == len(scans), "objects": [
+               "interval_s": interval_s, "seed": str(seed), "ego": "ego", "last": i + 1 == len(scans),
+               "roadside": strips, "objects": [
                    {"id": box.id, "class": box.kind, "x_m": ways["ego"] + box.x_m, "y_m": box.y_m, "yaw_rad": box.yaw_rad,
                     "vx_mps": speed + box.vx_mps, "vy_mps": box.vy_mps, "yaw_rate_radps": 0, "length_m": box.length_m,
                     "width_m": box.width_m, "height_m": box.height_m, "travelled_m": ways[box.id]} for box in bodies]}
@@ -42,9 +50,10 @@ def frames(scans, speeds, seed):
 
 def run(chain, suite, law, scans, speeds, seeds=SEEDS, first=1):
     """Lists of detections, [seed][scan], with seeds from the first one on, and the CPU time of a frame in microseconds."""
+    strips = roadside(chain.road, scans, speeds) if chain.road else []
     with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as traffic:
         for seed in range(first, first + seeds):
-            for frame in frames(scans, speeds, seed):
+            for frame in frames(scans, speeds, seed, strips):
                 traffic.write(json.dumps(frame) + "\n")
         traffic.flush()
         text = (f"glint-extract '{traffic.name}' | glint-ideal --sensors '{suite}' --effects {chain.effects} --sections none"
