@@ -222,9 +222,9 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
 static void derive_cells(struct sensor *sensor)
 {
     const struct waveform *waveform = &sensor->waveform;
-    sensor->half_range_m = resolution_half_width(sensor->cell_extent, sensor->cell_range_m);
-    sensor->half_range_rate_mps =
-        resolution_half_width(sensor->cell_extent, sensor->cell_range_rate_mps);
+    double half = sensor->cell_extent == CELL_WIDTH ? 0.5 : 1;
+    sensor->half_range_m = half * sensor->cell_range_m;
+    sensor->half_range_rate_mps = half * sensor->cell_range_rate_mps;
     sensor->bin_range_m = 2 * sensor->half_range_m;
     sensor->bin_range_rate_mps = 2 * sensor->half_range_rate_mps;
     sensor->dwell_s = scan_timing_dwell_s(sensor->carrier_hz, sensor->bin_range_rate_mps);

@@ -53,6 +53,19 @@ double point_response_resolution(enum point_response response)
     return response == POINT_RESPONSE_HANN ? 1.7748 : 0.9967;
 }
 
+bool point_response_pulses_part(double bins, double ratio, double phase_rad)
+{
+    double cosine = elementary_cos(phase_rad), slope = 2 / (elementary_log(2) * bins * bins);
+    if (2 * slope * (1 + cosine) >= 1)
+        return false;
+    double root = sqrt(cosine * cosine + 8 * slope * (1 - cosine) * (1 + cosine));
+    double cosh = elementary_max(((1 - 4 * slope) * cosine + root) / (4 * slope), 1);
+    double sinh = sqrt((cosh - 1) * (cosh + 1));
+    double most = slope * (fabs(elementary_log(ratio)) + elementary_log(cosh + sinh));
+    /* Of opposite pulses the right side is infinite, or 0/0. */
+    return !(most >= sinh / (2 * (cosh + cosine)));
+}
+
 double point_response_envelope(enum point_response response, double bins)
 {
     double d = fabs(bins);

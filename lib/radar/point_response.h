@@ -7,6 +7,7 @@
  * received, with the amplitude 1/2 two bins to either side. */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum point_response { POINT_RESPONSE_HANN, POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_PULSE };
@@ -35,6 +36,11 @@ double point_response_main_lobe(enum point_response response);
  * from an echo of twice its amplitude, an echo has a peak of its own for half of all phases between
  * the two. The last of these phases is quadrature, where their powers add. */
 double point_response_resolution(enum point_response response);
+
+/* True if the sum of two pulses, so many bins > 0 apart, has two peaks (MODEL 6). ratio > 0 is that
+ * of their amplitudes. Equal pulses have two beyond 2 sqrt((1 + cos phase_rad)/ln 2) bins, opposite
+ * ones always. */
+bool point_response_pulses_part(double bins, double ratio, double phase_rad);
 
 /* An upper bound on the size of point_response_value that does not rise with |bins|; 1 within the
  * main lobe. */

@@ -18,7 +18,7 @@ int resolution_cell_compare(const void *left, const void *right)
 struct resolution_echo resolution_cell_place(const struct received_echo *echo)
 {
     return (struct resolution_echo){echo->range_m, echo->range_rate_mps, echo->amplitude,
-                                    echo->widening};
+                                    echo->widening, echo->phase_rad};
 }
 
 /* A compensated sum (Neumaier 1974; MODEL 17.3): a weak echo survives beside strong echoes that
@@ -226,14 +226,12 @@ static void note_neighbours(const struct neighbourhood *near, size_t leader)
     }
 }
 
-static struct resolution_row row_of(const struct sensor *sensor, const struct clustered_echoes *all,
-                                    struct arena *arena)
+static struct resolution_row row_of(const struct clustered_echoes *all, struct arena *arena)
 {
     struct resolution_echo *places = arena_room(arena, all->count * sizeof *places);
     for (size_t i = 0; i < all->count; i++)
         places[i] = resolution_cell_place(&all->echoes[i]);
-    return resolution_row_of(places, all->count, sensor->half_range_m, sensor->half_range_rate_mps,
-                             arena);
+    return resolution_row_of(places, all->count, &all->resolution, arena);
 }
 
 struct margins *resolution_cell_margins(const struct sensor *sensor,
@@ -243,7 +241,7 @@ struct margins *resolution_cell_margins(const struct sensor *sensor,
     struct neighbourhood near = {
         .sensor = sensor,
         .all = all,
-        .row = row_of(sensor, all, arena),
+        .row = row_of(all, arena),
         .leads = arena_get(arena, all->count * sizeof *near.leads),
         .margins = arena_get(arena, cells * sizeof *near.margins),
     };
@@ -254,7 +252,7 @@ struct margins *resolution_cell_margins(const struct sensor *sensor,
         opened += near.leads[i];
     }
     for (size_t i = 0; i < all->count; i++)
-        if (near.leads[i])
+        if (near.leads[i] && !all->resolution.coherent)
             note_neighbours(&near, i);
     return near.margins;
 }

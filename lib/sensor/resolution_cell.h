@@ -13,7 +13,7 @@
  * (frame_order_tied). For sort_items. */
 int resolution_cell_compare(const void *left, const void *right);
 
-/* Place and amplitude of a received echo, for clustering. */
+/* Place, amplitude and phase of a received echo, for clustering. */
 struct resolution_echo resolution_cell_place(const struct received_echo *echo);
 
 /* Sets a cell's pointers, and its azimuth by the sensor's estimator. False if both pointers are
@@ -45,14 +45,15 @@ struct clustered_echoes {
     const struct received_echo *echoes;
     const size_t *cell;
     size_t count;
+    struct resolution resolution;
 };
 
 /* The margins of all cells from their members and from clustering: the least sight_m of a cell's
- * members, and two margins from pairs of a leader and an echo that had no cell yet when the leader
- * opened its own, if one of the two is in the cell. cell_edge is the distance, in half cells, of
- * the echo from the edge of the leader's cell: from the nearer edge if it is a member, else from
- * the edge that it is farthest beyond. leader_db is the leader's lead in amplitude, if the two are
- * within two half cells of each other. */
+ * members and, unless echoes are coherent, two margins from pairs of a leader and an echo that had
+ * no cell yet when the leader opened its own, if one of the two is in the cell. cell_edge is the
+ * distance, in half cells, of the echo from the edge of the leader's cell: from the nearer edge if
+ * it is a member, else from the edge that it is farthest beyond. leader_db is the leader's lead in
+ * amplitude, if the two are within two half cells of each other. */
 struct margins *resolution_cell_margins(const struct sensor *sensor,
                                         const struct clustered_echoes *all, size_t cells,
                                         struct arena *arena);

@@ -6,6 +6,7 @@ struct scan scan_receive(const struct effect_scan *context)
 {
     struct echo_span added = effect_added_echoes(context);
     struct scan scan = {.context = *context, .added = added};
+    const struct sensor *sensor = context->sensor;
     struct arena *arena = context->frame->arena;
     size_t all = context->echoes.count + added.count, count = all;
     struct received_echo *echoes = arena_get(arena, (all + 1) * sizeof *echoes);
@@ -18,9 +19,25 @@ struct scan scan_receive(const struct effect_scan *context)
         count--;
     scan.received.echoes = echoes;
     scan.received.count = count;
+    scan.received.resolution = (struct resolution){
+        sensor->half_range_m, sensor->half_range_rate_mps,
+        sensor->waveform.samples > 0 && effect_simulates(context, EFFECT_COHERENCE)};
     scan.silent = echoes + count;
     scan.silent_count = all - count;
     return scan;
+}
+
+/* Leaves of the echoes of a coherent cell what lies at their leader's place. */
+static void respond(struct received_echo *members, size_t count,
+                    const struct resolution *resolution)
+{
+    struct resolution_echo leader = resolution_cell_place(&members[0]);
+    for (size_t i = 1; i < count; i++) {
+        struct resolution_echo place = resolution_cell_place(&members[i]);
+        double part = resolution_response(&leader, &place, resolution);
+        members[i].strength *= part;
+        members[i].amplitude *= part;
+    }
 }
 
 /* Sorts the received echoes into by_cell by counting: cell by cell, in their order. first[n + 2]
@@ -37,27 +54,27 @@ static void group_by_cell(struct scan *scan)
         first[number + 2] += first[number + 1];
     for (size_t i = 0; i < all->count; i++)
         by_cell[first[all->cell[i] + 1]++] = all->echoes[i];
+    for (size_t n = 0; all->resolution.coherent && n < scan->cells; n++)
+        respond(by_cell + first[n], first[n + 1] - first[n], &all->resolution);
     scan->by_cell = by_cell;
     scan->first = first;
 }
 
 static void resolve(struct scan *scan, const struct selection *selection)
 {
-    const struct sensor *sensor = scan->context.sensor;
     struct arena *arena = scan->context.frame->arena;
-    double half_range_m = sensor->half_range_m, half_rate_mps = sensor->half_range_rate_mps;
-    const struct received_echo *echoes = scan->received.echoes;
+    const struct resolution *resolution = &scan->received.resolution;
     size_t count = scan->received.count;
     struct resolution_echo *places = arena_get(arena, (count + 1) * sizeof *places);
     size_t *cell = arena_get(arena, (count + 1) * sizeof *cell);
     for (size_t i = 0; i < count; i++)
-        places[i] = resolution_cell_place(&echoes[i]);
+        places[i] = resolution_cell_place(&scan->received.echoes[i]);
     bool merge = effects_forced(selection, EFFECT_MERGING) ||
                  (effects_enabled(selection, EFFECT_MERGING) &&
-                  resolution_close(places, count, half_range_m, half_rate_mps, arena));
+                  resolution_close(places, count, resolution, arena));
     scan->cells = count;
     if (merge)
-        scan->cells = resolution_cluster(places, count, half_range_m, half_rate_mps, cell, arena);
+        scan->cells = resolution_cluster(places, count, resolution, cell, arena);
     for (size_t i = 0; i < count && !merge; i++)
         cell[i] = i;
     scan->received.cell = cell;

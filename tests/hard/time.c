@@ -240,8 +240,8 @@ static size_t cluster(const struct resolution_echo *echoes, size_t count, double
                       double half_range_rate_mps, size_t *cell)
 {
     struct arena arena = {0};
-    size_t cells =
-        resolution_cluster(echoes, count, half_range_m, half_range_rate_mps, cell, &arena);
+    const struct resolution resolution = {half_range_m, half_range_rate_mps, false};
+    size_t cells = resolution_cluster(echoes, count, &resolution, cell, &arena);
     arena_free(&arena);
     return cells;
 }
@@ -259,7 +259,8 @@ static void the_border_of_a_cell_is_decided_in_doubles(void **state)
     mpfr_init2(difference, 53);
     for (int i = 0; i < points; i++) {
         int64_t a = 20000 + sample_integer(&random, 19000), b = a + sample_integer(&random, 20);
-        struct resolution_echo echoes[] = {{(double)a / 100, 0, 2, 0}, {(double)b / 100, 0, 1, 0}};
+        struct resolution_echo echoes[] = {{(double)a / 100, 0, 2, 0, 0},
+                                           {(double)b / 100, 0, 1, 0, 0}};
         if (i < 5)
             for (int k = 0; k < 2; k++)
                 echoes[k].range_m = pairs[i][k];
@@ -313,7 +314,7 @@ static size_t find_cells(const struct received_echo received_echoes[TIED], doubl
     size_t cell[TIED];
     for (size_t i = 0; i < TIED; i++)
         echoes[i] = (struct resolution_echo){received_echoes[i].echo.range_m, 0,
-                                             received_echoes[i].amplitude, 0};
+                                             received_echoes[i].amplitude, 0, 0};
     size_t cells = cluster(echoes, TIED, 0.15, 0.25, cell);
     for (size_t number = 0; number < cells; number++) {
         double ranges[TIED], weights[TIED];

@@ -46,13 +46,13 @@ DRAW(__wrap_random_gaussian)
 }
 
 #define CLUSTER(name)                                                                              \
-    size_t name(const struct resolution_echo *echoes, size_t count, double half_range_m,           \
-                double half_range_rate_mps, size_t *cell, struct arena *arena)
+    size_t name(const struct resolution_echo *echoes, size_t count,                                \
+                const struct resolution *resolution, size_t *cell, struct arena *arena)
 CLUSTER(__real_resolution_cluster);
 CLUSTER(__wrap_resolution_cluster);
 
 CLUSTER(__wrap_resolution_cluster)
 {
     drawn++;
-    return __real_resolution_cluster(echoes, count, half_range_m, half_range_rate_mps, cell, arena);
+    return __real_resolution_cluster(echoes, count, resolution, cell, arena);
 }

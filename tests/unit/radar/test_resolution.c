@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/random.h"
+#include "base/units.h"
 #include "radar/resolution.h"
 
 #define ECHO_MAX 16
@@ -22,9 +23,9 @@ static int compare_echoes(const void *first, const void *second)
 static size_t cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
                       double half_range_rate_mps, size_t *cell)
 {
+    const struct resolution resolution = {half_range_m, half_range_rate_mps, false};
     struct arena arena = {0};
-    size_t cells =
-        resolution_cluster(echoes, count, half_range_m, half_range_rate_mps, cell, &arena);
+    size_t cells = resolution_cluster(echoes, count, &resolution, cell, &arena);
     arena_free(&arena);
     return cells;
 }
@@ -54,8 +55,10 @@ static size_t draw_echoes(uint64_t scene, struct resolution_echo *echoes)
 static void the_four_echoes_of_the_model_make_three_cells(void **state)
 {
     (void)state;
-    static const struct resolution_echo echoes[] = {
-        {10.00, -2.0, 10, 0}, {10.10, -2.1, 5, 0}, {10.40, -2.0, 4, 0}, {10.12, -1.5, 3, 0}};
+    static const struct resolution_echo echoes[] = {{10.00, -2.0, 10, 0, 0},
+                                                    {10.10, -2.1, 5, 0, 0},
+                                                    {10.40, -2.0, 4, 0, 0},
+                                                    {10.12, -1.5, 3, 0, 0}};
     static const size_t expected[] = {0, 0, 1, 2};
     size_t cell[4];
     assert_int_equal(cluster(echoes, 4, 0.15, 0.25, cell), 3);
@@ -81,13 +84,16 @@ static void the_border_is_decided_by_the_doubles(void **state)
         size_t cells;
     } cases[] = {{12.55, 12.40, 2}, {12.70, 12.55, 1}, {0.45, 0.30, 2}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct resolution_echo echoes[] = {{cases[i].leader_m, 0, 2, 0},
-                                           {cases[i].echo_m, 0, 1, 0}};
+        struct resolution_echo echoes[] = {{cases[i].leader_m, 0, 2, 0, 0},
+                                           {cases[i].echo_m, 0, 1, 0, 0}};
         size_t cell[2];
         assert_int_equal(cluster(echoes, 2, 0.15, 0.25, cell), cases[i].cells);
     }
-    static const struct resolution_echo exact[] = {
-        {8, 1, 5, 0}, {8, 1.25, 4, 0}, {8, 0.75, 3, 0}, {8.125, 1, 2, 0}, {7.875, 1, 1, 0}};
+    static const struct resolution_echo exact[] = {{8, 1, 5, 0, 0},
+                                                   {8, 1.25, 4, 0, 0},
+                                                   {8, 0.75, 3, 0, 0},
+                                                   {8.125, 1, 2, 0, 0},
+                                                   {7.875, 1, 1, 0, 0}};
     size_t cell[5];
     assert_int_equal(cluster(exact, 5, 0.125, 0.25, cell), 1);
 }
@@ -96,7 +102,7 @@ static void a_cell_does_not_grow_along_a_chain(void **state)
 {
     (void)state;
     static const struct resolution_echo echoes[] = {
-        {10.0, 0, 5, 0}, {10.1, 0, 4, 0}, {10.2, 0, 3, 0}, {10.3, 0, 2, 0}};
+        {10.0, 0, 5, 0, 0}, {10.1, 0, 4, 0, 0}, {10.2, 0, 3, 0, 0}, {10.3, 0, 2, 0, 0}};
     static const size_t expected[] = {0, 0, 1, 1};
     size_t cell[4];
     assert_int_equal(cluster(echoes, 4, 0.15, 0.25, cell), 2);
@@ -145,7 +151,9 @@ static void echoes_are_close_exactly_if_a_pair_is(void **state)
                 close =
                     close || (fabs(echoes[i].range_m - echoes[j].range_m) <= 0.125 &&
                               fabs(echoes[i].range_rate_mps - echoes[j].range_rate_mps) <= 0.125);
-        assert_int_equal(resolution_close(echoes, count, 0.125, 0.125, &arena), close);
+        assert_int_equal(
+            resolution_close(echoes, count, &(struct resolution){0.125, 0.125, false}, &arena),
+            close);
         close_scenes += close;
     }
     arena_free(&arena);
@@ -194,10 +202,10 @@ static void a_crowd_clusters_as_if_every_pair_were_asked(void **state)
         for (size_t i = 0; i < count; i++) {
             uint32_t at = (uint32_t)(3 * i);
             double step = at % 2 == 0 ? floor(draw(scene, at) * 400) / 400 : draw(scene, at);
-            echoes[i] =
-                (struct resolution_echo){spread * step * (1 + (double)(at % 3) * 0x1p-52),
-                                         floor(draw(scene, at + 1) * 10) / 8, draw(scene, at + 2),
-                                         (double)(scene % 2) * floor(draw(scene, at + 3) * 4) / 2};
+            echoes[i] = (struct resolution_echo){
+                spread * step * (1 + (double)(at % 3) * 0x1p-52),
+                floor(draw(scene, at + 1) * 10) / 8, draw(scene, at + 2),
+                (double)(scene % 2) * floor(draw(scene, at + 3) * 4) / 2, 0};
         }
         qsort(echoes, count, sizeof echoes[0], compare_echoes);
         double half = half_m[scene % 3];
@@ -214,12 +222,93 @@ static void the_larger_cell_of_two_echoes_counts(void **state)
     (void)state;
     struct arena arena = {0};
     for (size_t wide = 0; wide < 3; wide++) {
-        struct resolution_echo echoes[] = {{10, 1, 5, 0}, {10.375, 0.5, 4, 0}};
+        struct resolution_echo echoes[] = {{10, 1, 5, 0, 0}, {10.375, 0.5, 4, 0, 0}};
         size_t cell[2], shared = wide < 2;
         if (shared)
             echoes[wide].widening = 2;
         assert_int_equal(cluster(echoes, 2, 0.125, 0.25, cell), 2 - shared);
-        assert_int_equal(resolution_close(echoes, 2, 0.125, 0.25, &arena), shared);
+        assert_int_equal(
+            resolution_close(echoes, 2, &(struct resolution){0.125, 0.25, false}, &arena), shared);
+    }
+    arena_free(&arena);
+}
+
+/* How many cells a pair makes: the second echo `apart` half cells from the first in range and
+ * range rate, half as strong, at this phase. */
+static size_t coherent_cells(double apart_range, double apart_rate, double phase_rad)
+{
+    const struct resolution resolution = {0.5, 2, true};
+    const struct resolution_echo echoes[] = {
+        {10, 1, 4, 0, 1}, {10 + 0.5 * apart_range, 1 - 2 * apart_rate, 2, 0, 1 + phase_rad}};
+    struct arena arena = {0};
+    size_t cell[2], cells = resolution_cluster(echoes, 2, &resolution, cell, &arena);
+    assert_int_equal(resolution_close(echoes, 2, &resolution, &arena), cells == 1);
+    arena_free(&arena);
+    return cells;
+}
+
+/* Pulses have half of their amplitude at 2/3.5802 = 0.5586 half cells. */
+static void coherent_echoes_part_by_their_phase(void **state)
+{
+    (void)state;
+    assert_int_equal(coherent_cells(0.999, 0, PI / 2), 1);
+    assert_int_equal(coherent_cells(1.001, 0, -PI / 2), 2);
+    assert_int_equal(coherent_cells(0, 0.999, PI / 2), 1);
+    assert_int_equal(coherent_cells(0, 1.001, PI / 2), 2);
+    assert_int_equal(coherent_cells(0.6 * 0.999, 0.8 * 0.999, PI / 2), 1);
+    assert_int_equal(coherent_cells(0.6 * 1.001, 0.8 * 1.001, PI / 2), 2);
+    assert_int_equal(coherent_cells(1.1, 0, 0), 1);
+    assert_int_equal(coherent_cells(1.4, 0, 0), 2);
+    assert_int_equal(coherent_cells(0.56, 0, PI), 2);
+    assert_int_equal(coherent_cells(0.55, 0, PI), 1);
+    assert_int_equal(coherent_cells(0, 0, PI), 1);
+}
+
+static void a_leader_leaves_of_an_echo_what_its_response_has_there(void **state)
+{
+    (void)state;
+    const struct resolution resolution = {0.5, 2, true};
+    const struct resolution_echo leader = {10, 1, 4, 0, 0};
+    struct resolution_echo echo = {10 + 0.5 * 2 / 3.5802, 1, 2, 0, 3};
+    assert_close(resolution_response(&leader, &leader, &resolution), 1, 0);
+    assert_close(resolution_response(&leader, &echo, &resolution), 0.5, 1e-12);
+    echo.range_rate_mps += 2 * 2 / 3.5802;
+    assert_close(resolution_response(&leader, &echo, &resolution), 0.25, 1e-12);
+    echo.widening = 1;
+    assert_close(resolution_response(&leader, &echo, &resolution), sqrt(0.5), 1e-12);
+}
+
+/* Every leader asks all echoes that are left, by the cells of pairs. */
+static void a_coherent_crowd_clusters_as_if_every_pair_were_asked(void **state)
+{
+    (void)state;
+    enum { CROWD = 60 };
+    const struct resolution resolution = {0.5, 0.25, true};
+    struct arena arena = {0};
+    for (uint64_t scene = 0; scene < 200; scene++) {
+        struct resolution_echo echoes[CROWD];
+        size_t cell[CROWD], expected[CROWD], cells = 0, count = (size_t)(draw(scene, 9999) * CROWD);
+        for (uint32_t i = 0; i < count; i++)
+            echoes[i] = (struct resolution_echo){
+                100 * draw(scene, 9998) * draw(scene, 5 * i), 2 * draw(scene, 5 * i + 1),
+                exp2(-9 * draw(scene, 5 * i + 2)), floor(draw(scene, 5 * i + 3) * 1.2),
+                2 * PI * draw(scene, 5 * i + 4)};
+        qsort(echoes, count, sizeof echoes[0], compare_echoes);
+        for (size_t i = 0; i < count; i++)
+            expected[i] = count;
+        for (size_t leader = 0; leader < count; leader++) {
+            if (expected[leader] < count)
+                continue;
+            expected[leader] = cells;
+            for (size_t i = leader + 1; i < count; i++) {
+                const struct resolution_echo pair[] = {echoes[leader], echoes[i]};
+                if (expected[i] == count && resolution_close(pair, 2, &resolution, &arena))
+                    expected[i] = cells;
+            }
+            cells++;
+        }
+        assert_int_equal(resolution_cluster(echoes, count, &resolution, cell, &arena), cells);
+        assert_memory_equal(cell, expected, count * sizeof cell[0]);
     }
     arena_free(&arena);
 }
@@ -255,7 +344,7 @@ static void three_equal_echoes_make_two_cells(void **state)
         struct resolution_echo echoes[3];
         size_t cell[3];
         for (size_t k = 0; k < 3; k++)
-            echoes[k] = (struct resolution_echo){ranges_m[i][k], 0, 1, 0};
+            echoes[k] = (struct resolution_echo){ranges_m[i][k], 0, 1, 0, 0};
         qsort(echoes, 3, sizeof *echoes, compare_echoes);
         assert_int_equal(cluster(echoes, 3, 0.15, 0.25, cell), 2);
         assert_int_equal(cell[0], 0);
@@ -334,6 +423,9 @@ int main(void)
         cmocka_unit_test(echoes_are_close_exactly_if_a_pair_is),
         cmocka_unit_test(a_crowd_clusters_as_if_every_pair_were_asked),
         cmocka_unit_test(the_larger_cell_of_two_echoes_counts),
+        cmocka_unit_test(coherent_echoes_part_by_their_phase),
+        cmocka_unit_test(a_leader_leaves_of_an_echo_what_its_response_has_there),
+        cmocka_unit_test(a_coherent_crowd_clusters_as_if_every_pair_were_asked),
         cmocka_unit_test(sorted_echoes_cluster_alike_in_every_input_order),
         cmocka_unit_test(three_equal_echoes_make_two_cells),
         cmocka_unit_test(the_mean_of_equal_values_is_that_value),

@@ -14,6 +14,8 @@ enum { ALL = 4 };
 static const struct sensor sensor = {
     .name = "s", .threshold = 2, .half_range_m = 1, .half_range_rate_mps = 2};
 
+static const struct resolution resolution = {1, 2, false};
+
 struct given_echo {
     double range_m, range_rate_mps, amplitude, sight_m;
 };
@@ -32,12 +34,11 @@ static size_t margins_of(const struct given_echo *given, size_t count, struct ma
                                            .amplitude = given[i].amplitude,
                                            .margins = &sight_margins[i]};
         to_cluster[i] = (struct resolution_echo){given[i].range_m, given[i].range_rate_mps,
-                                                 given[i].amplitude, 0};
+                                                 given[i].amplitude, 0, 0};
     }
     struct arena arena = {0};
-    size_t cells = resolution_cluster(to_cluster, count, sensor.half_range_m,
-                                      sensor.half_range_rate_mps, cell, &arena);
-    const struct clustered_echoes all = {echoes, cell, count};
+    size_t cells = resolution_cluster(to_cluster, count, &resolution, cell, &arena);
+    const struct clustered_echoes all = {echoes, cell, count, resolution};
     memcpy(margins, resolution_cell_margins(&sensor, &all, cells, &arena), cells * sizeof *margins);
     arena_free(&arena);
     return cells;
@@ -179,8 +180,8 @@ static void margins_are_those_of_all_pairs(void **state)
             places[i] = resolution_cell_place(&echoes[i]);
         }
         struct arena arena = {0};
-        size_t cells = resolution_cluster(places, count, 1, 2, cell, &arena);
-        const struct clustered_echoes all = {echoes, cell, count};
+        size_t cells = resolution_cluster(places, count, &resolution, cell, &arena);
+        const struct clustered_echoes all = {echoes, cell, count, resolution};
         const struct margins *margins = resolution_cell_margins(&sensor, &all, cells, &arena);
         for (size_t i = 0; i < cells; i++) {
             struct margins expected = margins_from_all_pairs(&all, i);
@@ -203,7 +204,7 @@ static void the_edge_is_that_of_the_larger_cell(void **state)
             {.range_m = 11.5, .amplitude = 5, .margins = &none_of_sight}};
         const size_t cell[] = {0, 0};
         echoes[wide].widening = 1;
-        const struct clustered_echoes all = {echoes, cell, 2};
+        const struct clustered_echoes all = {echoes, cell, 2, resolution};
         struct arena arena = {0};
         assert_close(resolution_cell_margins(&sensor, &all, 1, &arena)->cell_edge, 0.25, 1e-13);
         arena_free(&arena);

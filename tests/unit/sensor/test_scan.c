@@ -187,6 +187,39 @@ static void a_scan_has_only_the_effects_of_its_selection(void **state)
     assert_int_equal(scan.cells, 2);
 }
 
+/* A window with cells of 1 m by 1 m/s resolves 1.7748 of them. b is so far from a as to have half
+ * of its amplitude there; c is as far from a as the window resolves. */
+static void echoes_of_a_window_part_by_phase_and_count_by_their_response(void **state)
+{
+    struct bench *bench = *state;
+    double resolution = point_response_resolution(POINT_RESPONSE_HANN);
+    bench->sensor.waveform = (struct waveform){.samples = 128, .repetitions = 64};
+    bench->sensor.cell_phase = CELL_PHASE_BY_PATH;
+    suite_derive(&bench->sensor);
+    add_echo(bench, "radar", "a", 20, 0, 4);
+    add_echo(bench, "radar", "b", 20, resolution * 2 / 3.5802 * (1 - 1e-4), 2);
+    size_t apart = 0;
+    for (int i = 0; i < 40; i++) {
+        bench->frame.echoes.items[0].range_m = 20 + 1e-4 * i;
+        struct scan scan = scan_of(bench);
+        size_t count;
+        assert_int_equal(scan.cells, 1);
+        const struct received_echo *members = scan_members(&scan, 0, &count);
+        assert_near(members[0].amplitude, 4.0, 1e-3);
+        assert_near(members[1].amplitude, 1.0, 1e-3);
+        assert_near(members[1].strength, 1.0, 1e-3);
+        bench->frame.echoes.items[1].range_rate_mps = resolution;
+        apart += scan_of(bench).cells - 1;
+        bench->frame.echoes.items[1].range_rate_mps = resolution * 2 / 3.5802 * (1 - 1e-4);
+    }
+    assert_in_range(apart, 10, 30);
+    bench->frame.echoes.items[1].range_rate_mps = resolution;
+    bench->selection.allowed = EVERYTHING & ~EFFECT_BIT(EFFECT_COHERENCE);
+    struct scan scan = scan_of(bench);
+    check_cell(&scan, 0, "ab");
+    assert_near(scan.by_cell[1].amplitude, 2.0, 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -203,6 +236,8 @@ int main(void)
                                         make_bench, remove_bench),
         cmocka_unit_test_setup_teardown(a_scan_has_only_the_effects_of_its_selection, make_bench,
                                         remove_bench),
+        cmocka_unit_test_setup_teardown(
+            echoes_of_a_window_part_by_phase_and_count_by_their_response, make_bench, remove_bench),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
