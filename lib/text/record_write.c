@@ -30,10 +30,13 @@ static int check_numbers(const struct record *record, const struct field *field,
                          struct items *items, struct diag *diag)
 {
     const char *item = items->first;
+    /* Only an absent value of 0 has two signs, of which field_present knows more. */
+    bool one_absent = field->optional && field->absent != 0;
     for (size_t i = 0; i < items->count; i++, item += items->size) {
         double value = field->kind == FIELD_REAL ? FIELD_LOAD(double, field, item)
                                                  : (double)FIELD_LOAD(int64_t, field, item);
-        if ((value >= field->low && value <= field->high) || !field_present(record, field, item))
+        if ((value >= field->low && value <= field->high) ||
+            (one_absent && value == field->absent) || !field_present(record, field, item))
             continue;
         items->at = i;
         return field_out_of_bounds(field, value, diag);
