@@ -419,10 +419,15 @@ def laws_hold_after_swaps(folder):
                     check_laws(frame)
 
 
+def has_roadside(name):
+    """What stands beside the road is drawn, and a mirror draws no mirrored numbers."""
+    return "roadside" in json.load(open(f"{ROOT}/data/scenarios/{name}.json"))
+
+
 def mirror_symmetry(folder):
     renamed = {path[:-5]: mirror_names(vehicle(path[:-5]))
                for path in os.listdir(ROOT + "/data/vehicles") if path.endswith(".json")}
-    for source in SCENARIOS + [TABLE]:
+    for source in [name for name in SCENARIOS if not has_roadside(name)] + [TABLE]:
         traffic = some(piped(f"glint-traffic {source}"))
         mirrored = mirror_traffic(traffic)
         classes = {body["id"]: body["class"] for frame in mirrored for body in frame["objects"]}

@@ -258,6 +258,28 @@ static int print(struct bench *bench)
     return result == 0 ? 1 : refuse(&bench->source);
 }
 
+/* Puts two strips at random places around the ego of one scene in ten. */
+static void add_roadside(struct frame *scene)
+{
+    struct random_sequence sequence =
+        random_sequence_at(frame_draw_address_of_scene(scene), RANDOM_OWN);
+    const struct object *ego = frame_object(scene, scene->ego);
+    if (ego == NULL || !random_sequence_chance(&sequence, 0.1))
+        return;
+    for (int i = 0; i < 2; i++) {
+        struct roadside_strip *strip = list_add(&scene->roadside, scene->arena);
+        field_clear(&roadside_strip_record, strip);
+        strip->kind = (enum roadside_kind)random_sequence_whole(&sequence, ROADSIDE_RAIL,
+                                                                ROADSIDE_VEGETATION);
+        strip->from_x_m = ego->x_m + random_sequence_between(&sequence, -60, 60);
+        strip->from_y_m = ego->y_m + random_sequence_between(&sequence, -60, 60);
+        strip->to_x_m = ego->x_m + random_sequence_between(&sequence, -60, 60);
+        strip->to_y_m = ego->y_m + random_sequence_between(&sequence, -60, 60);
+        if (strip->kind == ROADSIDE_VEGETATION)
+            strip->width_m = random_sequence_between(&sequence, 0, 10);
+    }
+}
+
 /* Compares one scene. Returns 1 after a scene, 0 if no planner needs another one. */
 static int visit(struct bench *bench, int64_t number)
 {
@@ -267,6 +289,7 @@ static int visit(struct bench *bench, int64_t number)
         return refuse(&bench->source);
     if (!wants(bench->wanted, &bench->scene))
         return 1;
+    add_roadside(&bench->scene);
     if (bench->wanted->print)
         return print(bench);
     if (runner_step(&bench->extract, &bench->scene) != 0)
