@@ -127,7 +127,9 @@ static double levelled_probability(const struct detection_law *detection,
 {
     double sigma_db = detection->level_sigma_db, step_db = elementary_min(sigma_db / 2, 2);
     double sum = 0, total = 0;
-    for (double db = -8 * sigma_db; db < 8 * sigma_db; db += step_db) {
+    int steps = (int)ceil(16 * sigma_db / step_db);
+    for (int i = 0; i < steps; i++) {
+        double db = i * step_db - 8 * sigma_db;
         double weight = elementary_exp(-db * db / (2 * sigma_db * sigma_db));
         double level = units_amplitude_from_db(detection->level_mean_db + db);
         sum += weight * varying_probability(detection, varying, amplitude * level);
