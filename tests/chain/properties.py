@@ -363,6 +363,8 @@ def general_position(name):
             for key, offset in zip(("x_m", "y_m"), moved):
                 spot[key] = round((spot.get(key, 0) + offset) * 2**30) / 2**30
         body["yaw_rad"] = body.get("yaw_rad", 0) + moved[2]
+    for strip in document.get("roadside", []):  # not a whole number of cells, which rounding would make one more
+        strip["to_x_m"] += 0.25
     return document
 
 
@@ -375,6 +377,11 @@ def move(document, angle, shift):
             spot["x_m"] = shift[0] + x * cosine - y * sine
             spot["y_m"] = shift[1] + x * sine + y * cosine
         body["yaw_rad"] += angle
+    for strip in document.get("roadside", []):
+        for x_m, y_m in (("from_x_m", "from_y_m"), ("to_x_m", "to_y_m")):
+            x, y = strip[x_m], strip[y_m]
+            strip[x_m] = shift[0] + x * cosine - y * sine
+            strip[y_m] = shift[1] + x * sine + y * cosine
     return document
 
 
