@@ -55,7 +55,8 @@ static struct echo_span see_as(struct scene *scene, const struct selection *sele
     roadside_echoes_add(look);
     size_t count = scene->frame.echoes.count - before;
     struct echo *copy = arena_get(&scene->arena, (count + 1) * sizeof *copy);
-    memcpy(copy, scene->frame.echoes.items + before, count * sizeof *copy);
+    for (size_t i = 0; i < count; i++)
+        copy[i] = scene->frame.echoes.items[before + i];
     return (struct echo_span){copy, count};
 }
 
