@@ -19,6 +19,10 @@ static const struct field vehicle_fields[] = {
     {OPTIONAL_CHOICE(struct vehicle, sensing_target, reflector_models_3gpp_names,
                      "sensing target of 3GPP TR 38.901, for glint-extract-3gpp")},
     {OPTIONAL_RECORD(struct vehicle, contour, &contour_record, "for glint-extract-contour")},
+    {.name = "sources",
+     .kind = FIELD_NOTES,
+     .optional = true,
+     .help = "where each figure comes from"},
     {0},
 };
 
