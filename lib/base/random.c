@@ -101,14 +101,20 @@ double random_sequence_sign(struct random_sequence *sequence)
     return random_sequence_chance(sequence, 0.5) ? 1 : -1;
 }
 
-/* The distribution of counts for a mean and an overdispersion. */
-struct law {
-    double mean, overdispersion;
-};
-
-static double probability_ratio(const struct law *law, double k)
+double random_gamma(struct random_sequence *sequence, double shape)
 {
-    return (law->mean + k * (law->overdispersion - 1)) / (law->overdispersion * (k + 1));
+    double most = (shape < 1 ? shape + 1 : shape) - 1.0 / 3;
+    for (;;) {
+        double deviation = random_gaussian_exceeded(random_sequence_next(sequence));
+        double root = 1 + deviation / sqrt(9 * most), ratio = root * root * root;
+        double uniform = random_sequence_next(sequence);
+        if (!(ratio > 0) ||
+            elementary_log(uniform) >
+                deviation * deviation / 2 + most * (1 - ratio + elementary_log(ratio)))
+            continue;
+        double smaller = shape < 1 ? elementary_pow(random_sequence_next(sequence), 1 / shape) : 1;
+        return most * ratio * smaller;
+    }
 }
 
 /* The count at which the summation begins. Weights are probabilities times total. */
@@ -118,41 +124,33 @@ struct beginning {
 
 /* Begins where the weights are negligible, going down from the mean, whose weight is 1; then adds
  * up the total. */
-static struct beginning begin_below_the_mean(const struct law *law)
+static struct beginning begin_below_the_mean(double mean)
 {
-    struct beginning begin = {.first = floor(law->mean), .weight = 1};
+    struct beginning begin = {.first = floor(mean), .weight = 1};
     while (begin.first > 0 && begin.weight > NEGLIGIBLE) {
         begin.first--;
-        begin.weight /= probability_ratio(law, begin.first);
+        begin.weight /= mean / (begin.first + 1);
     }
     double weight = begin.weight;
-    for (double k = begin.first; k < law->mean || weight > NEGLIGIBLE; k++) {
+    for (double k = begin.first; k < mean || weight > NEGLIGIBLE; k++) {
         begin.total += weight;
-        weight *= probability_ratio(law, k);
+        weight *= mean / (k + 1);
     }
     return begin;
 }
 
-/* Begins at a count of 0, whose probability has a closed form; only for means at which it is not
- * too small. */
-static struct beginning begin_at_zero(const struct law *law)
-{
-    double more = law->overdispersion - 1;
-    double exponent = more > 0 ? elementary_log(law->overdispersion) / more : 1;
-    return (struct beginning){0, elementary_exp(-law->mean * exponent), 1};
-}
-
-int64_t random_poisson(double mean, double overdispersion, double uniform)
+int64_t random_poisson(double mean, double uniform)
 {
     if (!(mean > 0))
         return 0;
-    struct law law = {elementary_min(mean, 1e9),
-                      elementary_min(elementary_max(overdispersion, 1), 1e3)};
-    struct beginning begin = law.mean < 16 ? begin_at_zero(&law) : begin_below_the_mean(&law);
+    mean = elementary_min(mean, 1e9);
+    struct beginning begin = {0, elementary_exp(-mean), 1};
+    if (mean >= 16) /* the probability of 0 is too small to begin with */
+        begin = begin_below_the_mean(mean);
     double target = uniform * begin.total;
     double k = begin.first, weight = begin.weight, sum = weight;
-    while (sum < target && (weight > NEGLIGIBLE * begin.total || k < law.mean)) {
-        weight *= probability_ratio(&law, k);
+    while (sum < target && (weight > NEGLIGIBLE * begin.total || k < mean)) {
+        weight *= mean / (k + 1);
         sum += weight;
         k++;
     }

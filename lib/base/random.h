@@ -94,14 +94,12 @@ bool random_sequence_chance(struct random_sequence *sequence, double probability
 /* -1 or 1. */
 double random_sequence_sign(struct random_sequence *sequence);
 
-/* A Poisson count, or with an overdispersion f above 1 a negative binomial one of f times the
- * variance: a Poisson count whose mean varies as a gamma variate (MODEL 14.9, 14.13),
- *
- *     P(k + 1) / P(k) = (mean + k (f - 1)) / (f (k + 1)).
- *
- * It is the least k with P(N <= k) >= uniform in (0, 1), so it grows with that draw. A mean above
- * 1e9 counts as 1e9, one that is not positive as 0; f below 1 counts as 1, above 1e3 as 1e3. The
- * cost grows with the square root of the mean, times f. Probabilities are good to about 1e-13;
- * tails beyond 2^-75 of the probability at the mean are left out, because no uniform draw reaches
- * them. */
-int64_t random_poisson(double mean, double overdispersion, double uniform);
+/* A gamma variate of this shape > 0 and scale 1, so with the shape as mean and variance (Marsaglia
+ * and Tsang 2000). It may be 0 for shapes below 0.02. */
+double random_gamma(struct random_sequence *sequence, double shape);
+
+/* A Poisson count: the least k with P(N <= k) >= uniform in (0, 1), so it grows with that draw. A
+ * mean above 1e9 counts as 1e9, one that is not positive as 0. The cost grows with the square root
+ * of the mean. Probabilities are good to about 1e-13; tails beyond 2^-75 of the probability at the
+ * mean are left out, because no uniform draw reaches them. */
+int64_t random_poisson(double mean, double uniform);

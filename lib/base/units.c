@@ -21,6 +21,11 @@ double units_amplitude_from_db(double db)
     return elementary_pow(10, db / 20);
 }
 
+double units_amplitude_logarithm(double db)
+{
+    return 2.30258509299404568402 / 20 * db;
+}
+
 double units_wavelength_m(double carrier_hz)
 {
     return SPEED_OF_LIGHT_MPS / carrier_hz;

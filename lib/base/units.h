@@ -16,6 +16,9 @@ double units_shortfall_db(double threshold, double amplitude);
 /* 10^(db/20). */
 double units_amplitude_from_db(double db);
 
+/* The natural logarithm of 10^(db/20). */
+double units_amplitude_logarithm(double db);
+
 /* The wavelength of a carrier, which must be positive. */
 double units_wavelength_m(double carrier_hz);
 

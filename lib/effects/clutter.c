@@ -4,12 +4,16 @@
 
 #include "base/elementary.h"
 #include "base/random.h"
-#include "geometry/kinematics.h"
 #include "propagation/ground_return.h"
 
-/* A scan has no more points than this. Those with higher numbers are left out, which thins clutter
- * alike everywhere. */
-enum { MOST_POINTS = 1000 };
+/* The ground is divided into rings, from the sensor's greatest range inwards. Each reaches in to
+ * this part of its own range, the last one to the least range. */
+#define RING_PART 0.7071067811865476 /* 6 dB at 40 dB a decade */
+#define RINGS 16
+
+/* In each ring those points are left out that together would stay below this part of the threshold.
+ */
+#define FAINTEST 0.1
 
 static bool described(const struct effect_scan *scan)
 {
@@ -19,59 +23,94 @@ static bool described(const struct effect_scan *scan)
            view->measured && frame_object(scan->frame, scan->frame->ego) != NULL;
 }
 
-/* The sensor's pose at the frame's time. Latency changes nothing: a body that turns keeps its
- * velocity in its own frame (motion_after), so the ground passes by as it did before. */
-static struct sensor_pose pose_of(const struct effect_scan *scan)
+struct ring {
+    double near_m, far_m;
+    double mean;    /* number of points */
+    double echoing; /* the power in terms of their mean power that is not left out */
+};
+
+static struct ring ring_between(const struct effect_scan *scan, double per_m2, double near_m,
+                                double far_m)
 {
     const struct sensor *sensor = scan->sensor;
-    struct motion ego = frame_motion(frame_object(scan->frame, scan->frame->ego), 0);
-    return kinematics_sensor_pose(&ego, sensor->mount_x_m, sensor->mount_y_m,
-                                  sensor->mount_yaw_rad);
+    double amplitude = scan->frame->conditions.clutter_ercs *
+                       radar_greatest_amplitude(&sensor->amplitude_law, near_m, far_m);
+    double faintest = FAINTEST * sensor->threshold / amplitude;
+    return (struct ring){near_m, far_m,
+                         per_m2 * ground_return_area_m2(near_m, far_m, sensor->field_of_view_rad),
+                         faintest * faintest};
 }
 
-static int64_t point_count(const struct effect_scan *scan, double uniform)
+/* Draws a place, uniform over the ring. */
+static struct echo point_at(const struct effect_scan *scan, const struct ring *ring,
+                            const struct sensor_pose *pose, const double uniform[2])
 {
-    const struct sensor *sensor = scan->sensor;
-    const struct conditions *conditions = &scan->frame->conditions;
-    double area_m2 =
-        ground_return_area_m2(sensor->range_min_m, sensor->range_max_m, sensor->field_of_view_rad);
-    int64_t count = random_poisson(conditions->clutter_per_m2 * area_m2,
-                                   conditions->clutter_overdispersion, uniform);
-    return count < MOST_POINTS ? count : MOST_POINTS;
-}
-
-/* Draws a place, uniform over the area, and a power of exponential distribution. */
-static void draw_point(const struct effect_scan *scan, const struct sensor_pose *pose,
-                       const double uniform[3], struct echo *point)
-{
-    const struct sensor *sensor = scan->sensor;
-    point->range_m = ground_return_range_m(sensor->range_min_m, sensor->range_max_m, uniform[0]);
-    point->azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
-    point->range_rate_mps =
-        ground_return_range_rate_mps(pose->velocity_mps, pose->boresight, point->azimuth_rad);
-    point->ercs = scan->frame->conditions.clutter_ercs * sqrt(-elementary_log(uniform[2]));
-}
-
-static void add_echoes(const struct effect_scan *scan, struct effect_echoes *echoes)
-{
-    struct sensor_pose pose = pose_of(scan);
-    struct echo ground = {
+    double azimuth_rad = scan->sensor->field_of_view_rad * (uniform[1] - 0.5);
+    return (struct echo){
         .sensor = scan->sensor->name,
         .id.object = "clutter",
         .id.reflector = "ground",
         .id.path = PATH_CLUTTER,
+        .range_m = ground_return_range_m(ring->near_m, ring->far_m, uniform[0]),
+        .azimuth_rad = azimuth_rad,
+        .range_rate_mps =
+            ground_return_range_rate_mps(pose->velocity_mps, pose->boresight, azimuth_rad),
         .time_s = scan->time_s,
         .effects = EFFECT_BIT(EFFECT_CLUTTER),
     };
-    struct random_address address = frame_draw_address_in(scan->address, ground.id);
-    double uniform[4];
-    random_uniform(&address, RANDOM_CLUTTER, 0, uniform);
-    int64_t count = point_count(scan, uniform[0]);
-    for (ground.id.number = 1; ground.id.number <= count; ground.id.number++) {
-        struct echo point = ground;
-        random_uniform(&address, RANDOM_CLUTTER, (uint32_t)ground.id.number, uniform);
-        draw_point(scan, &pose, uniform, &point);
+}
+
+/* Adds the points of a ring, the strongest first. A share of all is stronger than the present one;
+ * powers are exponential, so -ln(share) is its power, and 1 - share + share ln(share) the mean of
+ * what the weaker ones have. */
+static void add_ring(const struct effect_scan *scan, const struct ring *ring, int64_t number,
+                     const struct sensor_pose *pose, struct effect_echoes *echoes)
+{
+    struct random_address address = scan->address;
+    address.item = (uint64_t)number;
+    double waited = 0;
+    for (uint32_t rank = 0;; rank++) {
+        double uniform[4];
+        random_uniform(&address, RANDOM_CLUTTER, rank, uniform);
+        waited -= elementary_log(uniform[2]);
+        double share = waited / ring->mean;
+        if (!(share < 1))
+            return;
+        double power = -elementary_log(share);
+        if (power + ring->mean * (1 - share - share * power) < ring->echoing)
+            return;
+        struct echo point = point_at(scan, ring, pose, uniform);
+        point.id.number = number + RINGS * (int64_t)rank;
+        point.ercs = scan->frame->conditions.clutter_ercs * sqrt(power);
         effect_add(scan, echoes, &point);
+    }
+}
+
+/* Points per m2 of this scan. Their number is negative binomial, as its mean varies by a gamma
+ * variate, or without overdispersion a Poisson count. */
+static double density_per_m2(const struct effect_scan *scan)
+{
+    const struct conditions *conditions = &scan->frame->conditions;
+    double more = conditions->clutter_overdispersion - 1;
+    if (!(more > 0))
+        return conditions->clutter_per_m2;
+    const struct sensor *sensor = scan->sensor;
+    double area_m2 =
+        ground_return_area_m2(sensor->range_min_m, sensor->range_max_m, sensor->field_of_view_rad);
+    struct random_sequence sequence = random_sequence_at(scan->address, RANDOM_CLUTTER);
+    return random_gamma(&sequence, conditions->clutter_per_m2 * area_m2 / more) * more / area_m2;
+}
+
+static void add_echoes(const struct effect_scan *scan, struct effect_echoes *echoes)
+{
+    struct sensor_pose pose = effect_sensor_pose(scan);
+    double per_m2 = density_per_m2(scan), least_m = scan->sensor->range_min_m;
+    double far_m = scan->sensor->range_max_m;
+    for (int64_t number = 1; number <= RINGS && far_m > least_m; number++) {
+        double near_m = number < RINGS ? elementary_max(least_m, RING_PART * far_m) : least_m;
+        struct ring ring = ring_between(scan, per_m2, near_m, far_m);
+        add_ring(scan, &ring, number, &pose, echoes);
+        far_m = near_m;
     }
 }
 
@@ -79,7 +118,7 @@ const struct effect effect_clutter = {
     .summary = "the ground and what stands on it echo",
     .cause = "clutter_per_m2 and clutter_ercs of the conditions",
     .left_out_when = "clutter_per_m2 or clutter_ercs is 0, or the frame has no objects",
-    .cost = "a draw per point on the ground",
+    .cost = "a draw per point on the ground that is not too weak",
     .home = EFFECT_HOME_SENSOR,
     .described = described,
     .add_echoes = add_echoes,

@@ -90,6 +90,20 @@ struct effect_scan effect_begin(const struct frame *frame, const struct sensor *
     return scan;
 }
 
+double effect_age_s(const struct effect_scan *scan)
+{
+    return scan->frame->time_s - scan->time_s;
+}
+
+struct sensor_pose effect_sensor_pose(const struct effect_scan *scan)
+{
+    const struct sensor *sensor = scan->sensor;
+    struct motion ego =
+        frame_motion(frame_object(scan->frame, scan->frame->ego), effect_age_s(scan));
+    return kinematics_sensor_pose(&ego, sensor->mount_x_m, sensor->mount_y_m,
+                                  sensor->mount_yaw_rad);
+}
+
 struct echo_span effect_added_echoes(const struct effect_scan *scan)
 {
     struct effect_echoes echoes = {0};

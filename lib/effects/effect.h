@@ -16,6 +16,7 @@
 #include "base/random.h"
 #include "documents/suite.h"
 #include "frame/frame.h"
+#include "geometry/kinematics.h"
 
 enum effect_home { EFFECT_HOME_IDEAL, EFFECT_HOME_SENSOR, EFFECT_HOME_NOISE };
 
@@ -132,6 +133,13 @@ static inline bool effect_simulates(const struct effect_scan *scan, enum effect_
 {
     return (scan->effects & EFFECT_BIT(effect)) != 0;
 }
+
+/* How long before the frame's time the measurement was. */
+double effect_age_s(const struct effect_scan *scan);
+
+/* Where the sensor was and how it moved at the measurement, in the frame's coordinates. The frame
+ * must have its ego. */
+struct sensor_pose effect_sensor_pose(const struct effect_scan *scan);
 
 /* All echoes that effects add to those of the scan. */
 struct echo_span effect_added_echoes(const struct effect_scan *scan);

@@ -5,7 +5,6 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "geometry/kinematics.h"
 #include "radar/interferer.h"
 
 static bool described(const struct effect_scan *scan)
@@ -19,7 +18,7 @@ static double noise_ratio_of(const struct effect_scan *scan, const struct interf
 {
     const struct frame *frame = scan->frame;
     const struct sensor *sensor = scan->sensor;
-    double age_s = frame->time_s - scan->time_s;
+    double age_s = effect_age_s(scan);
     const struct object *ego = frame_object(frame, frame->ego);
     const struct object *carrier = frame_object(frame, other->object);
     if (carrier == NULL || carrier == ego)

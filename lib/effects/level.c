@@ -7,7 +7,6 @@
 #include "base/elementary.h"
 #include "base/hash.h"
 #include "base/units.h"
-#include "geometry/kinematics.h"
 #include "radar/level.h"
 
 /* Scatterers up to LONGEST_M apart interfere. Knots of aspect are KNOT_FRINGE lambda/(2 L) apart,
@@ -47,15 +46,10 @@ static bool described(const struct effect_scan *scan)
     return any && frame_object(scan->frame, scan->frame->ego) != NULL;
 }
 
-/* How long before the frame's time the scan's instant is. */
-static double age_s(const struct effect_scan *scan)
-{
-    return scan->frame->time_s - scan->time_s;
-}
-
 static double driven_m(const struct effect_scan *scan, const struct object *object)
 {
-    return object->travelled_m - age_s(scan) * elementary_hypot(object->vx_mps, object->vy_mps);
+    return object->travelled_m -
+           effect_age_s(scan) * elementary_hypot(object->vx_mps, object->vy_mps);
 }
 
 static double slow_part(const struct effect_scan *scan, const struct object *body,
@@ -66,23 +60,13 @@ static double slow_part(const struct effect_scan *scan, const struct object *bod
                          (driven_m(scan, body) + driven_m(scan, ego)) / scan->sensor->level_slow_m);
 }
 
-/* From the centre of the body, in its own frame. */
-static struct vec2 place_of_sensor(const struct effect_scan *scan, const struct object *body)
-{
-    const struct sensor *sensor = scan->sensor;
-    const struct object *ego = frame_object(scan->frame, scan->frame->ego);
-    struct motion carrier = frame_motion(ego, age_s(scan)),
-                  motion = frame_motion(body, age_s(scan));
-    struct sensor_pose pose = kinematics_sensor_pose(&carrier, sensor->mount_x_m, sensor->mount_y_m,
-                                                     sensor->mount_yaw_rad);
-    return vec2_turn_back(vec2_sub(pose.position_m, motion.position_m),
-                          vec2_heading(motion.yaw_rad));
-}
-
+/* from_m is the sensor's place. */
 static double fast_part(const struct effect_scan *scan, const struct object *body,
-                        const struct random_address *address)
+                        struct vec2 from_m, const struct random_address *address)
 {
-    struct vec2 sensor_m = place_of_sensor(scan, body);
+    struct motion motion = frame_motion(body, effect_age_s(scan));
+    struct vec2 sensor_m =
+        vec2_turn_back(vec2_sub(from_m, motion.position_m), vec2_heading(motion.yaw_rad));
     double turns = elementary_atan2(sensor_m.y, sensor_m.x) / (2 * PI);
     double knots_a_turn = 4 * PI * elementary_min(body->length_m, LONGEST_M) /
                           (KNOT_FRINGE * units_wavelength_m(scan->sensor->carrier_hz));
@@ -91,7 +75,8 @@ static double fast_part(const struct effect_scan *scan, const struct object *bod
                          vec2_length(sensor_m) / KNOT_RANGE_M, (int64_t)knots);
 }
 
-static double level_db(const struct effect_scan *scan, const struct object *body)
+static double level_db(const struct effect_scan *scan, const struct object *body,
+                       struct vec2 from_m)
 {
     struct class_level width = widths_of(scan, body->class);
     struct random_address address = {.seed = scan->address.seed,
@@ -106,7 +91,7 @@ static double level_db(const struct effect_scan *scan, const struct object *body
     if (width.slow_db > 0)
         db += width.slow_db * slow_part(scan, body, &address);
     if (width.fast_db > 0)
-        db += width.fast_db * fast_part(scan, body, &address);
+        db += width.fast_db * fast_part(scan, body, from_m, &address);
     return db;
 }
 
@@ -115,12 +100,13 @@ static double level_db(const struct effect_scan *scan, const struct object *body
 static const double *begin(const struct effect_scan *scan)
 {
     const struct frame *frame = scan->frame;
+    struct vec2 from_m = effect_sensor_pose(scan).position_m;
     double *factors = arena_get(frame->arena, frame->objects.count * sizeof *factors);
     for (size_t i = 0; i < scan->echoes.count; i++) {
         const struct object *body = frame_object(frame, scan->echoes.items[i].id.object);
         double *factor = body != NULL ? &factors[body - frame->objects.items] : NULL;
         if (factor != NULL && *factor == 0)
-            *factor = units_amplitude_from_db(level_db(scan, body));
+            *factor = units_amplitude_from_db(level_db(scan, body, from_m));
     }
     return factors;
 }

@@ -25,7 +25,7 @@ static void add_limbs(const struct effect_scan *scan, const struct echo *torso,
     struct random_address address = frame_draw_address_in(scan->address, torso->id);
     double uniform[4];
     random_uniform(&address, RANDOM_LIMBS, 0, uniform);
-    int64_t count = random_poisson(MICRO_DOPPLER_LIMB_COUNT, 1, uniform[0]);
+    int64_t count = random_poisson(MICRO_DOPPLER_LIMB_COUNT, uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
         struct echo part =
             effect_part_of_echo(torso, PATH_LIMB, number, MICRO_DOPPLER_LIMB_FACTOR, EFFECT_LIMBS);

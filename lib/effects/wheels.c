@@ -14,7 +14,7 @@ static void add_points(const struct effect_scan *scan, const struct echo *hub,
     struct random_address address = frame_draw_address_in(scan->address, hub->id);
     double uniform[4];
     random_uniform(&address, RANDOM_WHEELS, 0, uniform);
-    int64_t count = random_poisson(MICRO_DOPPLER_WHEEL_COUNT, 1, uniform[0]);
+    int64_t count = random_poisson(MICRO_DOPPLER_WHEEL_COUNT, uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
         struct echo point =
             effect_part_of_echo(hub, PATH_WHEEL, number, MICRO_DOPPLER_WHEEL_FACTOR, EFFECT_WHEELS);

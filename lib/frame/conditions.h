@@ -24,7 +24,7 @@ struct conditions {
     double fog_gpm3;                     /* liquid water */
     double snow_mmph;                    /* melted */
     double clutter_per_m2, clutter_ercs; /* points on the ground; none if either is 0 */
-    double clutter_overdispersion;       /* of their number (random_poisson); at most 1: Poisson */
+    double clutter_overdispersion;       /* of their number; at most 1: a Poisson count */
     LIST_OF(struct interferer) interferers;
 };
 

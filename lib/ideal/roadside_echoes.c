@@ -1,6 +1,7 @@
 #include "ideal/roadside_echoes.h"
 
 #include "base/elementary.h"
+#include "base/units.h"
 #include "ideal/line_of_sight.h"
 #include "radar/level.h"
 
@@ -131,7 +132,7 @@ static struct roadside roadside_of(const struct look *look, size_t number)
     struct roadside side = {.number = number,
                             .grid = roadside_grid_of(strip),
                             .scene = frame_draw_address_of_scene(look->frame),
-                            .level = strip->level_db * (elementary_log(10) / 20)};
+                            .level = units_amplitude_logarithm(strip->level_db)};
     double top_m = side.grid.height_m;
     bool latency = look->ego_moved;
     bool mirroring = look->frame->conditions.road != ROAD_UNKNOWN && look->height_m > 0;

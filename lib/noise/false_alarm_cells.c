@@ -58,7 +58,7 @@ struct cell_span false_alarm_cells_of(struct frame *frame, const struct effect_s
     if (!effect_simulates(context, EFFECT_FALSE_ALARMS) || view == NULL || !view->measured)
         return (struct cell_span){0};
     random_uniform(&address, RANDOM_FALSE_ALARMS, 0, uniform);
-    size_t count = (size_t)random_poisson(sensor->false_alarms, 1, uniform[0]);
+    size_t count = (size_t)random_poisson(sensor->false_alarms, uniform[0]);
     struct cell *cells = arena_get(frame->arena, (count + 1) * sizeof *cells);
     for (size_t i = 0; i < count; i++) {
         random_uniform(&address, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);

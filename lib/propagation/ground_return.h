@@ -1,7 +1,7 @@
 /* Random points on the ground in view of a sensor.
  *
  * Points are distributed evenly over the area between two ranges within the field of view (MODEL
- * 14.9, 14.13); random_poisson draws their number. */
+ * 14.13). */
 #pragma once
 
 #include "base/vec2.h"

@@ -1,5 +1,6 @@
 #include "propagation/roadside.h"
 
+#include "base/units.h"
 #include "radar/radar_equation.h"
 
 /* Length of a cell of a strip without a spacing, and the greatest width of any cell. */
@@ -78,7 +79,7 @@ struct roadside_grid roadside_grid_of(const struct roadside_strip *strip)
         .from_m = from,
         .length_m = vec2_length(run),
         .median_ercs = radar_ercs(radar_cross_section_from_dbsm_m2(median_dbsm)),
-        .spread = said(strip->spread_db, kind->spread_db) * (elementary_log(10) / 20),
+        .spread = units_amplitude_logarithm(said(strip->spread_db, kind->spread_db)),
         .height_m = said(strip->height_m, kind->height_m),
     };
     divide(&grid, strip->width_m, number->spacing_m, number->per_m2);

@@ -6,7 +6,6 @@
 #include "base/units.h"
 #include "radar/level.h"
 
-#define LN_10 2.30258509299404568402
 /* Deviations at which the log-normal law is cut, and what a Gaussian number is beyond them with. */
 #define CUT 3
 #define BEYOND_CUT 0.00134989803163
@@ -68,11 +67,12 @@ struct power_law {
 static double density(const struct power_law *varying, double power_db)
 {
     double power = elementary_pow(10, power_db / 10);
+    double power_a_db = power * 2 * units_amplitude_logarithm(1);
     double deviations = (power_db - varying->mean_db) / varying->sigma_db;
     if (varying->law == FLUCTUATION_SWERLING_1)
-        return LN_10 / 10 * power * elementary_exp(-power);
+        return power_a_db * elementary_exp(-power);
     if (varying->law == FLUCTUATION_SWERLING_3)
-        return LN_10 / 10 * 4 * power * power * elementary_exp(-2 * power);
+        return 4 * power_a_db * power * elementary_exp(-2 * power);
     return elementary_exp(-deviations * deviations / 2) / (varying->sigma_db * sqrt(2 * PI));
 }
 

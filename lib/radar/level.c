@@ -1,8 +1,7 @@
 #include "radar/level.h"
 
 #include "base/elementary.h"
-
-#define LN_10 2.30258509299404568402
+#include "base/units.h"
 
 /* The value of the knot in this column and row. */
 static double knot(const struct random_address *plane, enum random_purpose purpose, int64_t column,
@@ -45,5 +44,5 @@ double level_on_turn(const struct random_address *plane, enum random_purpose pur
 
 double level_mean_db(double sigma_db)
 {
-    return -LN_10 / 20 * sigma_db * sigma_db;
+    return -units_amplitude_logarithm(sigma_db) * sigma_db;
 }

@@ -26,6 +26,16 @@ double radar_reference_amplitude(const struct radar_equation *equation, double r
            elementary_pow(equation->calibration_range_m / counted_m, equation->exponent);
 }
 
+double radar_greatest_amplitude(const struct radar_equation *equation, double from_m, double to_m)
+{
+    double greatest = elementary_max(radar_reference_amplitude(equation, from_m),
+                                     radar_reference_amplitude(equation, to_m));
+    for (size_t i = 0; equation->rows != NULL && i < equation->row_count; i++)
+        if (equation->rows[i].range_m > from_m && equation->rows[i].range_m < to_m)
+            greatest = elementary_max(greatest, equation->rows[i].amplitude);
+    return greatest;
+}
+
 /* The last range at which the table, straight in the logarithms, falls below this amplitude. */
 static double table_range_m(const struct radar_equation *equation, double amplitude)
 {

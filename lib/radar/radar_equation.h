@@ -26,6 +26,9 @@ struct radar_equation {
  * goes on as between the last two. */
 double radar_reference_amplitude(const struct radar_equation *equation, double range_m);
 
+/* The greatest A_ref from one range to a farther one. */
+double radar_greatest_amplitude(const struct radar_equation *equation, double from_m, double to_m);
+
 /* The strength G of an echo before the antenna, A_ref · ERCS, and its amplitude, G · A_phi,
  * equation (2). */
 double radar_strength(const struct radar_equation *equation, double range_m, double ercs);

@@ -2,6 +2,7 @@
 
 #include "documents/suite_file.h"
 #include "frame/frame_check.h"
+#include "propagation/ground_return.h"
 #include "run/runner.h"
 #include "text/document.h"
 #include "text/path.h"
@@ -150,6 +151,25 @@ int suite_choice_effects(const struct suite_choice *choice, const struct frame *
     return 0;
 }
 
+/* Clutter of more points than this is refused: every point may become a target. */
+#define MOST_CLUTTER 1e5
+
+static int check_clutter(const struct frame *frame, const struct sensor *sensor,
+                         const struct selection *selection, struct diag *diag)
+{
+    double per_m2 = frame->conditions.clutter_per_m2;
+    double area_m2 =
+        ground_return_area_m2(sensor->range_min_m, sensor->range_max_m, sensor->field_of_view_rad);
+    if (!effects_enabled(selection, EFFECT_CLUTTER) || per_m2 * area_m2 <= MOST_CLUTTER ||
+        frame->conditions.clutter_ercs == 0)
+        return 0;
+    return diag_fail(
+        diag, DIAG_DATA,
+        "conditions.clutter_per_m2: %g make %.0f points in the %.0f m2 that the sensor "
+        "\"%s\" sees; at most %.0f are simulated",
+        per_m2, per_m2 * area_m2, area_m2, sensor->name, MOST_CLUTTER);
+}
+
 int suite_choice_step(void *state, struct frame *frame, struct runner *runner)
 {
     const struct suite_choice *choice = state;
@@ -159,6 +179,8 @@ int suite_choice_step(void *state, struct frame *frame, struct runner *runner)
         return -1;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
+        if (check_clutter(frame, sensor, &selection, runner_diag(runner)) != 0)
+            return -1;
         selection.log = frame_view(frame, sensor->name)->measured ? runner_log(runner) : NULL;
         runner_stage(runner)->visit(frame, sensor, &selection);
         effects_count_scan(&selection);

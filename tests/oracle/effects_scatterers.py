@@ -317,9 +317,11 @@ def clutter_lies_on_the_ground(bench):
         points = on_path(frame, "clutter")
         counts.append(len(points))
         bench.check(made(frame, "clutter") == len(points) == len(frame["targets"]), "count")
-        for number, one in enumerate(points, 1):
+        numbers = [one["contributors"][0]["number"] for one in points]
+        bench.check(len(set(numbers)) == len(numbers), "numbers")
+        for one in points:
             member = one["contributors"][0]
-            bench.check((member["object"], member["reflector"], member["number"]) == ("clutter", "ground", number), f"{member}")
+            bench.check((member["object"], member["reflector"]) == ("clutter", "ground"), f"{member}")
             bench.check(member["time_s"] == frame["time_s"] and "clutter" in one["effects"], f"{one}")
             places.append((member["range_m"] ** 2 - 4) / (60 ** 2 - 4))
             angles.append(member["azimuth_rad"] / 1.2 + 0.5)
@@ -337,7 +339,7 @@ def clutter_lies_on_the_ground(bench):
 
 
 def clutter_counts(bench):
-    """Overdispersed counts have a wider spread; there are never more than a thousand."""
+    """Overdispersed counts have a wider spread; there is no cap, but too many are refused."""
     for spread in 1, 4:
         frames = see(bench, clutter_frames(DRAWS, 8, clutter_overdispersion=spread), flat(**GROUND))
         counts = [made(frame, "clutter") for frame in frames]
@@ -347,15 +349,15 @@ def clutter_counts(bench):
     for conditions in ({"clutter_per_m2": 1}, {"clutter_ercs": 1}):
         frames = see(bench, frames_of([], 5, **conditions), flat(**GROUND))
         bench.check(all(made(frame, "clutter") == 0 for frame in frames), f"{conditions}")
-    full = see(bench, frames_of([], 2, clutter_per_m2=10, clutter_ercs=1), flat(**GROUND))
-    bench.check([made(frame, "clutter") for frame in full] == [1000, 1000], "more than a thousand")
+    full = see(bench, frames_of([], 2, clutter_per_m2=1, clutter_ercs=1e3), flat(**GROUND))
+    bench.check(all(abs(made(frame, "clutter") - AREA) < 5 * math.sqrt(AREA) for frame in full), "a cap")
     late = see(bench, clutter_frames(50, 3), flat(**GROUND, latency_s=0.25))
     now = see(bench, clutter_frames(50, 3), flat(**GROUND))
     for a, b in zip(late, now):
         for left, right in zip(a["targets"], b["targets"]):
             member = left["contributors"][0]
             bench.check(member["time_s"] == a["time_s"] - 0.25, "time of the measurement")
-            bench.check(member["range_rate_mps"] == right["contributors"][0]["range_rate_mps"], "another ground")
+            bench.check(abs(member["range_rate_mps"] - right["contributors"][0]["range_rate_mps"]) < 1e-12, "another ground")
 
 
 # ---- the choice of effects ----------------------------------------------------------------------
