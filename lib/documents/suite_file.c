@@ -8,6 +8,7 @@
 #include "documents/consistency.h"
 #include "text/csv_table.h"
 #include "text/document.h"
+#include "text/record_write.h"
 
 /* The path of a table by its name in a document, which is relative to the document. */
 static const char *path_beside(const char *document, const char *table, struct arena *arena)
@@ -125,11 +126,11 @@ static int read_pattern(const struct text *bytes, struct sensor *sensor, struct 
     return 0;
 }
 
-/* Reads one table that the suite names and adds its bytes to the digest. */
+/* Reads one table that the suite names. */
 static int
 add_table(const char *member, const char *suite_path, const char *name, struct sensor *sensor,
           int (*read_table)(const struct text *, struct sensor *, struct arena *, struct diag *),
-          uint64_t *digest, struct arena *arena, struct diag *diag)
+          struct arena *arena, struct diag *diag)
 {
     if (name == NULL)
         return 0;
@@ -137,7 +138,6 @@ add_table(const char *member, const char *suite_path, const char *name, struct s
     struct text bytes = {0};
     int result = document_bytes(path, &bytes, diag);
     if (result == 0) {
-        *digest = hash_bytes(*digest, bytes.bytes, bytes.length);
         result = read_table(&bytes, sensor, arena, diag);
         if (result != 0)
             diag_prefix(diag, "%s: ", path);
@@ -146,8 +146,8 @@ add_table(const char *member, const char *suite_path, const char *name, struct s
     return result == 0 ? 0 : diag_prefix(diag, "%s: ", member);
 }
 
-static int add_tables(const char *suite_path, struct sensor *sensor, uint64_t *digest,
-                      struct arena *arena, struct diag *diag)
+static int add_tables(const char *suite_path, struct sensor *sensor, struct arena *arena,
+                      struct diag *diag)
 {
     const struct {
         const char *member, *name;
@@ -161,14 +161,47 @@ static int add_tables(const char *suite_path, struct sensor *sensor, uint64_t *d
     int result = 0;
     for (size_t i = 0; result == 0 && i < sizeof tables / sizeof tables[0]; i++)
         result = add_table(tables[i].member, suite_path, tables[i].name, sensor, tables[i].read,
-                           digest, arena, diag);
+                           arena, diag);
     return result;
 }
 
-static int complete_suite(struct suite *suite, const char *path, const struct text *document,
-                          struct arena *arena, struct diag *diag)
+static void add_levels(const struct receiver_curve_row *rows, size_t count, struct text *values)
 {
-    uint64_t digest = hash_bytes(HASH_START, document->bytes, document->length);
+    for (size_t i = 0; i < count; i++)
+        text_format(values, "%.17g,%.17g\n", rows[i].at, rows[i].level_db);
+}
+
+/* Rows of all tables of a sensor, as text. */
+static void add_rows(const struct sensor *sensor, struct text *values)
+{
+    const struct radar_equation *law = &sensor->amplitude_law;
+    const struct antenna *antenna = &sensor->antenna;
+    for (size_t i = 0; i < law->row_count; i++)
+        text_format(values, "%.17g,%.17g\n", law->rows[i].range_m, law->rows[i].amplitude);
+    for (size_t i = 0; i < antenna->row_count; i++)
+        text_format(values, "%.17g,%.17g,%.17g\n", antenna->rows[i].azimuth_rad,
+                    antenna->rows[i].sum, antenna->rows[i].delta);
+    add_levels(antenna->curve.rows, antenna->curve.count, values);
+    add_levels(sensor->elevation_levels.rows, sensor->elevation_levels.count, values);
+}
+
+/* A hash of the values, so that neither spelling nor texts for people change it. */
+static void set_digest(struct suite *suite)
+{
+    struct text values = {0};
+    struct suite nameless = *suite;
+    nameless.origin = "";
+    record_write(&suite_record, &nameless, NULL, &values);
+    for (size_t i = 0; i < suite->sensors.count; i++)
+        add_rows(&suite->sensors.items[i], &values);
+    uint64_t digest = hash_bytes(HASH_START, values.bytes, values.length);
+    snprintf(suite->digest, sizeof suite->digest, "%016llx", (unsigned long long)digest);
+    text_free(&values);
+}
+
+static int complete_suite(struct suite *suite, const char *path, struct arena *arena,
+                          struct diag *diag)
+{
     if (suite->sensors.count == 0)
         return diag_fail(diag, DIAG_CONFIG, "%s: sensors: none; expected at least one", path);
     struct intern names = intern_begin(suite->sensors.count, arena);
@@ -180,13 +213,13 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
         if (suite_check(sensor, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         suite_derive(sensor);
-        if (add_tables(path, sensor, &digest, arena, diag) != 0)
+        if (add_tables(path, sensor, arena, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         if (consistency_check(sensor, i, diag) != 0)
             return diag_prefix(diag, "%s: ", path);
         sensor->prior = suite->prior;
     }
-    snprintf(suite->digest, sizeof suite->digest, "%016llx", (unsigned long long)digest);
+    set_digest(suite);
     return 0;
 }
 
@@ -210,7 +243,7 @@ const struct suite *suite_file_load(const char *name, struct arena *arena, struc
     if (result == 0)
         result = document_parse(path, &bytes, &suite_record, suite, arena, diag);
     if (result == 0)
-        result = complete_suite(suite, path, &bytes, arena, diag);
+        result = complete_suite(suite, path, arena, diag);
     text_free(&bytes);
     suite->given = arena_text(arena, name, strlen(name));
     suite->name = plain_name(name, arena);

@@ -87,7 +87,7 @@ struct sensor_view {
 
 struct sensors {
     const char *suite;   /* plain name of the suite's document, without folder and ending */
-    const char *digest;  /* of that document and the tables it names, 16 hexadecimal digits */
+    const char *digest;  /* of the values of that document and its tables, 16 hex digits */
     const char *effects; /* the selection as it was given to glint-ideal; NULL: auto */
     LIST_OF(struct sensor_view) list;
 };

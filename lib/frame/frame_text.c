@@ -119,7 +119,7 @@ const struct record sensor_view_record = {
 
 static const struct field sensors_fields[] = {
     {NAME(struct sensors, suite, "name of the suite document, without folder and .json")},
-    {NAME(struct sensors, digest, "digest of the suite's document and the tables it names")},
+    {NAME(struct sensors, digest, "digest of the values of the suite and its tables")},
     {OPTIONAL_NAME(struct sensors, effects, "selection given to glint-ideal; absent: auto")},
     {FIELD_LIST_OF(struct sensors, list, &sensor_view_record, "sensors by name")},
     {0},
