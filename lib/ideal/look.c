@@ -230,12 +230,53 @@ bool look_out_of_view(const struct look *look, const struct silhouette *silhouet
     return silhouette_outside(silhouette, look->view_right, look->view_left);
 }
 
+/* Nearer than this, what is outside the borders of view may be in view. */
+static double steep_m(const struct look *look, double height_m)
+{
+    return look->height_m > 0 ? LEVEL * elementary_max(look->height_m, 2 * height_m) : 0;
+}
+
 bool look_out_of_reach(const struct look *look, double height_m,
                        const struct silhouette *silhouette)
 {
-    double rise_m = look->height_m > 0 ? elementary_max(look->height_m, 2 * height_m) : 0;
     return look_out_of_range(look, silhouette) ||
-           (silhouette->nearest_m > LEVEL * rise_m && look_out_of_view(look, silhouette));
+           (silhouette->nearest_m > steep_m(look, height_m) && look_out_of_view(look, silhouette));
+}
+
+/* Keeps what lies to the left of a border through the sensor, or less than aside_m to its right. */
+static void keep_left(struct look_stretch *stretch, struct vec2 border, struct vec2 from,
+                      struct vec2 heading, double aside_m)
+{
+    double rise = vec2_cross(border, heading);
+    double least = -vec2_cross(border, from) - aside_m * fabs(vec2_dot(border, heading)) - SLACK;
+    if (rise > 0)
+        stretch->first_m = elementary_max(stretch->first_m, least / rise);
+    else if (rise < 0)
+        stretch->end_m = elementary_min(stretch->end_m, least / rise);
+    else if (least > 0)
+        stretch->end_m = -(double)INFINITY;
+}
+
+struct look_stretch look_stretch_in_reach(const struct look *look, struct vec2 from,
+                                          struct vec2 heading, double half_width_m, double height_m)
+{
+    struct vec2 start = vec2_sub(from, look->pose.position_m), still = {0, 0};
+    double foot_m = -vec2_dot(start, heading), range_m = look->sensor->range_max_m + SLACK;
+    double aside_m = elementary_max(fabs(vec2_cross(heading, start)) - half_width_m, 0);
+    double chord_m = sqrt(elementary_max((range_m - aside_m) * (range_m + aside_m), 0));
+    double steep = steep_m(look, height_m);
+    struct look_stretch stretch = {foot_m - chord_m, foot_m + chord_m};
+    if (aside_m > range_m)
+        stretch.end_m = -(double)INFINITY;
+    if (vec2_same(look->view_right, still))
+        return stretch;
+    keep_left(&stretch, look->view_right, start, heading, half_width_m);
+    keep_left(&stretch, vec2_scale(-1, look->view_left), start, heading, half_width_m);
+    if (aside_m <= steep) {
+        stretch.first_m = elementary_min(stretch.first_m, foot_m - steep);
+        stretch.end_m = elementary_max(stretch.end_m, foot_m + steep);
+    }
+    return stretch;
 }
 
 struct obstruction_heights look_heights(const struct look *look, const struct look_body *body)

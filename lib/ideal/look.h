@@ -118,6 +118,18 @@ bool look_out_of_view(const struct look *look, const struct silhouette *silhouet
 bool look_out_of_reach(const struct look *look, double height_m,
                        const struct silhouette *silhouette);
 
+/* A part of a line: empty if first is above end. */
+struct look_stretch {
+    double first_m, end_m; /* along the line */
+};
+
+/* The part of a straight strip of this half width that holds all that may be in range and in view,
+ * up to this height over the road. The strip begins at from, and runs endlessly both ways along the
+ * unit vector heading. */
+struct look_stretch look_stretch_in_reach(const struct look *look, struct vec2 from,
+                                          struct vec2 heading, double half_width_m,
+                                          double height_m);
+
 /* Factor on a point's ERCS towards a viewer, which is the sensor or a bounce on the way to it: the
  * point's visibility (MODEL 2.2) times its lobe (MODEL 2.8) at the sensor's elevation. facing is
  * the unit vector at facing_rad in the body's frame. 1 if visibility is not selected. */

@@ -5,8 +5,10 @@
 #include "ideal/line_of_sight.h"
 #include "radar/level.h"
 
-/* The least amplitude of an echo over the threshold. */
-#define FAINTEST 0.1
+/* The least amplitude of an echo over the threshold, and the part of it where the road strengthens
+ * echoes (14.10). */
+#define FAINTEST 0.2
+#define MIRRORED 0.25
 
 /* A strip, as one sensor sees it. */
 struct roadside {
@@ -15,29 +17,11 @@ struct roadside {
     struct random_address scene; /* address of what is drawn */
     struct echo echo;            /* what all its echoes have in common */
     double level;                /* standard deviation of the logarithm of a level's factor */
+    double faintest;             /* amplitude below which echoes are left out */
     double height_m;             /* of its scatterers' middle; the sensor's if it is not known */
     int64_t cells;               /* of this and all other strips */
     int64_t first_cell;          /* number of its first cell among them */
 };
-
-static int64_t cell_count(const struct roadside_strip *strip)
-{
-    struct roadside_grid grid = roadside_grid_of(strip);
-    return grid.along_count * grid.across_count;
-}
-
-/* The echo of a scatterer that the sensor sees from this range, azimuth and range rate. */
-static struct echo *add_echo(struct look *look, const struct roadside *side,
-                             const struct kinematics *read)
-{
-    struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
-    look->echoes++;
-    *echo = side->echo;
-    echo->range_m = read->range_m;
-    echo->azimuth_rad = read->azimuth_rad;
-    echo->range_rate_mps = read->range_rate_mps;
-    return echo;
-}
 
 /* Distance of an echo from the borders of range, view and the bodies beside its sight line. */
 static struct margins margins_of(const struct look *look, double reach_m,
@@ -50,22 +34,24 @@ static struct margins margins_of(const struct look *look, double reach_m,
 }
 
 /* The factor on amplitude of a scatterer's level, which changes with its range. */
-static double level_of(const struct roadside *side, const struct echo *echo)
+static double level_of(const struct roadside *side, int64_t number, double range_m)
 {
     struct random_address line = side->scene;
-    line.item = (uint64_t)echo->id.number;
-    return elementary_exp(side->level * level_on_line(&line, RANDOM_ROADSIDE_LEVEL, echo->range_m));
+    line.item = (uint64_t)number;
+    return elementary_exp(side->level * level_on_line(&line, RANDOM_ROADSIDE_LEVEL, range_m));
 }
 
-/* Adds the scatterer's echo if it is in range, in view and not hidden. */
+/* Adds the scatterer's echo if it is in range, in view, not hidden and, as the antenna sees it, not
+ * below least_ercs. */
 static void add_scatterer(struct look *look, const struct roadside *side,
-                          const struct roadside_scatterer *one, int64_t cell)
+                          const struct roadside_scatterer *one, int64_t cell, double least_ercs)
 {
+    struct frame *frame = look->frame;
     struct vec2 still = {0, 0};
-    uint64_t effects = side->echo.effects;
+    struct echo echo = side->echo;
     double gain;
     struct kinematics plane = look_kinematics(look, one->place_m, still);
-    struct kinematics read = look_slant(look, side->height_m, plane, &gain, &effects);
+    struct kinematics read = look_slant(look, side->height_m, plane, &gain, &echo.effects);
     double within_m = look_within_range_m(look, read.range_m);
     double inside_rad = look_within_view_rad(look, read.azimuth_rad);
     if (!(read.range_m > 0 && within_m >= 0 && inside_rad > 0))
@@ -75,55 +61,49 @@ static void add_scatterer(struct look *look, const struct roadside *side,
     struct line_of_sight sight = line_of_sight_along(look, &line, NULL, 0);
     if (sight.by != NULL)
         return;
-    struct echo *echo = add_echo(look, side, &read);
-    echo->id.number = 1 + side->first_cell + cell + one->rank * side->cells;
-    echo->ercs = sight.factor * gain * one->ercs * level_of(side, echo);
-    echo->effects = effects | sight.effects;
-    echo->margins = margins_of(look, elementary_min(within_m, read.range_m * inside_rad), &line);
+    echo.id.number = 1 + side->first_cell + cell + one->rank * side->cells;
+    echo.range_m = read.range_m;
+    echo.azimuth_rad = read.azimuth_rad;
+    echo.range_rate_mps = read.range_rate_mps;
+    echo.ercs = sight.factor * gain * one->ercs * level_of(side, echo.id.number, read.range_m);
+    if (echo.ercs * antenna_gain(&look->sensor->antenna, echo.azimuth_rad) < least_ercs)
+        return;
+    echo.effects |= sight.effects;
+    echo.margins = margins_of(look, elementary_min(within_m, read.range_m * inside_rad), &line);
+    *list_add(&frame->echoes, frame->arena) = echo;
+    look->echoes++;
 }
 
-/* The least ERCS of a scatterer that is not left out at this range. */
-static double least_ercs(const struct look *look, double range_m)
-{
-    const struct sensor *sensor = look->sensor;
-    return FAINTEST * sensor->threshold /
-           radar_reference_amplitude(&sensor->amplitude_law, range_m);
-}
-
-/* Adds what stands in a cell, unless it is surely out of reach. */
+/* Adds what stands in a cell. */
 static void add_cell(struct look *look, const struct roadside *side, int64_t along, int64_t across)
 {
     const struct roadside_grid *grid = &side->grid;
-    struct vec2 middle = roadside_cell_middle(grid, along, across);
-    struct vec2 to_sensor = vec2_sub(look->pose.position_m, middle);
-    struct vec2 half_m = {0.5 * grid->along_m, 0.5 * grid->across_m};
-    struct silhouette silhouette =
-        silhouette_of(half_m, grid->heading, vec2_turn_back(to_sensor, grid->heading));
-    if (!effects_forced(look->selection, EFFECT_ROADSIDE) &&
-        look_out_of_reach(look, side->height_m, &silhouette))
-        return;
-    effects_note(look->selection, EFFECT_ROADSIDE, true);
     struct roadside_series series =
         roadside_series_of(grid, side->scene, side->number, along, across);
+    struct vec2 middle = roadside_cell_middle(grid, along, across);
+    double range_m = vec2_length(vec2_sub(look->pose.position_m, middle));
+    double least =
+        side->faintest / radar_reference_amplitude(&look->sensor->amplitude_law, range_m);
     struct roadside_scatterer one;
-    double least = least_ercs(look, vec2_length(to_sensor));
     while (roadside_next(&series, least, &one))
-        add_scatterer(look, side, &one, along * grid->across_count + across);
+        add_scatterer(look, side, &one, along * grid->across_count + across, least);
 }
 
-/* Adds the cells that are not farther along the strip than the sensor's range. */
-static void add_strip(struct look *look, const struct roadside *side)
+/* Adds the cells of a row along the strip, without those that are surely out of reach. */
+static void add_row(struct look *look, const struct roadside *side, int64_t across)
 {
     const struct roadside_grid *grid = &side->grid;
-    double range_m = look->sensor->range_max_m, count = (double)grid->along_count;
-    double foot_m = vec2_dot(vec2_sub(look->pose.position_m, grid->from_m), grid->heading);
-    double first = floor((foot_m - range_m) / grid->along_m);
-    double end = ceil((foot_m + range_m) / grid->along_m);
-    first = elementary_min(elementary_max(first, 0), count);
-    end = elementary_min(elementary_max(end, 0), count);
-    for (int64_t along = (int64_t)first; along < (int64_t)end; along++)
-        for (int64_t across = 0; across < grid->across_count; across++)
-            add_cell(look, side, along, across);
+    double count = (double)grid->along_count, cell_m = grid->along_m;
+    struct look_stretch stretch = {0, count * cell_m};
+    if (!effects_forced(look->selection, EFFECT_ROADSIDE))
+        stretch = look_stretch_in_reach(look, roadside_cell_middle(grid, 0, across), grid->heading,
+                                        0.5 * grid->across_m, side->height_m);
+    /* Counted from the middle of the first cell; one cell is left at each end for rounding. */
+    double first = elementary_max(floor(stretch.first_m / cell_m) - 1, 0);
+    double end = elementary_min(ceil(stretch.end_m / cell_m) + 2, count);
+    effects_note(look->selection, EFFECT_ROADSIDE, first < end);
+    for (int64_t along = (int64_t)first; (double)along < end; along++)
+        add_cell(look, side, along, across);
 }
 
 static struct roadside roadside_of(const struct look *look, size_t number)
@@ -136,6 +116,7 @@ static struct roadside roadside_of(const struct look *look, size_t number)
     double top_m = side.grid.height_m;
     bool latency = look->ego_moved;
     bool mirroring = look->frame->conditions.road != ROAD_UNKNOWN && look->height_m > 0;
+    side.faintest = FAINTEST * look->sensor->threshold * (mirroring ? MIRRORED : 1);
     side.height_m = top_m > 0 ? 0.5 * top_m : look->height_m;
     side.echo = (struct echo){
         .sensor = look->sensor->name,
@@ -153,19 +134,21 @@ static struct roadside roadside_of(const struct look *look, size_t number)
 void roadside_echoes_add(struct look *look)
 {
     struct frame *frame = look->frame;
-    int64_t before = look->echoes, cells = 0, first_cell = 0;
+    int64_t before = look->echoes, cells = 0;
     effects_note(look->selection, EFFECT_ROADSIDE, false);
     if (frame->roadside.count == 0 || !effects_enabled(look->selection, EFFECT_ROADSIDE))
         return;
     line_of_sight_note(look, look->indexed_count > 0);
-    for (size_t i = 0; i < frame->roadside.count; i++)
-        cells += cell_count(&frame->roadside.items[i]);
+    struct roadside *sides = arena_get(frame->arena, frame->roadside.count * sizeof *sides);
     for (size_t i = 0; i < frame->roadside.count; i++) {
-        struct roadside side = roadside_of(look, i);
-        side.cells = cells;
-        side.first_cell = first_cell;
-        add_strip(look, &side);
-        first_cell += side.grid.along_count * side.grid.across_count;
+        sides[i] = roadside_of(look, i);
+        sides[i].first_cell = cells;
+        cells += sides[i].grid.along_count * sides[i].grid.across_count;
+    }
+    for (size_t i = 0; i < frame->roadside.count; i++) {
+        sides[i].cells = cells;
+        for (int64_t across = 0; across < sides[i].grid.across_count; across++)
+            add_row(look, &sides[i], across);
     }
     frame_count_echoes(frame, look->sensor->name, PATH_CLUTTER, look->echoes - before);
 }

@@ -3,8 +3,8 @@
  * The scatterers of the frame's strips (propagation/roadside.h) in range and in view that no body
  * hides become echoes of the object "roadside", which is none of the frame, with the kind of the
  * strip as reflector and the path clutter. A scatterer has the same number in every frame of a
- * scene and for every sensor. In each cell those are left out whose echo would be more than 20 dB
- * below the sensor's threshold on boresight, at the range of the cell's middle (MODEL 14.23). */
+ * scene and for every sensor. Those are left out whose echo would be more than 14 dB below the
+ * sensor's threshold, at the range of their cell's middle (MODEL 14.23). */
 #pragma once
 
 #include "ideal/look.h"

@@ -121,8 +121,11 @@ bool roadside_next(struct roadside_series *series, double least_ercs,
         if (grid->spaced && series->taken > 0)
             return false;
         random_uniform(&series->address, RANDOM_ROADSIDE, series->taken, uniform);
-        series->waited -= elementary_log(uniform[0]);
-        double stronger = grid->spaced ? uniform[0] : series->waited / grid->mean;
+        double stronger = uniform[0];
+        if (!grid->spaced) {
+            series->waited -= elementary_log(uniform[0]);
+            stronger = series->waited / grid->mean;
+        }
         if (!(stronger < 1))
             return false;
         found->rank = series->taken++;
