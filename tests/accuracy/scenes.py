@@ -26,7 +26,9 @@ SIZES = ["small", "medium", "large"]
 # What lrr77-full says of itself; all else that it has and a suite lacks is taken from it, so that every
 # effect exists. Steps and the azimuth cell are those of the radar of long range.
 OF_ITS_OWN = ["sources", "antenna_table", "unambiguous_range_m", "unambiguous_rate_mps", "false_alarms",
-              "false_alarm_range_rate_mps"]
+              "false_alarm_range_rate_mps", "level_constant_db", "level_slow_db", "level_slow_m", "level_fast_db",
+              "level_keeps"]
+FLUCTUATION = {"fluctuation": "log_normal", "fluctuation_sigma_db": 3.41}  # one draw a scan, in place of levels
 OF_LONG_RANGE = ["azimuth_cell_rad", "range_step_m", "range_rate_step_mps", "azimuth_step_rad"]
 
 
@@ -39,7 +41,7 @@ def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=
     """The suite with every effect and a scan in every frame, without a second train: chain and signal fold
     alike. Fewer repetitions of the same chirps or pulses tell rates apart less well."""
     full = sensors("lrr77-full")["sensors"][0]
-    taken = {key: value for key, value in full.items() if key not in OF_ITS_OWN and key not in without}
+    taken = {key: value for key, value in full.items() if key not in OF_ITS_OWN and key not in without} | FLUCTUATION
     for number, sensor in enumerate(suite["sensors"]):
         sensor = suite["sensors"][number] = taken | sensor
         sensor.pop("cycle_s", None)

@@ -556,7 +556,7 @@ module.exports = ({stream, view, withPage, panelText}) => {
         async 'effect scenes open with a target of that effect on screen, and the ego in the lower third'() {
             const about = {
                 accuracy: 'accuracy', ambiguity: 'ambiguity', clutter: 'clutter', coherence: 'coherence',
-                'false-alarms': 'false_alarms', fluctuation: 'fluctuation', ghosts: 'ghosts',
+                'false-alarms': 'false_alarms', level: 'level', ghosts: 'ghosts',
                 interference: 'interference', misalignment: 'misalignment', rain: 'rain',
                 'range-migration': 'range_migration', 'road-mirror': 'two_ray', shadows: 'height', snow: 'snow',
                 'wheels-and-limbs': 'wheels', 'two-vehicles': 'merging', contour: 'coherence',
