@@ -151,7 +151,8 @@ def picture_ghosts(bench, path):
     drawing.inset(near, 590, 218)
     drawing.note(view.reading(twin), ["a twin behind the wall", "radar, wall, car, wall, radar"],
                  820, 62, anchor="end")
-    both = next(t for t in frame["targets"] if t["contributors"][0]["path"] == "object_wall")
+    one_way = ("object_wall", "wall_object")  # either leads: their echoes are alike
+    both = next(t for t in frame["targets"] if t["contributors"][0]["path"] in one_way)
     drawing.note(view.reading(both), ["by the wall one way only", f"{len(both['contributors'])} echoes, 1 target"],
                  600, 108, anchor="end")
     draw_key(drawing, 20, 24, (("left", "target; its line: radial speed", 240), ("ghost", "ghost: a target seen in the wall", 0)))
