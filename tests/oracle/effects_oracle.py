@@ -21,7 +21,7 @@ import oracle  # noqa: E402
 import oracle_effects  # noqa: E402
 import random_scenes  # noqa: E402
 
-QUIET = ["angle_noise", "range_noise", "false_alarms", "fluctuation", "wheels", "limbs", "clutter", "coherence"]
+QUIET = ["angle_noise", "range_noise", "false_alarms", "fluctuation", "level", "wheels", "limbs", "clutter", "coherence"]
 EFFECTS_OFF = [[], ["diffraction"], ["elevation", "range_migration"], ["height", "curvature"], ["ghosts", "latency"],
                ["ambiguity", "interference", "quantisation", "two_ray"], ["diffraction", "misalignment", *oracle_effects.ATTENUATIONS]]
 RELATIVE, ABSOLUTE, FAINT = 1e-9, 1e-9, 1e-11

@@ -3,7 +3,7 @@
 scan(frame, vehicles, document, sensor, effects) gives what one sensor makes of a frame with `objects`: a Scan
 with echoes, losses, cells and targets before any draw. All formulas are in plain doubles; decisions within
 NEAR of their border are doubtful, as another order of rounding may rightly decide the other way. `effects` is
-the set of names that are simulated. What depends on draws (fluctuation, wheels, limbs, clutter, noise, false
+the set of names that are simulated. What depends on draws (fluctuation, levels, wheels, limbs, clutter, noise, false
 alarms, phases) is not here.
 
 Readings taken where MODEL leaves room are marked "Reading:".
