@@ -59,7 +59,7 @@ static void add_ranges(const struct sensor *sensor, struct datasheet *sheet)
         .threshold = sensor->threshold,
         .final_threshold = sensor->final_threshold ? sensor->threshold : 0,
         .noise = sensor->pointer_sigma,
-        .level_mean_db = sensor->level_keeps == LEVEL_KEEPS_MEAN ? level_mean_db(level_db) : 0,
+        .level_mean_db = level_centre_db(sensor->level_keeps, level_db),
         .level_sigma_db = level_db,
     };
     sheet->chance[0] = detection_probability(&detection, sensor->threshold);

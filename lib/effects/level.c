@@ -84,7 +84,7 @@ static double level_db(const struct effect_scan *scan, const struct object *body
                                      .item = hash_text(HASH_START, body->id)};
     double variance = width.constant_db * width.constant_db + width.slow_db * width.slow_db +
                       width.fast_db * width.fast_db;
-    double db = scan->sensor->level_keeps == LEVEL_KEEPS_MEAN ? level_mean_db(sqrt(variance)) : 0;
+    double db = level_centre_db(scan->sensor->level_keeps, sqrt(variance));
     double constant[2];
     random_gaussian_pair(&address, RANDOM_LEVEL, 0, constant);
     db += width.constant_db * constant[0];

@@ -46,3 +46,8 @@ double level_mean_db(double sigma_db)
 {
     return -units_amplitude_logarithm(sigma_db) * sigma_db;
 }
+
+double level_centre_db(enum level_keeps keeps, double sigma_db)
+{
+    return keeps == LEVEL_KEEPS_MEAN ? level_mean_db(sigma_db) : 0;
+}

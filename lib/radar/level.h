@@ -28,3 +28,6 @@ enum level_keeps { LEVEL_KEEPS_MEAN, LEVEL_KEEPS_MEDIAN };
 
 /* The mean of a normal level in dB for which the mean of its power is 1: -(ln 10/20) sigma_db^2. */
 double level_mean_db(double sigma_db);
+
+/* The mean of a normal level in dB that keeps the mean of its power at 1, or its median. */
+double level_centre_db(enum level_keeps keeps, double sigma_db);
