@@ -1,5 +1,7 @@
 """glint beside a recording: fitted on its first half, compared with its second half, in print."""
+import itertools
 import math
+import operator
 import os
 import statistics
 import subprocess
@@ -11,6 +13,7 @@ import fitted
 import geometry
 import marginals
 import readers
+import roadside
 import score
 import statics
 from progress import Progress
@@ -66,7 +69,7 @@ def halves(recording):
     return [recording._replace(scans=scans) for scans in (recording.scans[:middle], recording.scans[middle:])]
 
 
-def print_found(recording, fit):
+def print_found(recording, fit, lost):
     duration_s = recording.scans[-1].time_s - recording.scans[0].time_s
     print(f"{len(recording.scans)} scans in {duration_s:.1f} s: fitted on the first half, compared with the second",
           *recording.notes, sep="\n")
@@ -82,6 +85,9 @@ receiver   0 dBsm has {", ".join(f"{level:.1f} dB at {range_m:.0f} m" for range_
 cells      {sensor['cell_range_m']:.2f} m, {sensor['cell_range_rate_mps']:.2f} m/s
 noise      {sensor['range_sigma_m']:.2f} m, {sensor['range_rate_sigma_mps']:.3f} m/s, {math.degrees(azimuth_rad):.2f} \
 degrees at 20 dB
+levels     keep the {fit.sensor['level_keeps']}: scores of blocks left out: {", ".join(f"{word} {own:.1f}" for word, own in lost.items()) or "none"}
+roadside   {", ".join(f"{100 * one['per_m2'] * one['width_m']:.1f} of {one['rcs_dbsm']:.0f} dBsm at {one['from_y_m']} m"
+                      for one in fit.roadside) or "nothing"}, in 100 m
 """)
 
 
@@ -104,18 +110,52 @@ def print_skills(second, results, scores):
     blocks = scans / score.block_length(scans)
     if blocks < score.LONG_BLOCKS:
         print(f"too short: intervals of {blocks:.0f} blocks of scans; {score.LONG_BLOCKS} are needed")
-    for chain, before in zip(chains.CHAINS[1:4], chains.CHAINS):
+    for chain, before in zip(chains.CHAINS[1:], [*chains.CHAINS[:4], chains.ALL, chains.ALL]):
         if gains(scores[chain], scores[before], ideal, scans)[1] > 0:
             for body in sorted({name for name, _ in ideal}):
                 if gains(scores[chain], scores[before], ideal, scans, body)[1] <= 0:
                     print(f"vanishes without {body}: the gain of {chain.name} over {before.name}")
 
 
-def print_marginals(second, results, threshold_db):
-    """Numbers of the recording beside the least and largest of the seeds of each chain."""
+def kept(recording, folder):
+    """Do levels keep the mean of the power or the median? {word: score} of blocks of scans, each under the suite found in
+    the others; the lower is better. Without boxes there is none."""
+    scans, lost = recording.scans, dict.fromkeys(("median", "mean") if any(scan.boxes for scan in recording.scans) else (), 0)
+    blocks = max(len(scans) // score.block_length(len(scans)), 2)
+    for begin, end in itertools.pairwise(len(scans) * i // blocks for i in range(blocks + 1)):
+        fit = fitted.fit(recording._replace(scans=scans[:begin] + scans[end:]))
+        block = part(fit, recording.radar, scans[begin:end])
+        for word in lost:
+            lists, _ = chains.run(chains.ALL, fitted.write_suite(fit, folder, level_keeps=word), fit, block)
+            lost[word] += sum(block.scores(lists).values())
+    return lost
+
+
+def fits(recording, folder, keeps="median", **changed):
+    """What a recording says, and what as many others of its law might say as a chain has lists: from scans drawn in blocks.
+    All annotations are less what lists of all effects seem to have, whose echoes lie behind the nearest points of boxes.
+    All have the roadside of the first."""
+    found = fitted.fit(recording, keeps)
+    own = part(found, recording.radar, recording.scans)
+    lists, _ = chains.run(chains.ALL, fitted.write_suite(found, folder, **changed), found, own)
+    seeming = [fitted.annotation(recording._replace(scans=[scan._replace(detections=seen) for scan, seen
+                                                           in zip(own.scans, one)])) for one in lists]
+    less = [statistics.fmean(of) for of in zip(*seeming)]
+    drawn = Progress("fits").over([*score.resampled(len(recording.scans), chains.SEEDS)])
+    told = [found, *(fitted.fit(recording._replace(scans=[recording.scans[i] for i in one]), keeps) for one in drawn)]
+    return [one._replace(annotation=fitted.Annotation(*map(operator.sub, one.annotation, less))) for one in told]
+
+
+def drawn_lists(chain, fits_drawn, rest, folder, **changed):
+    """Lists, [fit][scan], of a chain: one seed under each fit, with the boxes where that fit has them."""
+    return [chains.run(chain, fitted.write_suite(fit, folder, **changed), fit, part(fit, rest.radar, rest.scans), 1, seed)[0][0]
+            for seed, fit in enumerate(fits_drawn, 1)]
+
+
+def print_marginals(second, lists, threshold_db):
+    """Numbers of the recording beside the least and largest of the lists of each chain, {chain: [list][scan]}."""
     told = marginals.values(second, [scan.detections for scan in second.scans], threshold_db)
-    ranges = {chain: [marginals.values(second, one, threshold_db) for one in lists]
-              for chain, (lists, _) in results.items() if chain != chains.IDEAL}
+    ranges = {chain: [marginals.values(second, one, threshold_db) for one in own] for chain, own in lists.items()}
     print(f"\n{'* outside':42} {'recorded':>8}", *(f"{chain.name:>20}" for chain in ranges))
     for name, value in told.items():
         cells = [[one[name] for one in own if name in one] for own in ranges.values()]
@@ -135,7 +175,7 @@ def print_components(second, fit, folder, scores):
     trials += [(f"{law} instead of levels", best, fitted.write_suite(fit, folder, **steady, fluctuation=law))
                for law in ("log_normal", "swerling_1", "swerling_3")]
     for name, chain, document in Progress("components").over(trials):
-        lists, _ = chains.run(chain, document, fit.curve, second.scans, second.speeds)
+        lists, _ = chains.run(chain, document, fit, second)
         lost.append((gains(scores[best], second.scores(lists), scores[chains.IDEAL], scans), name))
     print(f"\nof {best.name}, most is lost")
     for (points, least, most), name in sorted(lost, reverse=True)[:3]:
@@ -144,19 +184,27 @@ def print_components(second, fit, folder, scores):
 
 def compare(folder, suite_folder=None):
     """Prints all of it, and writes the suite that was found into a folder, if one is named."""
+    try:
+        os.makedirs(suite_folder or ".", exist_ok=True)
+    except OSError as error:
+        readers.refuse(error, os.EX_CANTCREAT)
     recording = readers.read(folder)
     first, rest = halves(recording)
-    fit = fitted.fit(first)
-    print_found(recording, fit)
     with tempfile.TemporaryDirectory() as place:
+        lost = kept(first, place)
+        fit, *others = fits(first, place, min(lost, key=lost.get, default="median"))
+        strips = roadside.strips(chains.CHAINS[-1], fitted.write_suite(fit, suite_folder or place), fit,
+                                 part(fit, first.radar, first.scans))
+        fit, *others = (one._replace(roadside=strips) for one in (fit, *others))
+        print_found(recording, fit, lost)
         suite = fitted.write_suite(fit, suite_folder or place)
         second = part(fit, rest.radar, rest.scans)
-        results = {chain: chains.run(chain, suite, fit.curve, second.scans, second.speeds)
-                   for chain in Progress("chains").over(chains.CHAINS)}
+        results = {chain: chains.run(chain, suite, fit, second) for chain in Progress("chains").over(chains.CHAINS)}
         if second.boxes:
             scores = {chain: second.scores(lists) for chain, (lists, _) in results.items()}
             print_skills(second, results, scores)
-        print_marginals(second, results, fit.sensor["threshold_db"])
+        print_marginals(second, {chain: drawn_lists(chain, others, rest, place)
+                                 for chain in Progress("chains").over(chains.CHAINS[1:])}, fit.sensor["threshold_db"])
         if second.boxes:
             print_components(second, fit, place, scores)
     if suite_folder:

@@ -4,11 +4,10 @@ import math
 import os
 import resource
 import subprocess
-import sys
 import tempfile
 from collections import namedtuple
 
-from readers import Box, Detection
+from readers import Box, Detection, refuse
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 GLINT = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin", "glint")
@@ -17,18 +16,13 @@ SEEDS = 39
 PAPER = ("visibility,plane_reflection,rows,occlusion,ambiguity,merging,superposition,threshold,angle_noise,range_noise,"
          "final_threshold,list_limit")
 
-# data: the folder that vehicle documents come from; road: the scenario with the strips of its roadside
-Chain = namedtuple("Chain", "name effects sensor noise data road", defaults=("glint-sensor", "glint-noise", "data", None))
-IDEAL = Chain("ideal echoes", PAPER, "glint-sensor-perfect", "glint-noise-none")
-CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("all effects", "auto"),
-          Chain("with data/detailed", "auto", data="data/detailed"), Chain("with a roadside", "auto", road="motorway")]
-
-
-def roadside(road, scans, speeds):
-    """The strips of a scenario, as long as the ego's way."""
-    way_m = max(speeds) * (scans[-1].time_s - scans[0].time_s)
-    with open(os.path.join(ROOT, "data", "scenarios", f"{road}.json"), encoding="utf-8") as file:
-        return [strip | {"to_x_m": way_m + 400} for strip in json.load(file)["roadside"]]
+# data: the folder that vehicle documents come from; road: between the strips beside the road that were found
+Chain = namedtuple("Chain", "name effects stages data road", defaults=("glint-sensor | glint-noise", "data", False))
+IDEAL = Chain("ideal echoes", PAPER, "glint-sensor-perfect | glint-noise-none")
+ALL = Chain("all effects", "auto")
+CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("without levels", "auto,-level"), ALL,
+          Chain("smear", "auto", "glint-sensor-smear | glint-noise"),
+          Chain("with data/detailed", "auto", data="data/detailed"), Chain("with a roadside", "auto", road=True)]
 
 
 def frames(scans, speeds, seed, strips):
@@ -48,25 +42,24 @@ def frames(scans, speeds, seed, strips):
                     "width_m": box.width_m, "height_m": box.height_m, "travelled_m": ways[box.id]} for box in bodies]}
 
 
-def run(chain, suite, law, scans, speeds, seeds=SEEDS, first=1):
+def run(chain, suite, fit, part, seeds=SEEDS, first=1):
     """Lists of detections, [seed][scan], with seeds from the first one on, and the CPU time of a frame in microseconds."""
-    strips = roadside(chain.road, scans, speeds) if chain.road else []
     with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as traffic:
         for seed in range(first, first + seeds):
-            for frame in frames(scans, speeds, seed, strips):
+            for frame in frames(part.scans, part.speeds, seed, fit.roadside if chain.road else []):
                 traffic.write(json.dumps(frame) + "\n")
         traffic.flush()
         text = (f"glint-extract '{traffic.name}' | glint-ideal --sensors '{suite}' --effects {chain.effects} --sections none"
-                f" | {chain.sensor} | {chain.noise}")
+                f" | {chain.stages}")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         done = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=os.path.join(ROOT, chain.data)),
                               check=False, stdout=subprocess.PIPE)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode:
-        sys.exit(f"realism: {text}: exit status {done.returncode}")
+        refuse(f"{text}: exit status {done.returncode}", done.returncode)
     spent_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    lists = [[detection(target, law) for target in json.loads(line)["targets"]] for line in done.stdout.splitlines()]
-    return ([lists[i:i + len(scans)] for i in range(0, len(lists), len(scans))], 1e6 * spent_s / (seeds * len(scans)))
+    lists = [[detection(target, fit.curve) for target in json.loads(line)["targets"]] for line in done.stdout.splitlines()]
+    return ([lists[i:i + len(part.scans)] for i in range(0, len(lists), len(part.scans))], 1e6 * spent_s / len(lists))
 
 
 def detection(target, law):

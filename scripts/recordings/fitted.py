@@ -12,18 +12,20 @@ from readers import STANDING
 
 # A list is lag_s older than its boxes, and near faces lie inset_m inside them.
 Annotation = namedtuple("Annotation", "lag_s inset_m")
-# azimuth_noise: standard deviation in rad at a signal as strong as the noise; sensor: members of a suite's sensor.
-Fit = namedtuple("Fit", "annotation curve azimuth_noise sensor")
+# azimuth_noise: standard deviation in rad at a signal as strong as the noise; sensor: members of a suite's sensor;
+# roadside: strips of a scene.
+Fit = namedtuple("Fit", "annotation curve azimuth_noise sensor roadside", defaults=([],))
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
+STEEPEST = 8  # extent of the view in noise of azimuth: delta is at most 140 times sum
+WITHIN_3 = 0.9733  # variance of normal numbers within three standard deviations
 # Members that lists do not show, and figures for which a half may have too few detections: those of lrr77-full.
 SHIPPED = ("range_min_m range_floor_m diffraction curved_sides micro_motion bounces antenna_pattern phase_reference "
            "angle_estimator final_threshold list_order list_limit azimuth_sigma_rad cell_range_m cell_range_rate_mps "
            "range_sigma_m range_rate_sigma_mps").split()
 LEVEL = "[A] the middle between two 77 GHz radars on roads (MODEL 14.22)"
 ASSUMED = {"cell_phase": ("by_path", "[A] as lrr77-coherent"), "cell_extent": ("half_width", "[A] a least distance"),
-           "pointer_sigma": (1, "[A] amplitudes are ratios to the noise"), "level_keeps": ("median", "[A] a typical body"),
-           "level_constant_db": (4.5, LEVEL), "level_slow_db": (2.5, LEVEL), "level_fast_db": (2.9, LEVEL)}
+           "pointer_sigma": (1, "[A] amplitudes are ratios to the noise"), "level_constant_db": (4.5, LEVEL), "level_slow_db": (2.5, LEVEL), "level_fast_db": (2.9, LEVEL)}
 
 
 class Curve(namedtuple("Curve", "over_range over_azimuth")):
@@ -54,9 +56,9 @@ def spread(values):
 
 
 def least_squares(rows, values):
-    """The coefficients of the columns of rows, by the normal equations."""
+    """The coefficients of the columns of rows, by the normal equations; 0 where a column is."""
     n = len(rows[0])
-    system = [[sum(row[i] * row[j] for row in rows) for j in range(n)]
+    system = [[sum(row[i] * row[j] for row in rows) + (1e-9 if i == j else 0) for j in range(n)]
               + [sum(row[i] * value for row, value in zip(rows, values))] for i in range(n)]
     for i in range(n):
         for j in range(n):
@@ -87,7 +89,7 @@ def annotation(recording):
 def curve(detections, threshold_db):
     """By least squares where lists have both figures. With cross sections alone, the weakest tenth of each sixth of the
     ranges meets the threshold. Without cross sections 40 dB a decade are assumed."""
-    ordered, aside = sorted(detections), 1.01 * max(abs(one.azimuth_rad) for one in detections)
+    ordered, aside = sorted(detections), 1.01 * max(0.01, *(abs(one.azimuth_rad) for one in detections))
     azimuths = [aside * i / 4 for i in range(-4, 5)]
     flat = [(azimuth, 0) for azimuth in azimuths]
     if any(one.rcs_dbsm is None for one in detections):
@@ -96,7 +98,7 @@ def curve(detections, threshold_db):
         sixths = [ordered[len(ordered) * i // 6:len(ordered) * (i + 1) // 6] for i in range(6)]
         return Curve([(one[len(one) // 2].range_m, threshold_db - quantile([one.rcs_dbsm for one in one], 0.1))
                       for one in sixths], flat)
-    logs = [math.log10(ordered[(len(ordered) - 1) * i // 3].range_m) for i in range(4)]
+    logs = [math.log10(ordered[(len(ordered) - 1) * i // 3].range_m) + 1e-3 * i for i in range(4)]
     rows = [parts(math.log10(one.range_m), logs) + parts(one.azimuth_rad, azimuths) for one in ordered]
     rows = [row[:8] + row[9:] for row in rows]  # nothing is lost on boresight
     levels = least_squares(rows, [one.snr_db - one.rcs_dbsm for one in ordered])
@@ -115,50 +117,62 @@ def completed(scans, law):
 
 
 def cells(scans):
-    """The least distance in range of detections whose rates agree, and in rate of those whose ranges do, in 50 scans; 1 in
-    100 pairs of neighbours may be closer."""
+    """The least distance in range of detections whose rates agree, and in rate of those whose ranges do. 1 in 100 pairs of
+    neighbours may be closer; as many again are farther apart than the least by about as much as that is too large."""
     pairs = [(abs(one.range_m - other.range_m), abs(one.range_rate_mps - other.range_rate_mps))
              for scan in scans[:50] for i, one in enumerate(scan.detections) for other in scan.detections[:i]]
     near = {"cell_range_m": [off_m for off_m, off_mps in pairs if off_mps < 0.1 and off_m < 10],
             "cell_range_rate_mps": [off_mps for off_m, off_mps in pairs if off_m < 0.3 and off_mps < 5]}
-    return {name: quantile(found, 0.01) for name, found in near.items() if len(found) >= 5}
+    return {name: max(2 * quantile(found, 0.01) - quantile(found, 0.02), 0.01) for name, found in near.items()
+            if len(found) >= 5}
 
 
-def noise(radar, scans):
+def noise(radar, scans, least_rad):
     """Standard deviations of statics from scan to scan, of range, range rate and azimuth, and the azimuth's at a signal
-    as strong as the noise."""
+    as strong as the noise, at least least_rad. Scans that do not follow each other at the usual interval make no pairs."""
     found, rates = [], []
     speeds = statics.ego_speeds(radar, scans)
     still = [statics.standing(radar, scan.detections, speed) for scan, speed in zip(scans, speeds)]
-    for i in range(1, len(scans)):
-        own = statics.pairs(still[i - 1], still[i], speeds[i] * (scans[i].time_s - scans[i - 1].time_s))
-        found += own if len(own) >= 8 else []
+    intervals_s = [after.time_s - before.time_s for before, after in zip(scans, scans[1:])]
+    for i, interval_s in enumerate(intervals_s, 1):
+        if 0 < interval_s < 2 * statistics.median(intervals_s):
+            own = statics.pairs(still[i - 1], still[i], speeds[i] * interval_s)
+            found += own if len(own) >= 5 else []
         rates += [one.range_rate_mps + speeds[i] * x / one.range_m for x, y, one in still[i] if abs(y) < 0.05 * x]
     if len(found) < 40 or len(rates) < 20:
-        return {}, 0.05
-    found.sort(key=lambda pair: min(pair[2].snr_db, pair[3].snr_db))
-    weak, strong = [(spread([pair[1] for pair in half]) ** 2 / 2,
-                     statistics.fmean(10 ** (-min(pair[2].snr_db, pair[3].snr_db) / 10) for pair in half))
-                    for half in (found[:len(found) // 2], found[len(found) // 2:])]
-    per_noise = max((weak[0] - strong[0]) / (weak[1] - strong[1]), 1e-6)
-    floor_rad = math.sqrt(max(strong[0] - per_noise * strong[1], 1e-8))
+        return {}, max(least_rad, 0.05)
+    floor, per_noise = azimuth_variances(found, least_rad ** 2)
     return {"range_sigma_m": spread([pair[0] for pair in found]) / math.sqrt(2), "range_rate_sigma_mps": spread(rates),
-            "azimuth_floor_rad": floor_rad, "azimuth_sigma_rad": floor_rad}, math.sqrt(per_noise)
+            "azimuth_floor_rad": math.sqrt(floor), "azimuth_sigma_rad": math.sqrt(floor)}, math.sqrt(per_noise)
 
 
-def fit(recording):
-    """What the scans of a recording say, for its annotation and its radar."""
+def azimuth_variances(found, least):
+    """The variance of azimuths that no signal lessens, and that at a signal as strong as the noise, which is no less than
+    the least: weighted least squares of the squares of differences. Those beyond three standard deviations are wrong pairs."""
+    squares = [([2, 10 ** (-one.snr_db / 10) + 10 ** (-other.snr_db / 10)], off_rad ** 2) for _, off_rad, one, other in found]
+    law = [1e-4, max(1e-2, least)]
+    for _ in range(12):
+        weighed = [(row, square, sum(map(math.prod, zip(row, law)))) for row, square in squares]
+        near = [([one / variance for one in row], square / variance / WITHIN_3) for row, square, variance in weighed
+                if square < 9 * variance]
+        law[1] = max(least_squares(*zip(*near))[1], least)
+        law[0] = max(sum(row[0] * (square - law[1] * row[1]) for row, square in near) / sum(row[0] ** 2 for row, _ in near), 1e-6)
+    return law
+
+
+def fit(recording, level_keeps="median"):
+    """What the scans of a recording say, for its annotation and its radar; level_keeps is chosen elsewhere."""
     detections, radar = [one for scan in recording.scans for one in scan.detections], recording.radar
     told = [one.snr_db for one in detections if one.snr_db is not None]
     threshold_db = quantile(told, LEAST) if told else 14.0
     law = curve(detections, threshold_db)
     scans = completed(recording.scans, law)
-    scatter, azimuth_noise = noise(radar, scans)
+    scatter, azimuth_noise = noise(radar, scans, law.over_azimuth[-1][0] / STEEPEST)
     found = {"mount_x_m": radar.x_m, "mount_y_m": radar.y_m, "mount_yaw_rad": radar.yaw_rad, "carrier_hz": radar.carrier_hz,
              "range_max_m": max(one.range_m for one in detections), "threshold_db": threshold_db,
              "field_of_view_rad": 2 * law.over_azimuth[-1][0],
-             "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "antenna_table": "antenna.csv", **cells(scans),
-             **scatter}
+             "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "antenna_table": "antenna.csv",
+             "level_keeps": level_keeps, **cells(scans), **scatter}
     with open(os.path.join(ROOT, "data", "sensors", "lrr77-full.json"), encoding="utf-8") as file:
         shipped = json.load(file)["sensors"][0]
     members = {name: (shipped[name], shipped["sources"][name]) for name in SHIPPED} | ASSUMED | {

@@ -9,7 +9,7 @@ BEHIND_M, ASIDE_M, ASIDE_RAD, OFF_MPS = 2.9, 1.5, math.radians(1), 1.5  # of the
 def look(radar, box):
     """Range, azimuth and range rate of the middle of a box."""
     x, y = box.x_m - radar.x_m, box.y_m - radar.y_m
-    range_m = math.hypot(x, y)
+    range_m = max(math.hypot(x, y), 1e-3)
     azimuth_rad = math.remainder(math.atan2(y, x) - radar.yaw_rad, 2 * math.pi)
     return Look(range_m, azimuth_rad, (x * box.vx_mps + y * box.vy_mps) / range_m)
 

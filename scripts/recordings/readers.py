@@ -26,9 +26,15 @@ CLASSES = {"car": "car", "van": "van", "truck": "truck", "truck/bus": "truck", "
            "motor": "motorcycle", "moped_scooter": "motorcycle", "bike": "bicycle", "bicycle": "bicycle",
            "cyclist": "bicycle", "pedestrian": "pedestrian"}
 STANDING = {"post", "guardrail", "wall"}  # classes that are no road users
+KINDS = STANDING | {"articulated_truck", *CLASSES.values()}
 MOST = 400  # scans, so that 39 lists of each fit into memory
 ARTICULATED_M = 12  # longer trucks are articulated
 KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
+
+
+def refuse(text, code=os.EX_DATAERR):
+    print(f"realism: {text}", file=sys.stderr)
+    sys.exit(code)
 
 
 def read(folder):
@@ -37,14 +43,41 @@ def read(folder):
         for found in sorted(glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))[:1]:
             try:
                 recording = reader(folder, found)
-            except (KeyError, TypeError, ValueError, OSError, StopIteration, struct.error) as error:
-                sys.exit(f"realism: {found}: {type(error).__name__}: {error}")
-            if len(recording.scans) < 4 or not any(scan.detections for scan in recording.scans):
-                sys.exit(f"realism: {found}: expected four scans or more, with detections")
-            scans = recording.scans[:MOST]
-            return recording._replace(scans=statics.retimed(recording.radar, scans), notes=recording.notes + lacks(scans) + (
+                check(recording.radar, recording.scans[:MOST])
+            except StopIteration:
+                refuse(f"{found}: expected a radar, and lists or calibration beside it")
+            except (AttributeError, LookupError, TypeError, ValueError, OSError, struct.error) as error:
+                refuse(f"{found}: {'' if isinstance(error, ValueError) else type(error).__name__ + ': '}{error}")
+            scans = [scan._replace(boxes=[box for box in scan.boxes if box.kind in KINDS]) for scan in recording.scans[:MOST]]
+            return recording._replace(scans=statics.retimed(recording.radar, scans), notes=recording.notes + lacks(scans) + [
+                f"boxes of the class {kind} are left out" for kind in sorted(
+                    {box.kind for scan in recording.scans for box in scan.boxes} - KINDS)] + (
                 [f"scans after the first {MOST} are left out"] if len(recording.scans) > MOST else []))
-    sys.exit(f"realism: {folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)")
+    refuse(f"{folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)", os.EX_NOINPUT)
+
+
+def check(radar, scans):
+    """Raises ValueError with path, value and expectation where a recording cannot be."""
+    def expect(good, path, value, expected):
+        if not good:
+            raise ValueError(f"{path}: {value}; expected {expected}")
+
+    rows = [("radar", radar)]
+    for i, scan in enumerate(scans):
+        path, ids = f"scans[{i}]", [box.id for box in scan.boxes]
+        expect(i == 0 or scan.time_s > scans[i - 1].time_s, f"{path}.time_s", scan.time_s, "a time after that of the scan before")
+        expect(len({"ego", *ids}) > len(ids), f"{path}.boxes", ids, "an id for each, and none that is ego")
+        rows += [(f"{path}.{part}[{k}]", one) for part in ("detections", "boxes") for k, one in enumerate(getattr(scan, part))]
+    for path, row in rows:
+        for name, value in row._asdict().items():
+            least = 0 if name in ("range_m", "length_m", "width_m", "height_m", "carrier_hz") else -math.inf
+            expect(name in ("id", "kind") or value is None and name in ("snr_db", "rcs_dbsm")
+                   or isinstance(value, (int, float)) and least < value < math.inf, f"{path}.{name}", value,
+                   "a finite number" + " above 0" * (least == 0))
+        expect(row[-2:] != (None, None), path, row, "snr_db, rcs_dbsm or both")
+    for half in (scans[:len(scans) // 2], scans[len(scans) // 2:]):
+        expect(len(half) >= 4, "scans", len(scans), "eight or more")
+        expect(sum(len(scan.detections) for scan in half) >= 4, "detections of a half", "fewer than four", "four or more")
 
 
 def lacks(scans):
@@ -63,34 +96,40 @@ def json_of(name):
         return json.load(file)
 
 
-def numbered(folder, pattern):
+class Numbered(dict):
     """{number: name} of all files of a pattern in a folder and below."""
-    found = glob.glob(os.path.join(glob.escape(folder), "**", pattern), recursive=True)
-    return {int(re.findall(r"\d+", os.path.basename(name))[-1]): name for name in sorted(found)}
+
+    def __init__(self, folder, pattern):
+        self.pattern = os.path.join(glob.escape(folder), "**", pattern)
+        super().__init__((int(re.findall(r"\d+", os.path.basename(name))[-1]), name)
+                         for name in sorted(glob.glob(self.pattern, recursive=True)))
+
+    def __missing__(self, number):
+        raise FileNotFoundError(f"{self.pattern}: no file of the number {number}")
 
 
 def class_of(word, length_m):
-    kind = CLASSES.get(word.lower())
+    kind = CLASSES.get(word.lower(), word)
     return "articulated_truck" if kind == "truck" and length_m > ARTICULATED_M else kind
 
 
 def own(_, name):
     told = json_of(name)
     scans = [Scan(scan["time_s"], [Detection(**one) for one in scan["detections"]],
-                  [Box(**one) for one in scan.get("boxes", [])]) for scan in told["scans"]]
+                  [Box(**one | {"id": str(one["id"])}) for one in scan.get("boxes", [])]) for scan in told["scans"]]
     return Recording(Radar(**told["radar"]), scans, [])
 
 
 def aimotive(folder, extrinsics):
     """A sequence of the aiMotive Multimodal Dataset, of the first radar that has both a matrix and lists."""
-    prefix, matrices, boxes, scans = "RT_body_from_", json_of(extrinsics), numbered(folder, "frame_*.json"), []
-    radar = next(key for key in matrices if key.startswith(prefix) and numbered(folder, f"{key[len(prefix):]}_*.json"))
-    for number, name in numbered(folder, f"{radar[len(prefix):]}_*.json").items():
+    prefix, matrices, boxes, scans = "RT_body_from_", json_of(extrinsics), Numbered(folder, "frame_*.json"), []
+    radar = next(key for key in matrices if key.startswith(prefix) and Numbered(folder, f"{key[len(prefix):]}_*.json"))
+    for number, name in Numbered(folder, f"{radar[len(prefix):]}_*.json").items():
         captured = json_of(boxes[number])
         scans.append(Scan(float(captured["Timestamp"]) * 1e-9,
                           [Detection(one["range"], one["azimuth"], one["speed"], one["power"] - one["noise"],
                                      10 * math.log10(one["rcs"])) for one in json_of(name)["targets"]],
-                          [box for box in map(aimotive_box, captured["CapturedObjects"]) if box.kind]))
+                          list(map(aimotive_box, captured["CapturedObjects"]))))
     matrix = matrices[radar]
     mount = Radar(matrix[0][3], matrix[1][3], math.atan2(matrix[1][0], matrix[0][0]), 77e9)
     return Recording(mount, scans, [f"other radars of the folder than {radar[len(prefix):]} are left out"])
@@ -109,9 +148,9 @@ def aimotive_box(told):
 def kitti(folder, clouds):
     """View-of-Delft: points of seven floats, labels in the camera's axes. Only labels of a folder
     label_2_with_track_ids have ids, in the second column. Boxes move with the slope of their places over five scans."""
-    matrices, labels = numbered(folder, "calib/*.txt"), numbered(folder, "label_2_with_track_ids/*.txt")
+    matrices, labels = Numbered(folder, "calib/*.txt"), Numbered(folder, "label_2_with_track_ids/*.txt")
     scans, tracks = [], {}
-    for number, name in numbered(clouds, "*.bin").items():
+    for number, name in Numbered(clouds, "*.bin").items():
         with open(name, "rb") as file:
             points = [Detection(math.hypot(x, y, z), math.atan2(y, x), rate, None, rcs)
                       for x, y, z, rcs, rate, _, when in struct.iter_unpack("<7f", file.read()) if when == 0]
@@ -124,7 +163,7 @@ def kitti(folder, clouds):
     for scan in scans:
         for track in tracks.values():
             near = {then: one for then, one in track.items() if abs(then - scan.time_s) < 2.5 * KITTI_INTERVAL_S}
-            if scan.time_s in near and len(near) > 1 and near[scan.time_s].kind:
+            if scan.time_s in near and len(near) > 1:
                 vx, vy = (statistics.linear_regression(list(near), [getattr(one, axis) for one in near.values()]).slope
                           for axis in ("x_m", "y_m"))
                 scan.boxes.append(near[scan.time_s]._replace(vx_mps=vx, vy_mps=vy))

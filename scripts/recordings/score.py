@@ -36,12 +36,12 @@ def share(parts, wholes, scans, draws=1000):
     neighbouring scans."""
     sums = [[sum(of[key] for key in parts if key[1] == scan) for of in (parts, wholes)] for scan in range(scans)]
 
-    def ratio(weights):
-        part, whole = (sum(weight * one[i] for weight, one in zip(weights, sums)) for i in (0, 1))
+    def ratio(chosen):
+        part, whole = (sum(sums[scan][i] for scan in chosen) for i in (0, 1))
         return part / whole if whole else 0
 
     drawn = sorted(map(ratio, resampled(scans, draws)))
-    return ratio([1] * scans), drawn[round(0.025 * draws)], drawn[round(0.975 * draws) - 1]
+    return ratio(range(scans)), drawn[round(0.025 * draws)], drawn[round(0.975 * draws) - 1]
 
 
 def block_length(scans):
@@ -50,11 +50,8 @@ def block_length(scans):
 
 
 def resampled(scans, draws):
-    """How often each scan is drawn, in blocks that wrap around the end; the same draws in each call."""
+    """Numbers of scans, drawn in blocks of neighbours that wrap around the end; the same draws in each call."""
     generator, length = random.Random(1), block_length(scans)
     for _ in range(draws):
-        weights = [0] * scans
-        for begin in [generator.randrange(scans) for _ in range(math.ceil(scans / length))]:
-            for i in range(length):
-                weights[(begin + i) % scans] += 1
-        yield weights
+        begins = [generator.randrange(scans) for _ in range(math.ceil(scans / length))]
+        yield [(begin + i) % scans for begin in begins for i in range(length)]

@@ -24,12 +24,12 @@ import fitted  # noqa: E402
 import geometry  # noqa: E402
 import marginals  # noqa: E402
 import readers  # noqa: E402
+import roadside  # noqa: E402
 import score  # noqa: E402
 import statics  # noqa: E402
 from progress import Progress  # noqa: E402
 
 chains.GLINT = os.path.join(os.path.abspath(sys.argv[1]), "glint")
-CHAIN = chains.CHAINS[2]  # all effects
 EGO_MPS, INTERVAL_S = 30.0, 0.06
 RADAR = readers.Radar(3.8, 0.0, 0.0, 77e9)
 LAW = fitted.Curve([(1, 68.0), (10, 44.0), (1000, -4.0)], [(math.radians(one), -0.06 * one * one) for one in range(-18, 19)])
@@ -37,8 +37,8 @@ VEHICLES = [("near", "car", 28.0, 3.6, 2.5), ("van", "van", 45.0, -3.5, -4.0), (
             ("truck", "truck", 95.0, -3.6, -5.0)]
 SIZES = {"car": (4.5, 1.8, 1.5), "van": (5.5, 2.0, 2.3), "truck": (10.0, 2.5, 3.5), "post": (0.1, 0.1, 1.0)}
 # Members that lists do not show, as truth() has them.
-UNSEEN = {"level_constant_db": 0, "level_slow_db": 0, "level_fast_db": 0, "diffraction": False, "curved_sides": False,
-          "micro_motion": False, "bounces": 0}
+ALIKE = {"level_constant_db": 0, "level_slow_db": 0, "level_fast_db": 0, "diffraction": False, "curved_sides": False,
+         "micro_motion": False, "bounces": 0, "fluctuation": "log_normal"}
 faults = []
 
 
@@ -48,18 +48,17 @@ def check(good, text):
         print(f"recordings: {text}", file=sys.stderr)
 
 
-def world(count):
-    """Scans without detections: four vehicles at their own rates, and posts on both sides of the road."""
-    scans, generator = [], random.Random(5)
-    places = [generator.random() for _ in range(180)]
+def world(count, seed=5):
+    """Scans without detections: four vehicles at their own rates, and posts somewhere on both sides of the road."""
+    scans, generator = [], random.Random(seed)
+    posts = [(generator.uniform(0, 900), generator.choice((14.0, 6.0, -7.0, -12.0))) for _ in range(300)]
     for i in range(count):
         then, boxes = i * INTERVAL_S, []
         for name, kind, x, y, vx in VEHICLES:
             boxes.append(readers.Box(name, kind, x + vx * then, y, 0.0, vx, 0.0, *SIZES[kind]))
-        for k in range(180):
-            x = 4.5 * (k + places[k]) - EGO_MPS * then
-            if 0 < x < 180:
-                boxes.append(readers.Box(f"post{k}", "post", x, 6.0 if k % 2 else -7.0, 0.0, -EGO_MPS, 0.0, *SIZES["post"]))
+        for k, (x, y) in enumerate(posts):
+            if 0 < x - EGO_MPS * then < 180:
+                boxes.append(readers.Box(f"post{k}", "post", x - EGO_MPS * then, y, 0.0, -EGO_MPS, 0.0, *SIZES["post"]))
         scans.append(readers.Scan(then, [], boxes))
     return scans
 
@@ -79,7 +78,8 @@ def truth():
 
 def recorded(suite, scans, seed):
     """The scans with lists of one seed."""
-    lists, _ = chains.run(CHAIN, suite, LAW, scans, [EGO_MPS] * len(scans), 1, seed)
+    part = beside.Part(RADAR, scans, [EGO_MPS] * len(scans), {})
+    lists, _ = chains.run(chains.ALL, suite, truth(), part, 1, seed)
     return [scan._replace(detections=own) for scan, own in zip(scans, lists[0])]
 
 
@@ -114,39 +114,56 @@ def second_half(scans):
     return beside.part(truth(), RADAR, scans)
 
 
-def outside(part, ranges):
+def outside(part, ranges, threshold_db=14):
     """The marginals that lie outside those of chains."""
-    told = marginals.values(part, [scan.detections for scan in part.scans], 14)
+    told = marginals.values(part, [scan.detections for scan in part.scans], threshold_db)
     return {name for name, value in told.items() if marginals.outside(value, [one[name] for one in ranges if name in one])}
 
 
-def folders_without_a_recording_or_with_half_of_one_are_refused(folder):
-    """And a recording without boxes says what is left out."""
-    def said(text=None):
-        if text is not None:
-            with open(os.path.join(folder, "recording.json"), "w", encoding="utf-8") as out:
-                out.write(text)
-        return subprocess.run([os.path.join(ROOT, "scripts", "realism"), "--recordings", folder], capture_output=True,
+def recordings_that_cannot_be_are_refused(folder):
+    """With file, path, value and expectation; and a recording without boxes says what is left out."""
+    def told(*words):
+        return subprocess.run([os.path.join(ROOT, "scripts", "realism"), "--recordings", folder, *words], capture_output=True,
                               text=True, check=False)
 
-    for text, expected in ((None, "expected recording.json"), ("{}", "KeyError: 'scans'"),
-                           ('{"radar": {"x_m": 0}, "scans": []}', "TypeError")):
-        done = said(text)
-        check(done.returncode == 1 and expected in done.stderr and "Traceback" not in done.stderr,
-              f"{text}: {done.stderr or done.stdout}")
+    def refused(code, expected, *words):
+        done = told(*words)
+        check(done.returncode == code and expected in done.stderr and "Traceback" not in done.stderr,
+              f"expected {expected}: {done.stderr or done.stdout}")
+
+    def spoiled(i, **changed):
+        write_own(folder, bare[:i] + [bare[i]._replace(**changed)] + bare[i + 1:])
+
     bare = [scan._replace(boxes=[], detections=[readers.Detection(20.0 + 3 * k, 0.02 * k, -20.0, 20.0) for k in range(9)])
             for scan in world(8)]
-    write_own(folder, bare)
-    done = said()
+    refused(os.EX_NOINPUT, f"{folder}: expected recording.json")
+    for text, expected in (("{}", "KeyError: 'scans'"), ('{"radar": {"x_m": 0}, "scans": []}', "TypeError")):
+        with open(os.path.join(folder, "recording.json"), "w", encoding="utf-8") as out:
+            out.write(text)
+        refused(os.EX_DATAERR, expected)
+    write_own(folder, bare[:3])
+    refused(os.EX_DATAERR, "scans: 3; expected eight or more")
+    cars = world(1)[0].boxes
+    for changed, expected in (
+            ({"time_s": 0.1}, "scans[4].time_s: 0.1; expected a time after that of the scan before"),
+            ({"detections": [readers.Detection(math.nan, 0, 0, 20)]}, "[4].detections[0].range_m: nan; expected a finite number above 0"),
+            ({"detections": [readers.Detection("near", 0, 0, 20)]}, "scans[4].detections[0].range_m: near; expected a finite"),
+            ({"detections": [readers.Detection(20, 0, 0)]}, "expected snr_db, rcs_dbsm or both"),
+            ({"boxes": [cars[0], cars[0]]}, "scans[4].boxes: ['near', 'near']; expected an id for each")):
+        spoiled(4, **changed)
+        refused(os.EX_DATAERR, expected)
+    spoiled(4, boxes=[cars[0]._replace(kind="tram")])
+    refused(os.EX_CANTCREAT, "recording.json", "--write", os.path.join(folder, "recording.json"))
+    done = told()
     check(done.returncode == 0 and "no boxes with ids" in done.stdout and "no cross section" in done.stdout
-          and "statics a scan" in done.stdout and "skill" not in done.stdout.split("boxes      ")[1],
-          f"without boxes: {done.stdout}{done.stderr}")
+          and "class tram are left out" in done.stdout and "statics a scan" in done.stdout
+          and "skill" not in done.stdout.split("boxes      ")[1], f"without boxes: {done.stdout}{done.stderr}")
 
 
 def planted_faults_are_marked(folder, suite, scans):
     """Each fault turns its line red, and the same lists without it do not."""
     part = second_half(scans)
-    lists, _ = chains.run(CHAIN, suite, LAW, part.scans, part.speeds)
+    lists, _ = chains.run(chains.ALL, suite, truth(), part)
     ranges = [marginals.values(part, one, 14) for one in lists]
     steady = fitted.write_suite(truth(), folder, fluctuation="none")
     later = [scan._replace(boxes=[box._replace(x_m=box.x_m + 0.1 * box.vx_mps) for box in scan.boxes]) for scan in scans]
@@ -162,6 +179,23 @@ def planted_faults_are_marked(folder, suite, scans):
     check(len(sound) <= 5, f"sound lists lie outside: {sorted(sound)}")
     for name, faulty in faults_planted.items():
         check(name in outside(second_half(faulty), ranges) and name not in sound, f"a planted fault is not marked: {name}")
+
+
+def a_roadside_is_found_again():
+    """Within a half of its density and 4 dB of its cross sections; between the strips there is nothing."""
+    planted = [{"kind": "other", "from_x_m": -50, "from_y_m": y, "to_x_m": 500, "to_y_m": y, "width_m": 4, "per_m2": 0.06,
+                "rcs_dbsm": level, "spread_db": 9, "level_db": 2} for y, level in ((8, -8.0), (-12, -4.0))]
+    with tempfile.TemporaryDirectory() as folder:
+        suite = fitted.write_suite(truth(), folder)
+        part = beside.Part(RADAR, [scan._replace(boxes=scan.boxes[:len(VEHICLES)]) for scan in world(40)], [EGO_MPS] * 40, {})
+        lists, _ = chains.run(chains.CHAINS[-1], suite, truth()._replace(roadside=planted), part, 1)
+        seen = part._replace(scans=[scan._replace(detections=own) for scan, own in zip(part.scans, lists[0])])
+        found = {one["from_y_m"]: one for one in roadside.strips(chains.CHAINS[-1], suite, truth(), seen)}
+    for strip in planted:
+        own = found.get(strip["from_y_m"], {"per_m2": 0, "rcs_dbsm": 0})
+        check(0.5 < own["per_m2"] / strip["per_m2"] < 2 and abs(own["rcs_dbsm"] - strip["rcs_dbsm"]) < 4, f"{strip}: {own} is found")
+    between = {at: round(one["per_m2"], 4) for at, one in found.items() if at not in (8, -12)}
+    check(all(number < 0.02 for number in between.values()), f"strips where nothing stands: {between}")
 
 
 def changed(scans, how):
@@ -212,7 +246,7 @@ def view_of_delft_is_read(folder):
     """A car 20 m ahead and 4 m to the left, turned by 0.2 rad, that comes nearer at 3 m/s; and its detection."""
     for name in ("velodyne", "calib", "label_2_with_track_ids"):
         os.makedirs(os.path.join(folder, name))
-    for i in range(6):
+    for i in range(8):
         with open(os.path.join(folder, "velodyne", f"{i:05}.bin"), "wb") as out:
             out.write(struct.pack("<14f", 20, 4, 0.5, 9, -3, 0, 0, 30, 4, 0.5, 9, -3, 0, -1))
         with open(os.path.join(folder, "calib", f"{i:05}.txt"), "w", encoding="ascii") as out:
@@ -243,36 +277,36 @@ def the_real_recording_shows_what_its_page_says():
 
 
 def recordings_of_the_same_law(count):
-    """Prints, for each marginal, how many of so many recordings lie inside the seeds of a chain: with the suite that made
-    them, where 95 % are expected, and with the suite fitted on their first halves."""
+    """Prints, for each marginal, how many of so many recordings, each of another road, lie inside the lists of a chain: with
+    the suite that made them, and with suites found in their first halves. 95 % are expected."""
     inside, counts = {}, {}
     with tempfile.TemporaryDirectory() as folder:
-        suite = fitted.write_suite(truth(), folder)
+        suite, own = fitted.write_suite(truth(), folder), os.path.join(folder, "fitted")
+        os.makedirs(own)
         for seed in Progress("recordings").over(range(1000, 1000 + count)):
-            first, second = beside.halves(readers.Recording(RADAR, recorded(suite, world(80), seed), []))
-            found = fitted.fit(first)._replace(annotation=fitted.Annotation(0, 0))
-            own = os.path.join(folder, "fitted")
-            os.makedirs(own, exist_ok=True)
-            for how, (place, fit) in {"known": (suite, truth()), "fitted": (None, found)}.items():
-                part = beside.part(fit, RADAR, second.scans)
-                lists, _ = chains.run(CHAIN, place or fitted.write_suite(fit, own, **UNSEEN, fluctuation="log_normal"),
-                                      LAW, part.scans, part.speeds, first=seed * 100)
-                red = outside(part, [marginals.values(part, one, fit.sensor["threshold_db"]) for one in lists])
-                for name in marginals.values(part, [scan.detections for scan in part.scans], fit.sensor["threshold_db"]):
+            first, rest = beside.halves(readers.Recording(RADAR, recorded(suite, world(80, seed), seed), []))
+            part, (found, *others) = second_half(rest.scans), beside.fits(first, own, **ALIKE)
+            known, _ = chains.run(chains.ALL, suite, truth(), part, first=seed * 100)
+            drawn = beside.drawn_lists(chains.ALL, others, rest, own, **ALIKE)
+            for how, fit, lists in (("known", truth(), known), ("found", found, drawn)):
+                part, threshold_db = beside.part(fit, RADAR, rest.scans), fit.sensor["threshold_db"]
+                red = outside(part, [marginals.values(part, one, threshold_db) for one in lists], threshold_db)
+                for name in marginals.values(part, [scan.detections for scan in part.scans], threshold_db):
                     inside[name, how] = inside.get((name, how), 0) + (name not in red)
                     counts[name, how] = counts.get((name, how), 0) + 1
     for name in sorted({name for name, _ in counts}):
         print(f"{name:42}", *(f"{how} {100 * inside[name, how] / counts[name, how]:5.1f} % of {counts[name, how]}"
-                              for how in ("known", "fitted") if (name, how) in counts))
+                              for how in ("known", "found") if (name, how) in counts))
 
 
 def main():
-    if sys.argv[2:] == ["--long"]:
-        recordings_of_the_same_law(200)
+    if sys.argv[2:3] == ["--long"]:
+        recordings_of_the_same_law(int((sys.argv[3:] or [200])[0]))
         return
     energy_scores_follow_their_closed_form()
     intervals_of_20_blocks_hold_the_expected_ratio()
     places_turn_with_their_box()
+    a_roadside_is_found_again()
     with tempfile.TemporaryDirectory() as folder:
         suite = fitted.write_suite(truth(), folder)
         scans = recorded(suite, world(40), 1006)
@@ -282,7 +316,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         view_of_delft_is_read(folder)
     with tempfile.TemporaryDirectory() as folder:
-        folders_without_a_recording_or_with_half_of_one_are_refused(folder)
+        recordings_that_cannot_be_are_refused(folder)
     the_real_recording_shows_what_its_page_says()
     sys.exit(1 if faults else 0)
 
