@@ -77,7 +77,8 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
     double repetition_s =
         rate_mps > 0 ? units_wavelength_m(sensor->carrier_hz) / (4 * rate_mps) : 0;
     double cell_m = sensor->bin_range_m;
-    double walk_m = sensor->range_migration == MIGRATION_COMPENSATED ? 0 : rate_mps * dwell_s;
+    double fastest_mps = rate_mps > 0 ? rate_mps + fabs(sensor->unambiguous_middle_mps) : 0;
+    double walk_m = sensor->range_migration == MIGRATION_COMPENSATED ? 0 : fastest_mps * dwell_s;
     LIMIT(MPS, "unambiguous_rate_mps", rate_mps, "signal, by repetitions and stagger",
           consistency_fold_mps(sensor));
     LIMIT(M, "sweep, c/(2 chirp_slope_hzps chirp_s)", sweep_m, "cell_range_m", cell_m);
@@ -88,7 +89,7 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
     LIMIT(HZ, "receiver_bandwidth_hz", sensor->receiver_bandwidth_hz,
           "beat, 2 unambiguous_range_m chirp_slope_hzps/c",
           beat_hz(sensor, sensor->unambiguous_range_m));
-    LIMIT(M, "walk in a dwell at unambiguous_rate_mps", walk_m, "cell_range_m", cell_m);
+    LIMIT(M, "walk in a dwell at the fastest unambiguous rate", walk_m, "cell_range_m", cell_m);
     LIMIT(S, "half a dwell", dwell_s / 2, "latency_s", sensor->latency_s);
     return count;
 }

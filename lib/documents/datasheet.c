@@ -46,7 +46,8 @@ static double reach_m(const struct sensor *sensor, double azimuth_rad, double er
         return 0;
     double range_m = radar_detection_range_m(&sensor->amplitude_law, gain, ercs / excess);
     double least_m = elementary_max(sensor->range_min_m, sensor->range_floor_m);
-    return range_m < least_m ? 0 : elementary_min(range_m, sensor->range_max_m);
+    double end_m = elementary_min(range_m, suite_range_max_m(sensor, azimuth_rad));
+    return end_m < least_m ? 0 : end_m;
 }
 
 static void add_ranges(const struct sensor *sensor, struct datasheet *sheet)
@@ -108,8 +109,11 @@ static void add_ambiguity(const struct sensor *sensor, struct text *text)
         text_format(text, "to %.4g m, ", sensor->unambiguous_range_m);
     else
         text_add_word(text, "at every range, ");
-    if (sensor->unambiguous_rate_mps > 0)
-        text_format(text, "within +-%.4g m/s", sensor->unambiguous_rate_mps);
+    double middle_mps = sensor->unambiguous_middle_mps, rate_mps = sensor->unambiguous_rate_mps;
+    if (middle_mps != 0)
+        text_format(text, "from %.4g to %.4g m/s", middle_mps - rate_mps, middle_mps + rate_mps);
+    else if (rate_mps > 0)
+        text_format(text, "within +-%.4g m/s", rate_mps);
     else
         text_add_word(text, "at every rate");
     if (sensor->waveform.samples > 0)
@@ -150,6 +154,17 @@ static void add_levels(const struct sensor *sensor, struct text *text)
         sensor->level_fast_db, sensor->level_keeps == LEVEL_KEEPS_MEAN ? "mean" : "median");
 }
 
+static void add_limits(const struct sensor *sensor, struct text *text)
+{
+    for (size_t i = 0; i < sensor->range_limits.count; i++) {
+        const struct range_limit *limit = &sensor->range_limits.items[i];
+        text_format(text, "%s %.4g m at %.4g degrees", i == 0 ? "  range limits      " : ",",
+                    limit->range_max_m, DEGREES * limit->azimuth_rad);
+    }
+    if (sensor->range_limits.count > 0)
+        text_add_word(text, "\n");
+}
+
 static void add_figures(const struct sensor *sensor, const struct datasheet *sheet,
                         struct text *text)
 {
@@ -159,6 +174,7 @@ static void add_figures(const struct sensor *sensor, const struct datasheet *she
     text_format(text,
                 "  range              %.4g (blind before) to %.4g m, where %.1f dBsm are seen\n",
                 sensor->range_min_m, sensor->range_max_m, sheet->weakest_dbsm);
+    add_limits(sensor, text);
     add_resolution(sensor, text);
     add_ambiguity(sensor, text);
     add_update(sensor, text);
@@ -211,7 +227,8 @@ static void add_detection(const struct sensor *sensor, const struct datasheet *s
         text_format(text, "\n  %5.3g degrees", DEGREES * sheet->azimuth_rad[i]);
         for (int k = 0; k < DATASHEET_ECHOES; k++)
             for (int chance = 0; chance < DATASHEET_CHANCES; chance++)
-                add_range(sheet->range_m[i][k][chance], sensor->range_max_m, text);
+                add_range(sheet->range_m[i][k][chance],
+                          suite_range_max_m(sensor, sheet->azimuth_rad[i]), text);
     }
     text_add_word(text, "\n");
 }
@@ -283,4 +300,6 @@ void datasheet_add(const struct suite *suite, struct text *text)
     }
     text_add(text, before.bytes, before.length);
     text_free(&before);
+    for (size_t i = 0; i < suite->assumed.count; i++)
+        text_format(text, "%s  %s\n", i == 0 ? "\nassumed\n" : "", suite->assumed.items[i]);
 }

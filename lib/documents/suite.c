@@ -50,6 +50,16 @@ static const char *const keeps[] = {
 #define CHOOSES(member, words, help) FIELD_CHOICE_OF(struct sensor, member, words, help)
 #define MAY_CHOOSE(member, words, help) OPTIONAL_CHOICE(struct sensor, member, words, help)
 
+static const struct field limit_fields[] = {
+    {FIELD_REAL_IN(struct range_limit, azimuth_rad, 0, PI, "from boresight, to either side")},
+    {FIELD_REAL_IN(struct range_limit, range_max_m, 0, 1e6, "nothing farther is measured there")},
+    {0},
+};
+
+static const struct record limit_record = {
+    FIELD_TABLE(struct range_limit, limit_fields, "range_limit",
+                "Greatest range at an azimuth; straight between two azimuths.")};
+
 static const struct field sensor_fields[] = {
     {FIELD_NAME_OF(struct sensor, name, "unique in the suite")},
     {NEEDS(mount_x_m, -100, 100, "from the centre of the ego's box")},
@@ -59,6 +69,9 @@ static const struct field sensor_fields[] = {
     {NEEDS(carrier_hz, 1e9, 1e12, "carrier frequency")},
     {NEEDS(range_min_m, 0, 1e6, "nothing nearer is measured")},
     {NEEDS(range_max_m, 0, 1e6, "nothing farther is measured")},
+    {OPTIONAL_LIST(
+        struct sensor, range_limits, &limit_record,
+        "ranges below range_max_m by azimuth, which ascends from 0 on; straight between")},
     {NEEDS(field_of_view_rad, 0, PI, "full width; the border itself is outside")},
     {MAY_HAVE(elevation_half_width_rad, 1e-3, PI / 2,
               "one way, the beam is down by 3 dB this far above and below; absent: no loss")},
@@ -91,7 +104,9 @@ static const struct field sensor_fields[] = {
                 "is a reflector's ERCS that of the mean power over all levels, or of the median?")},
     {MAY_HAVE(unambiguous_range_m, 0.1, 1e6, "farther echoes fold below it; absent: none do")},
     {MAY_HAVE(unambiguous_rate_mps, 0.1, 1e5,
-              "faster echoes fold to within +- this; absent: none do")},
+              "faster echoes fold to within +- this of unambiguous_middle_mps; absent: none do")},
+    {MAY_HAVE(unambiguous_middle_mps, -1e5, 1e5,
+              "middle of the range rates that do not fold; absent: 0")},
     {MAY_HAVE(receiver_bandwidth_hz, 1, 1e12,
               "highest beat that the receiver passes; absent: other radars are not heard")},
     {MAY_CHOOSE(if_sampling, samplings,
@@ -164,7 +179,7 @@ static const struct field sensor_fields[] = {
     {FIELD_FLAG_OF(struct sensor, final_threshold, "test the noisy amplitude once more")},
     {MAY_HAVE(false_alarms, 0, 1e4, "mean number of targets per scan that are nothing but noise")},
     {MAY_HAVE(false_alarm_range_rate_mps, 0, 1e5,
-              "false alarms have range rates within plus or minus this"),
+              "false alarms have range rates within plus or minus this of unambiguous_middle_mps"),
      .absent = 70},
     {MAY_HAVE(range_step_m, 0, 1e3, "reported in multiples of this; 0: exactly")},
     {MAY_HAVE(range_rate_step_mps, 0, 1e3, "reported in multiples of this; 0: exactly")},
@@ -204,6 +219,8 @@ static const struct field suite_fields[] = {
     {OPTIONAL_RECORD(struct suite, prior, &prior_record,
                      "echoes that the sensors expect, for probabilities of existence")},
     {FIELD_LIST_OF(struct suite, sensors, &sensor_record, "the radars of one ego")},
+    {FIELD_NAMES_OF(struct suite, assumed, "what no source states, for people: one sentence each"),
+     FIELD_OPTIONAL},
     {0},
 };
 
@@ -216,6 +233,22 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
         if (strcmp(suite->sensors.items[i].name, name) == 0)
             return &suite->sensors.items[i];
     return NULL;
+}
+
+double suite_range_max_m(const struct sensor *sensor, double azimuth_rad)
+{
+    const struct range_limit *limits = sensor->range_limits.items;
+    size_t count = sensor->range_limits.count, i = 0;
+    double aside_rad = fabs(azimuth_rad);
+    while (i < count && limits[i].azimuth_rad < aside_rad)
+        i++;
+    if (count == 0)
+        return sensor->range_max_m;
+    if (i == 0 || i == count)
+        return limits[i == 0 ? 0 : count - 1].range_max_m;
+    const struct range_limit *from = &limits[i - 1], *to = &limits[i];
+    double part = (aside_rad - from->azimuth_rad) / (to->azimuth_rad - from->azimuth_rad);
+    return from->range_max_m + part * (to->range_max_m - from->range_max_m);
 }
 
 /* With a waveform the stated cells are bins, and half a cell is the resolution (MODEL 6). */
@@ -331,6 +364,32 @@ static int check_levels(const struct sensor *sensor, struct diag *diag)
     return 0;
 }
 
+/* Refuses limits that do not ascend or exceed range_max_m, and what the signal does not have. */
+static int check_limits(const struct sensor *sensor, struct diag *diag)
+{
+    const struct range_limit *limits = sensor->range_limits.items;
+    bool signal = sensor->waveform.samples > 0;
+    for (size_t i = 0; i < sensor->range_limits.count; i++) {
+        if (!(limits[i].range_max_m <= sensor->range_max_m))
+            return diag_fail(
+                diag, DIAG_CONFIG,
+                "range_limits[%zu].range_max_m: %g; expected at most the sensor's, %g m", i,
+                limits[i].range_max_m, sensor->range_max_m);
+        if (i > 0 && !(limits[i].azimuth_rad > limits[i - 1].azimuth_rad))
+            return diag_fail(diag, DIAG_CONFIG,
+                             "range_limits[%zu].azimuth_rad: %g does not ascend from %g rad", i,
+                             limits[i].azimuth_rad, limits[i - 1].azimuth_rad);
+    }
+    if (signal && sensor->range_limits.count > 0)
+        return diag_fail(diag, DIAG_CONFIG, "range_limits: expected none beside a waveform");
+    if (sensor->unambiguous_middle_mps != 0 && (signal || sensor->unambiguous_rate_mps == 0))
+        return diag_fail(diag, DIAG_CONFIG,
+                         "unambiguous_middle_mps: %g; expected only with unambiguous_rate_mps, and "
+                         "without a waveform",
+                         sensor->unambiguous_middle_mps);
+    return 0;
+}
+
 int suite_check(const struct sensor *sensor, struct diag *diag)
 {
     if (sensor->receiver_bandwidth_hz > 0 && sensor->chirp_s == 0)
@@ -339,7 +398,7 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
     if (sensor->range_max_m <= sensor->range_min_m)
         return diag_fail(diag, DIAG_CONFIG, "range_max_m: %g is not above range_min_m, %g m",
                          sensor->range_max_m, sensor->range_min_m);
-    if (check_levels(sensor, diag) != 0)
+    if (check_limits(sensor, diag) != 0 || check_levels(sensor, diag) != 0)
         return -1;
     bool pattern = sensor->antenna_pattern == ANTENNA_TABLE;
     if (pattern && sensor->antenna_table == NULL)

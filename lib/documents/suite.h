@@ -33,11 +33,17 @@ struct suite_prior {
     double snr_db; /* mean power of echoes over the power of the noise */
 };
 
+/* The farthest range that is measured at an azimuth, to either side. */
+struct range_limit {
+    double azimuth_rad, range_max_m;
+};
+
 struct sensor {
     const char *name;
     double mount_x_m, mount_y_m, mount_z_m, mount_yaw_rad;
     double carrier_hz;
     double range_min_m, range_max_m;
+    LIST_OF(struct range_limit) range_limits; /* by azimuth, ascending */
     double field_of_view_rad;
     double elevation_half_width_rad;
     bool diffraction, curved_sides, micro_motion;
@@ -51,6 +57,7 @@ struct sensor {
     double level_constant_db, level_slow_db, level_slow_m, level_fast_db;
     enum level_keeps level_keeps;
     double unambiguous_range_m, unambiguous_rate_mps; /* 0: unlimited */
+    double unambiguous_middle_mps;
     double receiver_bandwidth_hz, noise_figure_db, antenna_gain_dbi;
     enum if_sampling if_sampling;
     double chirp_slope_hzps, chirp_s;
@@ -101,6 +108,7 @@ struct suite {
     const char *effects; /* a selection of effects (effects.h); NULL: auto */
     struct suite_prior prior;
     LIST_OF(struct sensor) sensors; /* in the document's order */
+    LIST_OF(const char *) assumed;  /* sentences for people */
     const char *given;              /* the name or path that the user gave */
     const char *name;               /* the last part of it, up to .json */
     char digest[17];
@@ -113,6 +121,10 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name);
 
 /* Sets a sensor's derived members, except prior and the rows of tables. */
 void suite_derive(struct sensor *sensor);
+
+/* The farthest range that the sensor measures at an azimuth: straight between its range_limits and
+ * constant beyond them, at most range_max_m. */
+double suite_range_max_m(const struct sensor *sensor, double azimuth_rad);
 
 /* Refuses members that contradict each other (DIAG_CONFIG). */
 int suite_check(const struct sensor *sensor, struct diag *diag);

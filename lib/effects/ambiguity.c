@@ -10,7 +10,8 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
     if (sensor->unambiguous_range_m > 0)
         reception->range_m = folding_range_m(range_m, sensor->unambiguous_range_m);
     if (sensor->unambiguous_rate_mps > 0)
-        reception->range_rate_mps = folding_range_rate_mps(rate_mps, sensor->unambiguous_rate_mps);
+        reception->range_rate_mps = folding_range_rate_mps(rate_mps, sensor->unambiguous_middle_mps,
+                                                           sensor->unambiguous_rate_mps);
     return reception->range_m != range_m || reception->range_rate_mps != rate_mps;
 }
 

@@ -120,7 +120,7 @@ void effect_add(const struct effect_scan *scan, struct effect_echoes *echoes,
 {
     const struct sensor *sensor = scan->sensor;
     if (echo->range_m > 0 && echo->range_m >= sensor->range_min_m &&
-        echo->range_m <= sensor->range_max_m &&
+        echo->range_m <= suite_range_max_m(sensor, echo->azimuth_rad) &&
         fabs(echo->azimuth_rad) < antenna_border_rad(sensor->field_of_view_rad))
         *list_add(&echoes->list, scan->frame->arena) = *echo;
 }

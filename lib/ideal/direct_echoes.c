@@ -170,7 +170,7 @@ static bool is_surely_lost(const struct look *look, const struct look_body *body
 static bool in_reach(struct look *look, const struct look_body *body, struct candidate *candidate,
                      const struct kinematics *read)
 {
-    double within_m = look_within_range_m(look, read->range_m);
+    double within_m = look_within_range_m(look, read);
     double inside_rad = look_within_view_rad(look, read->azimuth_rad);
     double view_m = read->range_m * fabs(inside_rad);
     bool in_range = read->range_m > 0 && within_m >= 0;

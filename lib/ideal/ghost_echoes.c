@@ -236,7 +236,7 @@ static bool pass_by_mirror(const struct look *look, struct ghost_candidate *cand
 static bool is_within_limits(const struct look *look, const struct kinematics *read,
                              double departure_rad)
 {
-    return look_within_range_m(look, read->range_m) >= 0 &&
+    return look_within_range_m(look, read) >= 0 &&
            look_within_view_rad(look, read->azimuth_rad) > 0 && fabs(departure_rad) <= PI / 2;
 }
 
@@ -245,8 +245,7 @@ static struct margins margins_of(const struct look *look, const struct kinematic
 {
     double view_rad = elementary_min(look_within_view_rad(look, read->azimuth_rad),
                                      PI / 2 - fabs(out->read.azimuth_rad));
-    double limits_m =
-        elementary_min(look_within_range_m(look, read->range_m), read->range_m * view_rad);
+    double limits_m = elementary_min(look_within_range_m(look, read), read->range_m * view_rad);
     double legs_m = elementary_min(out->margin_m, back->margin_m);
     return look_sight_margins(look, elementary_min(limits_m, legs_m));
 }

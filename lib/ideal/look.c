@@ -202,9 +202,10 @@ struct kinematics look_kinematics(const struct look *look, struct vec2 place, st
                          place, velocity);
 }
 
-double look_within_range_m(const struct look *look, double range_m)
+double look_within_range_m(const struct look *look, const struct kinematics *read)
 {
-    return elementary_min(range_m - look->sensor->range_min_m, look->sensor->range_max_m - range_m);
+    double most_m = suite_range_max_m(look->sensor, read->azimuth_rad);
+    return elementary_min(read->range_m - look->sensor->range_min_m, most_m - read->range_m);
 }
 
 double look_within_view_rad(const struct look *look, double azimuth_rad)

@@ -103,7 +103,7 @@ struct look_extent look_reflectors_extent(const struct look *look, const struct 
                                           const struct look_set *set);
 
 /* Distances from the nearer end of the sensor's ranges and of its field of view; < 0 outside. */
-double look_within_range_m(const struct look *look, double range_m);
+double look_within_range_m(const struct look *look, const struct kinematics *read);
 double look_within_view_rad(const struct look *look, double azimuth_rad);
 
 /* Margins with this sight margin; none in a frame that carries no margins. */

@@ -52,7 +52,7 @@ static void add_scatterer(struct look *look, const struct roadside *side,
     double gain;
     struct kinematics plane = look_kinematics(look, one->place_m, still);
     struct kinematics read = look_slant(look, side->height_m, plane, &gain, &echo.effects);
-    double within_m = look_within_range_m(look, read.range_m);
+    double within_m = look_within_range_m(look, &read);
     double inside_rad = look_within_view_rad(look, read.azimuth_rad);
     if (!(read.range_m > 0 && within_m >= 0 && inside_rad > 0))
         return;

@@ -19,10 +19,11 @@ static struct contributor draw_contributor(const struct sensor *sensor, int64_t 
                                            const double uniform[3])
 {
     struct contributor contributor = false_alarm_cells_contributor(number);
-    double depth_m = sensor->range_max_m - sensor->range_min_m;
-    contributor.range_m = sensor->range_min_m + depth_m * uniform[0];
     contributor.azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
-    contributor.range_rate_mps = sensor->false_alarm_range_rate_mps * (2 * uniform[2] - 1);
+    double most_m = suite_range_max_m(sensor, contributor.azimuth_rad);
+    contributor.range_m = sensor->range_min_m + (most_m - sensor->range_min_m) * uniform[0];
+    contributor.range_rate_mps =
+        sensor->unambiguous_middle_mps + sensor->false_alarm_range_rate_mps * (2 * uniform[2] - 1);
     return contributor;
 }
 

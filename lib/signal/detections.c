@@ -205,7 +205,7 @@ static size_t dominant_echo_of(const struct detections *detections,
 static void label(const struct signal_cube *signal, struct detection *detection,
                   struct received_echo *members, size_t count, struct arena *arena)
 {
-    double first_mps = folding_range_rate_mps(members[0].echo.range_rate_mps,
+    double first_mps = folding_range_rate_mps(members[0].echo.range_rate_mps, 0,
                                               (double)signal->folds * signal->fold_mps / 2);
     for (size_t i = 0; i < count; i++)
         members[i].range_rate_mps =

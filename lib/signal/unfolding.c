@@ -92,7 +92,7 @@ bool unfolding_choose(const struct signal_cube *signal, const struct range_doppl
         size_t folds = (i + 1) / 2;
         double away = (double)folds * (i % 2 == 1 ? 1 : -1) * signal->fold_mps;
         double rate_mps =
-            folding_range_rate_mps(peak->rate * signal->rate_step_mps + away, half_mps);
+            folding_range_rate_mps(peak->rate * signal->rate_step_mps + away, 0, half_mps);
         double range_m = range_of(signal, peak->range, rate_mps);
         if (!is_measured(signal, range_m))
             continue;

@@ -51,7 +51,9 @@ def suites():
     for sensor in wide["sensors"]:
         sensor.update(described())
     left, right = wide["sensors"]
-    left.update(antenna_pattern="dipole_pair", field_of_view_rad=3.0, mount_yaw_rad=0.4, calibration_range_m=60)
+    left.update(antenna_pattern="dipole_pair", field_of_view_rad=3.0, mount_yaw_rad=0.4, calibration_range_m=60,
+                unambiguous_middle_mps=4.1, range_limits=[{"azimuth_rad": 0.2, "range_max_m": 80},
+                                                          {"azimuth_rad": 1.1, "range_max_m": 25}])
     left.pop("antenna_table")
     right.update(carrier_hz=24.125e9, polarization="horizontal", mount_z_m=0.3, mount_yaw_rad=-2.2, list_order="strongest", list_limit=8,
                  cell_range_m=1.5, cell_range_rate_mps=0.5, bounces=2, cycle_s=0.07, if_sampling="complex")

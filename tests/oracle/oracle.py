@@ -161,6 +161,18 @@ def sight(sensor, place, owner, blockers):
 # ---- one sensor and its echoes (MODEL 2.4, 2.5, 5) --------------------------------------------
 
 
+def range_limit(document, azimuth):
+    """The greatest range at an azimuth: straight between the limits beside it."""
+    rows = [(row["azimuth_rad"], row["range_max_m"]) for row in document.get("range_limits", [])]
+    if not rows:
+        return document["range_max_m"]
+    at = min(max(abs(azimuth), rows[0][0]), rows[-1][0])
+    for (x, low), (y, high) in zip(rows, rows[1:]):
+        if x <= at <= y:
+            return (low * (y - at) + high * (at - x)) / (y - x)
+    return rows[0][1]
+
+
 class Radar:
     def __init__(self, document, ego):
         self.document = document
@@ -183,7 +195,7 @@ class Radar:
 
     def limits(self, distance, azimuth):
         """(is it within range and field of view, is that doubtful)."""
-        low, high = self.document["range_min_m"], self.document["range_max_m"]
+        low, high = self.document["range_min_m"], range_limit(self.document, azimuth)
         half = min(0.5 * self.document["field_of_view_rad"], 0.5 * math.pi) - VIEW_BORDER_RAD
         inside = distance > 0 and low <= distance <= high and abs(azimuth) < half
         scale = max(1.0, distance)

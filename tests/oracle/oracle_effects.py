@@ -265,7 +265,7 @@ class Scene:
         return (self.height, self.height + rise) if self.height else None
 
     def limits(self, distance, azimuth):
-        low, high = self.sensor["range_min_m"], self.sensor["range_max_m"]
+        low, high = self.sensor["range_min_m"], oracle.range_limit(self.sensor, azimuth)
         half = min(self.sensor["field_of_view_rad"] / 2, math.pi / 2) - oracle.VIEW_BORDER_RAD
         reason = None
         if not (distance > 0 and low <= distance <= high):
@@ -764,8 +764,8 @@ class Ray:
             if sensor.get("unambiguous_range_m"):
                 self.range = folded(self.range, 0, sensor["unambiguous_range_m"])
             if sensor.get("unambiguous_rate_mps"):
-                limit = sensor["unambiguous_rate_mps"]
-                self.rate = folded(self.rate, -limit, 2 * limit)
+                limit, middle = sensor["unambiguous_rate_mps"], sensor.get("unambiguous_middle_mps", 0)
+                self.rate = folded(self.rate, middle - limit, 2 * limit)
 
     def order(self):
         return -self.amplitude, self.range, self.rate, self.echo.azimuth, self.key
@@ -775,7 +775,8 @@ def fold_doubtful(sensor, rays, effects):
     if "ambiguity" not in effects:
         return False
     limit, width = sensor.get("unambiguous_rate_mps", 0), sensor.get("unambiguous_range_m", 0)
-    return any((limit and near(abs(abs(ray.rate) - limit), 0)) or
+    middle = sensor.get("unambiguous_middle_mps", 0)
+    return any((limit and near(abs(abs(ray.rate - middle) - limit), 0)) or
                (width and min(ray.range, width - ray.range) < NEAR) for ray in rays)
 
 

@@ -256,6 +256,14 @@ static void ranges_end_at_the_sensors_own(void **state)
     assert_close(sheet.range_m[0][0][0], 0, 0);
     assert_close(sheet.range_m[0][1][0], 50, 1e-9);
     assert_close(sheet.range_m[0][2][0], 60, 0);
+    /* At 20 of 40 degrees half way from 50 to 32 m. */
+    struct range_limit limits[] = {{0, 50}, {40 * DEGREE, 32}};
+    sensor.range_limits.items = limits;
+    sensor.range_limits.count = 2;
+    datasheet_of(&sensor, &sheet);
+    assert_close(sheet.range_m[0][2][0], 50, 0);
+    assert_close(sheet.range_m[1][2][0], 41, 1e-6);
+    assert_close(sheet.range_m[2][2][0], 32, 1e-6);
 }
 
 /* At 9 in 10, a Swerling 1 echo without noise is stronger by sqrt(-1/ln 0.9). */
@@ -336,6 +344,29 @@ static void without_noise_rows_of_accuracy_say_how_strong_an_echo_is(void **stat
     text_free(&text);
 }
 
+static void a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    struct range_limit limits[] = {{0, 50}, {40 * DEGREE, 32}};
+    const char *sentences[] = {"The list is the nearest.", "Noise is white."};
+    struct suite suite = {.sensors = {&sensor, 1, 1}, .assumed = {sentences, 2, 2}};
+    struct text text = {0};
+    sensor.range_limits.items = limits;
+    sensor.range_limits.count = 2;
+    sensor.unambiguous_rate_mps = 80;
+    sensor.unambiguous_middle_mps = 25;
+    suite_derive(&sensor);
+    datasheet_add(&suite, &text);
+    text_add(&text, "", 1);
+    assert_non_null(
+        strstr(text.bytes, "\n  range limits       50 m at 0 degrees, 32 m at 40 degrees\n"));
+    assert_non_null(strstr(text.bytes, ", from -55 to 105 m/s\n"));
+    assert_non_null(
+        strstr(text.bytes, "\n\nassumed\n  The list is the nearest.\n  Noise is white.\n"));
+    text_free(&text);
+}
+
 static void sensors_that_differ_in_their_mount_share_a_sheet(void **state)
 {
     (void)state;
@@ -378,6 +409,7 @@ int main(void)
         cmocka_unit_test(levels_cost_range),
         cmocka_unit_test(accuracy_follows_law_noise_and_steps),
         cmocka_unit_test(without_noise_rows_of_accuracy_say_how_strong_an_echo_is),
+        cmocka_unit_test(a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions),
         cmocka_unit_test(sensors_that_differ_in_their_mount_share_a_sheet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

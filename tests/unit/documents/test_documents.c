@@ -223,6 +223,27 @@ static void the_digest_covers_every_value_of_document_and_tables(void **state)
     }
 }
 
+static void range_limits_are_straight_between_their_azimuths(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag;
+#define LIMITS(from, to, far)                                                                      \
+    "\"range_limits\":[{\"azimuth_rad\":" from ",\"range_max_m\":25},{\"azimuth_rad\":" to         \
+    ",\"range_max_m\":" far "}],"
+    const struct suite *suite = suite_of(
+        scratch,
+        SUITE(SENSOR("a", RANGES, TABLES LIMITS("0.5", "1", "10")) "," SENSOR("b", RANGES, TABLES)),
+        levels, pattern, &diag);
+    if (suite == NULL)
+        fail_msg("%s", diag.text);
+    static const double cases[][2] = {{0, 25},   {0.5, 25}, {-0.6, 22},
+                                      {0.9, 13}, {-1, 10},  {1.4, 10}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        assert_close(suite_range_max_m(&suite->sensors.items[0], cases[i][0]), cases[i][1], 1e-13);
+        assert_close(suite_range_max_m(&suite->sensors.items[1], cases[i][0]), 30, 0);
+    }
+}
+
 static void suites_with_contradictory_members_are_refused(void **state)
 {
     struct scratch *scratch = *state;
@@ -238,6 +259,14 @@ static void suites_with_contradictory_members_are_refused(void **state)
          "/suite.json: sensors[1].name: \"a\" stands twice"},
         {SUITE(SENSOR("a", "\"range_min_m\":5,\"range_max_m\":5,", TABLES)), levels, pattern,
          "/suite.json: sensors[0].range_max_m: 5 is not above range_min_m, 5 m"},
+        {SUITE(SENSOR("a", RANGES, TABLES LIMITS("0", "1", "31"))), levels, pattern,
+         "/suite.json: sensors[0].range_limits[1].range_max_m: 31; expected at most the sensor's, "
+         "30 m"},
+        {SUITE(SENSOR("a", RANGES, TABLES LIMITS("0.5", "0.5", "10"))), levels, pattern,
+         "/suite.json: sensors[0].range_limits[1].azimuth_rad: 0.5 does not ascend from 0.5 rad"},
+        {SUITE(SENSOR("a", RANGES, TABLES "\"unambiguous_middle_mps\":-3,")), levels, pattern,
+         "/suite.json: sensors[0].unambiguous_middle_mps: -3; expected only with "
+         "unambiguous_rate_mps, and without a waveform"},
         {SUITE(SENSOR("a", RANGES, TABLES POWER)), levels, pattern,
          "/suite.json: sensors[0].range_curve: \"levels.csv\"; expected none beside "
          "calibration_ercs 0.8, calibration_range_m 30 and exponent 2"},
@@ -359,6 +388,7 @@ int main(void)
         cmocka_unit_test(every_document_that_is_shipped_loads),
         cmocka_unit_test(tables_are_found_beside_the_document_and_read),
         cmocka_unit_test(the_digest_covers_every_value_of_document_and_tables),
+        cmocka_unit_test(range_limits_are_straight_between_their_azimuths),
         cmocka_unit_test(suites_with_contradictory_members_are_refused),
         cmocka_unit_test(vehicles_with_contradictory_members_are_refused),
         cmocka_unit_test(scenarios_are_checked_and_named),

@@ -5,6 +5,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static struct range_limit limits[] = {{0, 25}, {1, 10}};
+
 static const struct sensor radar = {
     .name = "s",
     .range_min_m = 5,
@@ -12,7 +14,9 @@ static const struct sensor radar = {
     .field_of_view_rad = 2,
     .threshold = 2,
     .search_sigma = 0.5,
+    .range_limits = {.items = limits, .count = 2},
     .false_alarm_range_rate_mps = 40,
+    .unambiguous_middle_mps = 30,
     .latency_s = 0.05,
 };
 
@@ -51,9 +55,9 @@ static void every_false_alarm_is_within_the_limits_of_its_sensor(void **state)
         struct cell_span alarms = false_alarms_of(&bench, 3, i, true);
         for (size_t j = 0; j < alarms.count; j++) {
             const struct cell *cell = &alarms.items[j];
-            assert_true(cell->range_m > 5 && cell->range_m < 25);
+            assert_true(cell->range_m > 5 && cell->range_m < 25 - 15 * fabs(cell->azimuth_rad));
             assert_true(fabs(cell->azimuth_rad) < 1);
-            assert_true(fabs(cell->range_rate_mps) < 40);
+            assert_true(fabs(cell->range_rate_mps - 30) < 40);
             assert_true(cell->amplitude > 2 && cell->amplitude == cell->sum_re);
             assert_int_equal(cell->effects, EFFECT_BIT(EFFECT_FALSE_ALARMS));
             assert_int_equal(cell->members.count, 1);

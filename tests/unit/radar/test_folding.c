@@ -15,9 +15,14 @@ static void assert_same_bits(double actual, double expected)
 static void folding_is_as_published(void **state)
 {
     (void)state;
-    assert_close(folding_range_rate_mps(45, 24.5), -4, 0);
-    assert_close(folding_range_rate_mps(-60, 24.5), -11, 0);
+    assert_close(folding_range_rate_mps(45, 0, 24.5), -4, 0);
+    assert_close(folding_range_rate_mps(-60, 0, 24.5), -11, 0);
     assert_close(folding_range_m(100, 59.958492), 40.041508, 5.1e-7);
+    /* From -55.5 to 111 m/s, as -200 to 400 km/h: 120 m/s are 166.5 less. */
+    assert_close(folding_range_rate_mps(120, 27.75, 83.25), -46.5, 1e-13);
+    assert_close(folding_range_rate_mps(-60, 27.75, 83.25), 106.5, 1e-13);
+    assert_close(folding_range_rate_mps(110.9, 27.75, 83.25), 110.9, 0);
+    assert_close(folding_range_rate_mps(111, 27.75, 83.25), -55.5, 0);
 }
 
 static void what_lies_inside_comes_back_bit_by_bit(void **state)
@@ -27,14 +32,14 @@ static void what_lies_inside_comes_back_bit_by_bit(void **state)
     for (int i = 0; i < 100000; i++) {
         double unambiguous = sample_between(&sample, 1e-3, 100);
         double rate = sample_between(&sample, -unambiguous, unambiguous);
-        assert_same_bits(folding_range_rate_mps(rate, unambiguous), rate);
+        assert_same_bits(folding_range_rate_mps(rate, 0, unambiguous), rate);
         assert_same_bits(folding_range_m(fabs(rate), unambiguous), fabs(rate));
     }
     static const double edges[] = {0.0, -0.0, 0x1p-1074, -0x1p-1074, -24.5, 1e-300};
     for (size_t i = 0; i < sizeof edges / sizeof edges[0]; i++)
-        assert_same_bits(folding_range_rate_mps(edges[i], 24.5), edges[i]);
-    assert_same_bits(folding_range_rate_mps(nextafter(24.5, 0), 24.5), nextafter(24.5, 0));
-    assert_same_bits(folding_range_rate_mps(1e9, (double)INFINITY), 1e9);
+        assert_same_bits(folding_range_rate_mps(edges[i], 0, 24.5), edges[i]);
+    assert_same_bits(folding_range_rate_mps(nextafter(24.5, 0), 0, 24.5), nextafter(24.5, 0));
+    assert_same_bits(folding_range_rate_mps(1e9, 0, (double)INFINITY), 1e9);
     assert_same_bits(folding_range_m(1e9, (double)INFINITY), 1e9);
 }
 
@@ -43,9 +48,9 @@ static void the_interval_holds_its_lower_end_only(void **state)
     (void)state;
     for (int turn = -9; turn <= 9; turn += 2) {
         double end = turn * 24.5;
-        assert_close(folding_range_rate_mps(end, 24.5), -24.5, 0);
-        assert_true(folding_range_rate_mps(nextafter(end, -1000), 24.5) > 24.4);
-        assert_true(folding_range_rate_mps(nextafter(end, -1000), 24.5) < 24.5);
+        assert_close(folding_range_rate_mps(end, 0, 24.5), -24.5, 0);
+        assert_true(folding_range_rate_mps(nextafter(end, -1000), 0, 24.5) > 24.4);
+        assert_true(folding_range_rate_mps(nextafter(end, -1000), 0, 24.5) < 24.5);
     }
     assert_close(folding_range_m(60, 60), 0, 0);
     assert_close(folding_range_m(180, 60), 0, 0);
@@ -60,7 +65,7 @@ static void folding_moves_by_whole_intervals(void **state)
     for (int i = 0; i < 100000; i++) {
         double unambiguous = sample_between(&sample, 1, 100);
         double rate = sample_between(&sample, -500, 500);
-        double folded = folding_range_rate_mps(rate, unambiguous);
+        double folded = folding_range_rate_mps(rate, 0, unambiguous);
         assert_true(folded >= -unambiguous && folded < unambiguous);
         double whole = floor((rate + unambiguous) / (2 * unambiguous));
         assert_close(remainder(folded - (rate - whole * 2 * unambiguous), 2 * unambiguous), 0,
