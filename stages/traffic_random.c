@@ -15,7 +15,7 @@ struct traffic_random {
     int64_t frames, first; /* -1: not given */
     double rate_hz, seconds;
     const char *scene, *scenes;
-    bool draw_conditions;
+    bool draw_conditions, roadside;
     struct random_traffic snapshot;
     int64_t made;
     struct scenario_scenes moving; /* with --seconds */
@@ -90,6 +90,8 @@ static int next_moving(struct traffic_random *traffic, struct frame *frame, stru
     if (traffic->draw_conditions)
         random_traffic_conditions(moving->draws, frame);
     frame->conditions.interferers.count = 0;
+    if (!traffic->roadside)
+        frame->roadside.count = 0;
     return 1;
 }
 
@@ -107,9 +109,11 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
     frame->interval_s = 1 / traffic->rate_hz;
     frame->last = true;
     random_traffic_fill(&traffic->snapshot, number, frame);
+    struct random_address address = random_traffic_address(&traffic->snapshot, frame->seed, number);
     if (traffic->draw_conditions)
-        random_traffic_conditions(random_traffic_address(&traffic->snapshot, frame->seed, number),
-                                  frame);
+        random_traffic_conditions(address, frame);
+    if (traffic->roadside)
+        random_traffic_roadside(address, frame);
     return 1;
 }
 
@@ -146,6 +150,8 @@ static const struct field traffic_random_options[] = {
      .absent = 20},
     {OPTIONAL_FLAG(struct traffic_random, draw_conditions,
                    "also draw road, weather and, in snapshots, other radars")},
+    {OPTIONAL_FLAG(struct traffic_random, roadside,
+                   "also draw rails, poles, kerbs and vegetation beside the road")},
     {0},
 };
 

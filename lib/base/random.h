@@ -37,6 +37,7 @@ enum random_purpose {
     RANDOM_ROADSIDE = 22,       /* per scene, strip and cell: what stands beside the road, with the
                                  * strip and the cell in place of frame, sensor and item */
     RANDOM_ROADSIDE_LEVEL = 23, /* per scene and scatterer beside the road: knots of its level */
+    RANDOM_STRIPS = 24,         /* per snapshot: the strips beside its road */
     RANDOM_OWN = 1 << 16,       /* any number from here to 2^31 - 1, one for each purpose of the
                                  * stages that run together */
 };

@@ -52,6 +52,14 @@ static const struct roadside_strip kinds[] = {
     [ROADSIDE_VEGETATION] = {.per_m2 = 0.05, .rcs_dbsm = -20, .spread_db = 9, .height_m = 1},
 };
 
+void roadside_shift(struct roadside_strip *strip, struct vec2 by_m)
+{
+    strip->from_x_m += by_m.x;
+    strip->from_y_m += by_m.y;
+    strip->to_x_m += by_m.x;
+    strip->to_y_m += by_m.y;
+}
+
 static double said(double member, double of_kind)
 {
     return member == OF_KIND ? of_kind : member;

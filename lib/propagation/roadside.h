@@ -37,6 +37,8 @@ struct roadside_strip {
 
 extern const struct record roadside_strip_record;
 
+void roadside_shift(struct roadside_strip *strip, struct vec2 by_m);
+
 /* The cells of a strip, and what is the same in all of them. */
 struct roadside_grid {
     struct vec2 from_m, heading;        /* heading: unit vector along the strip */

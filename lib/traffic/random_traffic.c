@@ -9,6 +9,7 @@
 
 #define LANE_M 3.5
 #define TRIES 32
+#define STRIP_M 300 /* half of a strip's length */
 
 const char *const random_traffic_densities[] = {
     [TRAFFIC_SPARSE] = "sparse",
@@ -241,6 +242,37 @@ void random_traffic_fill(const struct random_traffic *traffic, int64_t number, s
     int64_t count = random_sequence_whole(&sequence, density->least, density->most);
     for (int64_t i = 1; i <= count; i++)
         add_object(traffic, i, address, frame);
+}
+
+static void add_strip(struct frame *frame, enum roadside_kind kind, double left_m, double width_m)
+{
+    const struct object *ego = frame_object(frame, frame->ego);
+    struct vec2 ahead = vec2_heading(ego->yaw_rad), middle = {ego->x_m, ego->y_m};
+    struct roadside_strip *strip = list_add(&frame->roadside, frame->arena);
+    field_clear(&roadside_strip_record, strip);
+    middle = vec2_add(middle, vec2_scale(left_m, vec2_left(ahead)));
+    strip->kind = kind;
+    strip->width_m = width_m;
+    strip->from_x_m = middle.x - STRIP_M * ahead.x;
+    strip->from_y_m = middle.y - STRIP_M * ahead.y;
+    strip->to_x_m = middle.x + STRIP_M * ahead.x;
+    strip->to_y_m = middle.y + STRIP_M * ahead.y;
+}
+
+void random_traffic_roadside(struct random_address address, struct frame *frame)
+{
+    struct random_sequence sequence = random_sequence_at(address, RANDOM_STRIPS);
+    for (int side = -1; side <= 1; side += 2) {
+        double aside_m = random_sequence_between(&sequence, 5, 12);
+        double width_m = random_sequence_between(&sequence, 1, 16);
+        if (random_sequence_chance(&sequence, 0.5))
+            add_strip(frame, random_sequence_chance(&sequence, 0.7) ? ROADSIDE_RAIL : ROADSIDE_KERB,
+                      side * aside_m, 0);
+        if (random_sequence_chance(&sequence, 0.3))
+            add_strip(frame, ROADSIDE_POLES, side * (aside_m + 1), 0);
+        if (random_sequence_chance(&sequence, 0.5))
+            add_strip(frame, ROADSIDE_VEGETATION, side * (aside_m + 2 + width_m / 2), width_m);
+    }
 }
 
 static struct interferer draw_interferer(struct random_sequence *sequence,

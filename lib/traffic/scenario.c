@@ -180,18 +180,10 @@ static void shift_actor(struct actor *actor, struct vec2 origin_m)
     actor->y_m -= origin_m.y;
 }
 
-static void shift_strip(struct roadside_strip *strip, struct vec2 origin_m)
-{
-    strip->from_x_m -= origin_m.x;
-    strip->from_y_m -= origin_m.y;
-    strip->to_x_m -= origin_m.x;
-    strip->to_y_m -= origin_m.y;
-}
-
 void scenario_shift(struct scenario *scenario, struct vec2 origin_m)
 {
     for (size_t i = 0; i < scenario->roadside.count; i++)
-        shift_strip(&scenario->roadside.items[i], origin_m);
+        roadside_shift(&scenario->roadside.items[i], vec2_scale(-1, origin_m));
     for (size_t i = 0; i < scenario->objects.count; i++)
         shift_actor(&scenario->objects.items[i], origin_m);
     for (size_t i = 0; i < scenario->roads.count; i++)

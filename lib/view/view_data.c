@@ -73,6 +73,12 @@ static uint32_t scene_of(struct view_data *data, const struct frame *frame)
             .anchor_x_m = frame->origin_x_m + ego.x,
             .anchor_y_m = frame->origin_y_m + ego.y,
         };
+        struct view_scene *scene = &data->scenes.items[number];
+        for (size_t i = 0; i < frame->roadside.count; i++) {
+            struct roadside_strip *strip = list_add(&scene->roadside, data->arena);
+            *strip = frame->roadside.items[i];
+            roadside_shift(strip, vec2_scale(-1, ego));
+        }
     }
     if (frame->last)
         data->scenes.items[number].ended = true;

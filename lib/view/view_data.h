@@ -37,6 +37,7 @@ struct view_scene {
     int64_t first_frame;
     double start_s;
     double anchor_x_m, anchor_y_m;
+    LIST_OF(struct roadside_strip) roadside;
     bool ended;
 };
 

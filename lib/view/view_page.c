@@ -51,6 +51,7 @@ static const struct field scene_fields[] = {
     {FIELD_REAL_IN(struct view_scene, start_s, -1e10, 1e10, "time of that frame")},
     {FIELD_REAL_IN(struct view_scene, anchor_x_m, -1e10, 1e10, "place of the ego in that frame")},
     {FIELD_REAL_IN(struct view_scene, anchor_y_m, -1e10, 1e10, "place of the ego in that frame")},
+    {OPTIONAL_LIST(struct view_scene, roadside, &roadside_strip_record, "strips beside the road")},
     {FIELD_FLAG_OF(struct view_scene, ended, "does the stream have its last frame?")},
     {0},
 };

@@ -255,6 +255,31 @@ module.exports = ({stream, view, withPage, panelText}) => {
             }
         },
 
+        async 'strips beside the road are drawn where they are, as wide as they are'() {
+            const frame = streamOf('roadside')[0];
+            const band = {kind: 'vegetation', from_x_m: -50, from_y_m: -20, to_x_m: 150, to_y_m: -20, width_m: 8};
+            // The colours of the map at these distances to the left of y = -20.
+            const coloursOf = async strips => {
+                let colours;
+                await withPage(view([{...frame, roadside: strips}]), async page => {
+                    colours = await page.evaluate(() => {
+                        Object.assign(camera, {x: 0, y: -20, scale: 8});
+                        drawMap();
+                        const {data} = context.getImageData(0, 0, canvas.width, canvas.height);
+                        return [-4.7, -3.3, 1.3, 3.3, 4.7].map(left => {
+                            const at = toScreen({x: 3.3, y: -20 + left});
+                            const ratio = window.devicePixelRatio || 1;
+                            const first = 4 * (Math.round(at.y * ratio) * canvas.width + Math.round(at.x * ratio));
+                            return data.slice(first, first + 4).join();
+                        });
+                    });
+                });
+                return colours;
+            };
+            const bare = (await coloursOf(undefined))[0], colours = await coloursOf([band]);
+            assert.deepStrictEqual(colours.map(colour => colour === bare), [true, false, false, false, true]);
+        },
+
         async 'a folded rate tells the true one, has a dashed arrow and no speed over ground'() {
             const frames = streamOf('ambiguity');
             const isFolded = target => target.effects.includes('ambiguity');

@@ -88,6 +88,18 @@ function drawBeam(scan) {
     context.globalAlpha = 1;
 }
 
+// Draws the strips on which rails, poles, kerbs and vegetation stand: bands as wide as they are, or
+// lines, which are dotted for poles.
+function drawRoadside() {
+    for (const strip of head.scenes[state.scene].roadside || []) {
+        context.strokeStyle = strip.width_m > 0 ? ink.grid : ink.edge;
+        context.lineWidth = Math.max(1.5, (strip.width_m || 0) * camera.scale);
+        context.setLineDash(strip.kind === 'poles' ? [2, 6] : []);
+        line(toScreen({x: strip.from_x_m, y: strip.from_y_m}), toScreen({x: strip.to_x_m, y: strip.to_y_m}));
+    }
+    context.setLineDash([]);
+}
+
 function traceOutline(box) {
     context.beginPath();
     for (const corner of outlineOf(box)) {
@@ -441,6 +453,7 @@ function drawMap() {
         return;
     }
     reserveRoom();
+    drawRoadside();
     drawGrid();
     drawRings();
     const objects = objectsOf(state.frame);

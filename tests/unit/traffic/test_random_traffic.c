@@ -332,6 +332,41 @@ static void conditions_are_drawn_by_number_and_change_no_object(void **state)
     }
 }
 
+/* Distances of a strip's ends ahead of the ego and to its left. */
+static void check_strip(const struct roadside_strip *strip, const struct object *ego)
+{
+    struct vec2 ahead = vec2_heading(ego->yaw_rad), at = {ego->x_m, ego->y_m};
+    struct vec2 from = vec2_sub((struct vec2){strip->from_x_m, strip->from_y_m}, at);
+    struct vec2 to = vec2_sub((struct vec2){strip->to_x_m, strip->to_y_m}, at);
+    assert_close(vec2_dot(from, ahead), -300, 1e-9);
+    assert_close(vec2_dot(to, ahead), 300, 1e-9);
+    double left_m = vec2_cross(ahead, from);
+    assert_close(vec2_cross(ahead, to), left_m, 1e-9);
+    assert_true(fabs(left_m) - strip->width_m / 2 >= 5);
+    assert_true(strip->level_db == 2 && strip->spacing_m == 0);
+    assert_int_equal(strip->kind == ROADSIDE_VEGETATION, strip->width_m > 0);
+}
+
+static void strips_run_along_the_road_on_both_sides_and_change_no_object(void **state)
+{
+    struct bench *bench = *state;
+    int kinds[ROADSIDE_VEGETATION + 1] = {0};
+    for (int64_t number = 0; number < SNAPSHOTS; number++) {
+        struct frame *frame = &bench->frame;
+        size_t objects = snapshot(bench, TRAFFIC_MEDIUM, 1, number)->objects.count;
+        random_traffic_roadside(random_traffic_address(&bench->scene, 1, number), frame);
+        assert_int_equal(frame->objects.count, objects);
+        for (size_t i = 0; i < frame->roadside.count; i++) {
+            check_strip(&frame->roadside.items[i], &frame->objects.items[0]);
+            kinds[frame->roadside.items[i].kind]++;
+        }
+    }
+    assert_near(kinds[ROADSIDE_RAIL], 2 * SNAPSHOTS * 0.35, 0.1);
+    assert_near(kinds[ROADSIDE_KERB], 2 * SNAPSHOTS * 0.15, 0.15);
+    assert_near(kinds[ROADSIDE_POLES], 2 * SNAPSHOTS * 0.3, 0.1);
+    assert_near(kinds[ROADSIDE_VEGETATION], 2 * SNAPSHOTS * 0.5, 0.1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -347,6 +382,7 @@ int main(void)
         cmocka_unit_test(every_number_is_drawn_as_its_row_says),
         cmocka_unit_test(conditions_of_few_objects_have_few_interferers),
         cmocka_unit_test(conditions_are_drawn_by_number_and_change_no_object),
+        cmocka_unit_test(strips_run_along_the_road_on_both_sides_and_change_no_object),
     };
     return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }
