@@ -1,0 +1,213 @@
+"""Suites that scripts/make-radar writes from data sheets: every figure comes back, and contradictions are refused.
+
+Usage: python3 tests/oracle/my_radar.py BIN_DIR
+
+What `glint --datasheet` prints is compared with the sheet: within 1 %, and 6 % for deviations, which it prints with two digits.
+A probability of detection is counted in the whole chain, to five standard errors. Exit status 1 if any check fails.
+"""
+import json
+import math
+import re
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+import data_sheet  # noqa: E402
+import model  # noqa: E402
+from effects_noise import rms  # noqa: E402
+
+SCRIPT = model.ROOT / "scripts" / "make-radar"
+PLAIN = {"range_max_m": 150, "view_half_width_deg": 30, "range_resolution_m": 1, "speed_resolution_mps": 0.2}
+DRAWS = 1500
+
+
+def made(bench, sheet):
+    """The script's result on a sheet, and the suite's path."""
+    path, out = bench.scratch / "sheet.json", bench.scratch / "made.json"
+    path.write_text(json.dumps(sheet))
+    return subprocess.run([SCRIPT, path, "-o", out], capture_output=True, check=False, text=True), out
+
+
+def printed(bench, sheet):
+    """{sensor: its part of the data sheet} and the assumptions."""
+    done, out = made(bench, sheet)
+    if done.returncode != 0:
+        bench.check(False, f"{sheet}: {done.stderr}")
+        return {}, ""
+    text = subprocess.run([str(bench.bin / "glint"), "--datasheet", str(out)], capture_output=True, check=True, text=True).stdout
+    text, _, assumed = text.partition("\nassumed\n")
+    parts = re.split(r"^(\w+): at ", text, flags=re.M)[1:]
+    return dict(zip(parts[::2], parts[1::2])), assumed
+
+
+def numbers(part, line):
+    found = re.search(rf"^  {line}\s(.*)$", part, re.M)
+    return [float(one) for one in re.findall(r"-?\d+\.?\d*(?:e[-+]\d+)?", found[1])] if found else None
+
+
+def hold(bench, what, value, expected, tolerance=0.01):
+    bench.check(value is not None and abs(value - expected) <= tolerance * abs(expected) + 1e-9,
+                f"{what}: {value}, the sheet has {expected}")
+
+
+def last_accuracy(part):
+    """Range, rate and the four azimuths 20 dB above the threshold, and those azimuths' directions."""
+    rows = re.findall(r"^  SNR +\S+ dB +(.*)$", part, re.M)
+    at = re.search(r"azimuth, degrees, at(.*)$", part, re.M)[1].split()
+    return [float(word) for word in rows[2].split()], [float(word) for word in at]
+
+
+def reach_m(part, degrees, dbsm):
+    """The range up to which 9 of 10 are detected, and whether it is the limit."""
+    for row in re.findall(r"^ +([\d.]+) degrees((?: +\S+){6})$", part, re.M):
+        if abs(float(row[0]) - degrees) < 0.01 * degrees + 1e-9:
+            word = row[1].split()[1 + dbsm // 5]
+            return float(word.lstrip(">")), word[0] == ">"
+    return None, None
+
+
+def public_sheets(bench):
+    far, near = (printed(bench, json.loads((model.ROOT / "data/sheets/ars408-21.json").read_text()))[0][name]
+                 for name in ("front_far", "front_near"))
+    for part, range_m, view_deg, cell_m, kmh, sigma_m in ((far, 250, 9, 1.79, 0.37, 0.4), (near, 100, 60, 0.39, 0.43, 0.1)):
+        hold(bench, "range_max_m", numbers(part, "range")[1], range_m)
+        hold(bench, "view", -numbers(part, "field of view")[0], view_deg)
+        hold(bench, "range resolution", numbers(part, "resolution")[0], cell_m)
+        hold(bench, "speed resolution", numbers(part, "resolution")[1], kmh / 3.6)
+        rates = numbers(part, "unambiguous")
+        hold(bench, "approaching", rates[0], -200 / 3.6)
+        hold(bench, "receding", rates[1], 400 / 3.6)
+        hold(bench, "cycle", numbers(part, "update")[0], 72)
+        hold(bench, "list", numbers(part, "list")[0], 250)
+        accuracy, at = last_accuracy(part)
+        hold(bench, "range accuracy", accuracy[0], sigma_m, 0.06)
+        hold(bench, "speed accuracy", accuracy[1], 0.1 / 3.6, 0.06)
+        for degrees, value in zip(at, accuracy[2:]):
+            expected = 0.1 if part is far else 0.3 + 0.7 * degrees / 45 if degrees <= 45 else 1 + 4 * (degrees - 45) / 15
+            hold(bench, f"azimuth accuracy at {degrees}", value, expected, 0.06)
+        hold(bench, "a car on boresight", reach_m(part, 0, 10)[0], range_m)
+    for degrees, limit_m in ((0, 100), (20, 100 - 30 * 20 / 45), (60, 20)):
+        value, ends = reach_m(near, degrees, 20)
+        hold(bench, f"range limit at {degrees} degrees", value, limit_m)
+        bench.check(ends, f"no limit at {degrees} degrees")
+    part = printed(bench, json.loads((model.ROOT / "data/sheets/umrr-11-type-132.json").read_text()))[0]["front"]
+    for line, values in (("range", [1, 175]), ("field of view", [-16]), ("resolution", [1.8, 0.14]), ("carrier", [77])):
+        for value, expected in zip(numbers(part, line), values):
+            hold(bench, line, value, expected)
+    hold(bench, "azimuth accuracy", last_accuracy(part)[0][2], 0.25, 0.06)
+
+
+def other_words(bench):
+    """Other spellings of the same figures make the same suite; mounts count from bumpers and sides."""
+    one, same = ({**PLAIN, "receding_max_mps": 50, "approaching_max_mps": 50, "yaw_left_deg": -40},
+                 {"range_max_m": 150, "view_full_width_deg": 60, "range_cell_m": 2, "speed_resolution_kmh": 0.72,
+                  "speed_max_kmh": 180, "yaw_right_deg": 40})
+    parts = [printed(bench, sheet)[0]["front"] for sheet in (one, same)]
+    bench.check(parts[0] == parts[1], f"other words, other suites: {parts}")
+    part = printed(bench, {**PLAIN, "vehicle_length_m": 5, "vehicle_width_m": 2, "behind_front_bumper_m": 0.4,
+                           "inside_right_side_m": 0.1, "height_m": 0.6, "yaw_right_deg": 45,
+                           "elevation_one_way_full_width_deg": 14})[0]["front"]
+    bench.check(part.startswith("x 2.1 m, y -0.9 m, z 0.6 m, looking to -45 degrees"), part[:60])
+    hold(bench, "elevation", numbers(part, "beam")[1], 14)
+    part = printed(bench, {"range_max_m": 150, "view_half_width_deg": 9, "range_accuracy_m": 0.1, "speed_accuracy_mps": 0.05})[0]["front"]
+    for value, expected in zip(numbers(part, "resolution"), (0.4, 0.2)):
+        hold(bench, "resolution by accuracy", value, expected)
+
+
+def antennas(bench):
+    """Beams by width and by gain, deviations by elements."""
+    for sheet, width_deg in (({"beam_two_way_full_width_deg": 20}, 20), ({"beam_one_way_half_width_deg": 10}, 20 / math.sqrt(2)),
+                             ({"gains": [{"azimuth_deg": 0, "one_way_db": 0}, {"azimuth_deg": 10, "one_way_db": -3},
+                                         {"azimuth_deg": 35, "one_way_db": -12}]}, 10)):
+        hold(bench, f"beam of {sheet}", numbers(printed(bench, PLAIN | sheet)[0]["front"], "beam")[0], width_deg, 0.02)
+    part = printed(bench, PLAIN | {"receive_positions_wavelengths": [0, 0.5, 1, 1.5], "transmit_positions_wavelengths": [0, 2],
+                                   "accuracy_snr_db": 31.404})[0]["front"]
+    accuracy, at = last_accuracy(part)
+    for degrees, value in zip(at, accuracy[2:]):
+        expected = math.degrees(0.39 / (4 * math.cos(math.radians(degrees)) * 10 ** (31.404 / 20)))
+        hold(bench, f"deviation by elements at {degrees} degrees", value, expected, 0.06)
+
+
+def chances(bench):
+    """As many echoes are detected as stated, and false alarms are as many as stated."""
+    for law, chance in (("none", 0.9), ("swerling_1", 0.6), ("swerling_3", 0.8)):
+        done, out = made(bench, PLAIN | {"fluctuation": law, "detection_probability": chance, "detected_dbsm": 10, "detected_at_m": 80,
+                                         "false_alarm_rate": 1e-5})
+        sensor = json.loads(out.read_text())["sensors"][0]
+        sensor.update(antenna_table=str(bench.scratch / sensor["antenna_table"]), false_alarms=0, mount_x_m=0, mount_y_m=0)
+        targets = data_sheet.look(bench, sensor, "section_10", 79.99, 0, DRAWS)
+        slack = 5 * math.sqrt(chance * (1 - chance) / DRAWS) + 0.002
+        bench.check(abs(len(targets) / DRAWS - chance) < slack, f"{law}: {len(targets) / DRAWS} detected, not {chance} {done.stderr}")
+        if law == "none":
+            spread = math.degrees(rms([one["azimuth_rad"] - one["cell_azimuth_rad"] for one in targets]))
+            stated = math.degrees(sensor["azimuth_sigma_rad"]) * 10 ** ((sensor["threshold_db"] + 20) / 20) / 4.2
+            bench.check(0.7 < spread / stated < 1.3, f"azimuths scatter by {spread}, about {stated} expected")
+    part = printed(bench, PLAIN | {"false_alarms_per_scan": 2})[0]["front"]
+    hold(bench, "false alarms", numbers(part, "false alarms")[0], 2)
+
+
+def extended(bench):
+    """A sheet changes what it states of another suite, and nothing else."""
+    done, out = made(bench, {"extends": "lrr77", "range_resolution_m": 0.6})
+    suite = json.loads(out.read_text())["sensors"][0]
+    base = json.loads((model.ROOT / "data/sensors/lrr77.json").read_text())["sensors"][0]
+    differ = {name for name in (suite | base) if suite.get(name) != base.get(name)} - {"sources", "antenna_table"}
+    bench.check(differ <= {"cell_range_m", "cell_range_rate_mps", "cell_extent"}, f"also changed: {differ} {done.stderr}")
+    part = printed(bench, {"extends": "lrr77", "range_resolution_m": 0.6})[0]["front"]
+    hold(bench, "resolution", numbers(part, "resolution")[0], 0.6)
+    hold(bench, "speed of the extended suite", numbers(part, "resolution")[1], 0.0515)
+
+
+REFUSED = [
+    ({"range_resolution_m": 1.5, "range_cell_m": 2}, "range_resolution_m 1.5 and range_cell_m 2 contradict"),
+    ({"speed_resolution_kmh": 0.5}, "speed_resolution_mps 0.2 and speed_resolution_kmh 0.5 contradict"),
+    ({"range_min_m": 200}, "range_min_m 200 is not below range_max_m, 150"),
+    ({"range_limits": [{"azimuth_deg": 0, "range_max_m": 160}]}, "range_limits have 160 m, beyond range_max_m, 150 m"),
+    ({"cycle_ms": 4, "carrier_ghz": 77}, "takes a dwell of 4.87 ms, more than cycle_ms, 4"),
+    ({"detected_at_m": 170}, "detected_at_m 170 is beyond range_max_m, 150"),
+    ({"detected_object": "car", "detected_dbsm": 5}, 'detected_object "car" has 10 dBsm, detected_dbsm is 5'),
+    ({"false_alarm_rate": 1e-3, "false_alarms_per_scan": 1}, "makes 26.22 false alarms a scan; false_alarms_per_scan is 1"),
+    ({"beam_one_way_full_width_deg": 20, "beam_two_way_full_width_deg": 20}, "beam_two_way_full_width_deg 20 and beam_one_way_full_width_deg 20 contradict"),
+    ({"azimuth_accuracy_deg": 0.001}, "the azimuth accuracy of 0.001 degrees over 60 degrees of view is finer"),
+    ({"azimuth_accuracy_deg": 0.01, "receive_positions_wavelengths": [0, 0.5]}, "0.01 degrees is finer than 0.601"),
+    ({"receding_max_kmh": 100}, "receding_max_kmh and approaching_max_kmh belong together"),
+    ({"speed_resolution": 1}, "speed_resolution: unknown figure; did you mean speed_resolution_"),
+    ({"range_max_m": None}, "range_max_m is null; expected a number"),
+    ({"range_min_m": "near"}, 'range_min_m is "near"; expected a number'),
+    ({"left_of_middle_m": 0.1, "inside_left_side_m": 0.1}, "inside_left_side_m: not used beside the other figures"),
+]
+
+
+def refused(bench):
+    for change, message in REFUSED:
+        done, _ = made(bench, PLAIN | change)
+        bench.check(done.returncode == 1 and message in done.stderr, f"{change}: {done.returncode}, {done.stderr}")
+
+
+def scans(bench):
+    """Both scans of one radar run in one cycle, and the near one has no target beyond its limits."""
+    _, out = made(bench, json.loads((model.ROOT / "data/sheets/ars408-21.json").read_text()))
+    text = f"glint-traffic intersection | glint-extract | glint-ideal --sensors {out} | glint-sensor | glint-noise --sensors {out}"
+    lines = subprocess.run([str(bench.bin / "glint"), "-c", text], capture_output=True, check=True, text=True).stdout.splitlines()
+    seen = [target for line in lines for target in json.loads(line)["targets"]]
+    near = [one for one in seen if one["sensor"] == "front_near"]
+    bench.check(len(near) > 20 and len(seen) > len(near), f"{len(near)} of {len(seen)} targets in the near scan")
+    for one in near:
+        degrees = abs(math.degrees(one["cell_azimuth_rad"]))
+        limit_m = 100 - 30 * degrees / 45 if degrees < 45 else 70 - 50 * (degrees - 45) / 15
+        bench.check(one["range_m"] < limit_m + 3, f"a target at {one['range_m']} m, {degrees} degrees")
+
+
+CHECKS = [
+    ("every figure of the public sheets is read back", public_sheets),
+    ("other words of the same figures make the same suite", other_words),
+    ("antennas by beam, by gain and by elements", antennas),
+    ("echoes are detected as often as the sheet states", chances),
+    ("a sheet extends a suite", extended),
+    ("figures that contradict each other are refused with both", refused),
+    ("near and far scan of one radar run in one cycle", scans),
+]
+
+
+if __name__ == "__main__":
+    model.run(__doc__, data_sheet.prepare, CHECKS)
