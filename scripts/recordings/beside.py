@@ -193,11 +193,10 @@ def compare(folder, suite_folder=None):
     with tempfile.TemporaryDirectory() as place:
         lost = kept(first, place)
         fit, *others = fits(first, place, min(lost, key=lost.get, default="median"))
-        strips = roadside.strips(chains.CHAINS[-1], fitted.write_suite(fit, suite_folder or place), fit,
-                                 part(fit, first.radar, first.scans))
+        suite = fitted.write_suite(fit, suite_folder or place)
+        strips = roadside.strips(chains.CHAINS[-1], suite, fit, part(fit, first.radar, first.scans))
         fit, *others = (one._replace(roadside=strips) for one in (fit, *others))
         print_found(recording, fit, lost)
-        suite = fitted.write_suite(fit, suite_folder or place)
         second = part(fit, rest.radar, rest.scans)
         results = {chain: chains.run(chain, suite, fit, second) for chain in Progress("chains").over(chains.CHAINS)}
         if second.boxes:

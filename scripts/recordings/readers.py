@@ -46,7 +46,9 @@ def read(folder):
                 check(recording.radar, recording.scans[:MOST])
             except StopIteration:
                 refuse(f"{found}: expected a radar, and lists or calibration beside it")
-            except (AttributeError, LookupError, TypeError, ValueError, OSError, struct.error) as error:
+            except KeyError as error:
+                refuse(f"{found}: {error.args[0]!r} is missing, a member or the number of a file beside it")
+            except (AttributeError, IndexError, TypeError, ValueError, OSError, struct.error) as error:
                 refuse(f"{found}: {'' if isinstance(error, ValueError) else type(error).__name__ + ': '}{error}")
             scans = [scan._replace(boxes=[box for box in scan.boxes if box.kind in KINDS]) for scan in recording.scans[:MOST]]
             return recording._replace(scans=statics.retimed(recording.radar, scans), notes=recording.notes + lacks(scans) + [
@@ -96,16 +98,10 @@ def json_of(name):
         return json.load(file)
 
 
-class Numbered(dict):
+def numbered(folder, pattern):
     """{number: name} of all files of a pattern in a folder and below."""
-
-    def __init__(self, folder, pattern):
-        self.pattern = os.path.join(glob.escape(folder), "**", pattern)
-        super().__init__((int(re.findall(r"\d+", os.path.basename(name))[-1]), name)
-                         for name in sorted(glob.glob(self.pattern, recursive=True)))
-
-    def __missing__(self, number):
-        raise FileNotFoundError(f"{self.pattern}: no file of the number {number}")
+    found = glob.glob(os.path.join(glob.escape(folder), "**", pattern), recursive=True)
+    return {int(re.findall(r"\d+", os.path.basename(name))[-1]): name for name in sorted(found)}
 
 
 def class_of(word, length_m):
@@ -122,9 +118,9 @@ def own(_, name):
 
 def aimotive(folder, extrinsics):
     """A sequence of the aiMotive Multimodal Dataset, of the first radar that has both a matrix and lists."""
-    prefix, matrices, boxes, scans = "RT_body_from_", json_of(extrinsics), Numbered(folder, "frame_*.json"), []
-    radar = next(key for key in matrices if key.startswith(prefix) and Numbered(folder, f"{key[len(prefix):]}_*.json"))
-    for number, name in Numbered(folder, f"{radar[len(prefix):]}_*.json").items():
+    prefix, matrices, boxes, scans = "RT_body_from_", json_of(extrinsics), numbered(folder, "frame_*.json"), []
+    radar = next(key for key in matrices if key.startswith(prefix) and numbered(folder, f"{key[len(prefix):]}_*.json"))
+    for number, name in numbered(folder, f"{radar[len(prefix):]}_*.json").items():
         captured = json_of(boxes[number])
         scans.append(Scan(float(captured["Timestamp"]) * 1e-9,
                           [Detection(one["range"], one["azimuth"], one["speed"], one["power"] - one["noise"],
@@ -148,9 +144,9 @@ def aimotive_box(told):
 def kitti(folder, clouds):
     """View-of-Delft: points of seven floats, labels in the camera's axes. Only labels of a folder
     label_2_with_track_ids have ids, in the second column. Boxes move with the slope of their places over five scans."""
-    matrices, labels = Numbered(folder, "calib/*.txt"), Numbered(folder, "label_2_with_track_ids/*.txt")
+    matrices, labels = numbered(folder, "calib/*.txt"), numbered(folder, "label_2_with_track_ids/*.txt")
     scans, tracks = [], {}
-    for number, name in Numbered(clouds, "*.bin").items():
+    for number, name in numbered(clouds, "*.bin").items():
         with open(name, "rb") as file:
             points = [Detection(math.hypot(x, y, z), math.atan2(y, x), rate, None, rcs)
                       for x, y, z, rcs, rate, _, when in struct.iter_unpack("<7f", file.read()) if when == 0]

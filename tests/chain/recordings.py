@@ -106,7 +106,19 @@ def the_first_half_gives_back_the_law(folder, scans):
             ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03),
             ("range_rate_sigma_mps", fit.sensor["range_rate_sigma_mps"], 0.02, 0.015)):
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} planted")
-    check(1.3 <= fit.sensor["cell_range_m"] < 2.6, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
+    check(0.8 <= fit.sensor["cell_range_m"] < 2, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
+    azimuth_rad = math.hypot(fit.sensor["azimuth_floor_rad"], fit.azimuth_noise / 10)
+    check(0.0035 < azimuth_rad < 0.0065, f"noise of azimuths at 20 dB: {azimuth_rad:.4f} rad found, 0.005 planted")
+
+
+def the_law_of_levels_is_told_apart(folder):
+    """By the scores of blocks, the mean or the median, whichever the lists were drawn with."""
+    levels, lead = {"level_constant_db": 4.5, "level_slow_db": 2.5, "level_fast_db": 2.9}, {}
+    for keeps in ("mean", "median"):
+        suite = fitted.write_suite(truth(), folder, **levels, level_keeps=keeps)
+        lost = beside.kept(readers.Recording(RADAR, recorded(suite, world(20), 7), []), folder)
+        lead[keeps] = lost["median"] - lost["mean"]
+    check(lead["mean"] > 0 > lead["median"], f"scores of the median less those of the mean: {lead}")
 
 
 def second_half(scans):
@@ -137,7 +149,7 @@ def recordings_that_cannot_be_are_refused(folder):
     bare = [scan._replace(boxes=[], detections=[readers.Detection(20.0 + 3 * k, 0.02 * k, -20.0, 20.0) for k in range(9)])
             for scan in world(8)]
     refused(os.EX_NOINPUT, f"{folder}: expected recording.json")
-    for text, expected in (("{}", "KeyError: 'scans'"), ('{"radar": {"x_m": 0}, "scans": []}', "TypeError")):
+    for text, expected in (("{}", "'scans' is missing"), ('{"radar": {"x_m": 0}, "scans": []}', "TypeError")):
         with open(os.path.join(folder, "recording.json"), "w", encoding="utf-8") as out:
             out.write(text)
         refused(os.EX_DATAERR, expected)
@@ -224,6 +236,17 @@ def intervals_of_20_blocks_hold_the_expected_ratio(trials=80, scans=200):
     check(held >= 0.85 * trials, f"intervals of {scans} scans held {held} of {trials}")
 
 
+def noise_of_azimuths_is_parted_from_its_floor():
+    """Within 15 %, though 1 of 20 pairs is a wrong one."""
+    generator, pairs = random.Random(3), []
+    for k in range(2000):
+        one, other = (readers.Detection(50, 0, 0, generator.uniform(14, 36)) for _ in range(2))
+        sigma = math.sqrt(2 * 0.003 ** 2 + 0.08 ** 2 * (10 ** (-one.snr_db / 10) + 10 ** (-other.snr_db / 10)))
+        pairs.append((0, generator.uniform(-0.035, 0.035) if k % 20 == 0 else generator.gauss(0, sigma), one, other))
+    floor, per_noise = map(math.sqrt, fitted.azimuth_variances(pairs, 1e-4))
+    check(abs(floor / 0.003 - 1) < 0.15 and abs(per_noise / 0.08 - 1) < 0.15, f"noise of azimuths: {floor}, {per_noise}")
+
+
 def places_turn_with_their_box():
     """A box that heads left has what lies farther left ahead of it; its nearest point is on its side."""
     box = readers.Box("1", "car", 20.0, 5.0, math.pi / 2, 0, 0, 4.0, 2.0, 1.5)
@@ -306,6 +329,7 @@ def main():
     energy_scores_follow_their_closed_form()
     intervals_of_20_blocks_hold_the_expected_ratio()
     places_turn_with_their_box()
+    noise_of_azimuths_is_parted_from_its_floor()
     a_roadside_is_found_again()
     with tempfile.TemporaryDirectory() as folder:
         suite = fitted.write_suite(truth(), folder)
@@ -313,6 +337,7 @@ def main():
         what_stands_tells_the_speed(scans)
         the_first_half_gives_back_the_law(folder, scans)
         planted_faults_are_marked(folder, suite, scans)
+        the_law_of_levels_is_told_apart(folder)
     with tempfile.TemporaryDirectory() as folder:
         view_of_delft_is_read(folder)
     with tempfile.TemporaryDirectory() as folder:
