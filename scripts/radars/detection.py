@@ -3,6 +3,7 @@ its amplitude with noise (MODEL 14.14)."""
 import math
 
 STEPS = 100
+ORDERS = {"none": None, "swerling_1": 1, "swerling_3": 2}  # of the gamma law of the power
 
 
 def in_noise(amplitude, threshold):
@@ -18,9 +19,9 @@ def in_noise(amplitude, threshold):
 
 def probability(mean, threshold, fluctuation):
     """Of an echo of this mean amplitude (root of the mean power)."""
-    if fluctuation == "none":
+    order = ORDERS[fluctuation]
+    if order is None:
         return in_noise(mean, threshold) if mean >= threshold * (1 - 1e-12) else 0
-    order = {"swerling_1": 1, "swerling_3": 2}[fluctuation]
     least = (threshold / mean) ** 2
     total, width = 0, 20 / STEPS
     for i in range(STEPS):
