@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A radar of another kind comes towards the ego: in the viewer the van is lost below the threshold while the
-# second oncoming car is near (7.6 to 8.3 s), as the noise and the threshold with it rise by up to 17 dB. With
-# --effects=-rain,-fog,-interference it never is.
+# A radar of another kind comes towards the ego: in the viewer the van is a target in 17 scans and else lost
+# below the threshold, as the noise and the threshold with it rise by up to 17 dB. With
+# --effects=-rain,-fog,-interference it is one in 89 scans, from 4.5 to 9 s, while its level is high.
 set -o pipefail
 glint-traffic wet-road \
   | glint-extract \

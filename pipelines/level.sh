@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Levels of bodies and nothing else that is random: in the viewer the amplitude of the car ahead glides
-# by some decibels as it pulls away, and a car that comes towards it is weak or strong for many scans. With
-# level taken from the list amplitudes change with range alone.
+# by some decibels as it pulls away, and a car that comes towards it is weak or strong for many scans. Without
+# level in the list amplitudes change smoothly, with range and direction.
 set -o pipefail
 glint-traffic wet-road \
   | glint-extract \

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Heavy rain and some fog, without what other radars add: in the viewer the van 170 m ahead is a target now
-# and then, and lost below the threshold else; with --effects=-interference,-rain it is there most of the
-# time. How strong an echo is also varies from scan to scan (level).
+# Heavy rain and some fog, without what other radars add: in the viewer the van 170 m ahead is lost below the
+# threshold in every scan; with --effects=-interference,-rain it is a target in 88 of 241 scans, one after
+# the other, while its level is high.
 set -o pipefail
 glint-traffic wet-road \
   | glint-extract \

@@ -179,7 +179,7 @@ static const struct field sensor_fields[] = {
     {FIELD_FLAG_OF(struct sensor, final_threshold, "test the noisy amplitude once more")},
     {MAY_HAVE(false_alarms, 0, 1e4, "mean number of targets per scan that are nothing but noise")},
     {MAY_HAVE(false_alarm_range_rate_mps, 0, 1e5,
-              "false alarms have range rates within plus or minus this of unambiguous_middle_mps"),
+              "false alarms have range rates up to this far from unambiguous_middle_mps"),
      .absent = 70},
     {MAY_HAVE(range_step_m, 0, 1e3, "reported in multiples of this; 0: exactly")},
     {MAY_HAVE(range_rate_step_mps, 0, 1e3, "reported in multiples of this; 0: exactly")},
@@ -370,11 +370,13 @@ static int check_limits(const struct sensor *sensor, struct diag *diag)
     const struct range_limit *limits = sensor->range_limits.items;
     bool signal = sensor->waveform.samples > 0;
     for (size_t i = 0; i < sensor->range_limits.count; i++) {
-        if (!(limits[i].range_max_m <= sensor->range_max_m))
+        if (!(limits[i].range_max_m > sensor->range_min_m &&
+              limits[i].range_max_m <= sensor->range_max_m))
             return diag_fail(
                 diag, DIAG_CONFIG,
-                "range_limits[%zu].range_max_m: %g; expected at most the sensor's, %g m", i,
-                limits[i].range_max_m, sensor->range_max_m);
+                "range_limits[%zu].range_max_m: %g; expected more than range_min_m, %g "
+                "m, and at most the sensor's range_max_m, %g m",
+                i, limits[i].range_max_m, sensor->range_min_m, sensor->range_max_m);
         if (i > 0 && !(limits[i].azimuth_rad > limits[i - 1].azimuth_rad))
             return diag_fail(diag, DIAG_CONFIG,
                              "range_limits[%zu].azimuth_rad: %g does not ascend from %g rad", i,

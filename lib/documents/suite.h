@@ -57,7 +57,7 @@ struct sensor {
     double level_constant_db, level_slow_db, level_slow_m, level_fast_db;
     enum level_keeps level_keeps;
     double unambiguous_range_m, unambiguous_rate_mps; /* 0: unlimited */
-    double unambiguous_middle_mps;
+    double unambiguous_middle_mps;                    /* of the span of range rates */
     double receiver_bandwidth_hz, noise_figure_db, antenna_gain_dbi;
     enum if_sampling if_sampling;
     double chirp_slope_hzps, chirp_s;

@@ -4,6 +4,6 @@
 #include "documents/suite.h"
 
 /* Loads a suite with its tables and derived members into the arena. The digest is a 64-bit hash of
- * all values of the document and of its tables, whatever their order and spelling; `origin`,
- * `sources` and `assumed` do not enter. NULL after a message (DIAG_CONFIG). */
+ * all values of the document and of its tables, whatever their spelling and the order of members;
+ * `origin`, `sources` and `assumed` do not enter. NULL after a message (DIAG_CONFIG). */
 const struct suite *suite_file_load(const char *name, struct arena *arena, struct diag *diag);

@@ -11,8 +11,7 @@
 #define RING_PART 0.7071067811865476 /* 6 dB at 40 dB a decade */
 #define RINGS 16
 
-/* In each ring those points are left out that together would stay below this part of the threshold.
- */
+/* A ring ends where its remaining points together have less than this part of the threshold. */
 #define FAINTEST 0.1
 
 static bool described(const struct effect_scan *scan)
@@ -25,8 +24,8 @@ static bool described(const struct effect_scan *scan)
 
 struct ring {
     double near_m, far_m;
-    double mean;    /* number of points */
-    double echoing; /* the power in terms of their mean power that is not left out */
+    double mean;        /* number of points */
+    double least_power; /* of a point and all weaker ones, over the mean power of a point */
 };
 
 static struct ring ring_between(const struct effect_scan *scan, double per_m2, double near_m,
@@ -77,7 +76,7 @@ static void add_ring(const struct effect_scan *scan, const struct ring *ring, in
         if (!(share < 1))
             return;
         double power = -elementary_log(share);
-        if (power + ring->mean * (1 - share - share * power) < ring->echoing)
+        if (power + ring->mean * (1 - share - share * power) < ring->least_power)
             return;
         struct echo point = point_at(scan, ring, pose, uniform);
         point.id.number = number + RINGS * (int64_t)rank;

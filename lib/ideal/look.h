@@ -102,7 +102,8 @@ double look_plane_ercs(const struct look *look, const struct plane_reflector *pl
 struct look_extent look_reflectors_extent(const struct look *look, const struct look_body *body,
                                           const struct look_set *set);
 
-/* Distances from the nearer end of the sensor's ranges and of its field of view; < 0 outside. */
+/* Distances from the nearer end of the sensor's ranges and of its field of view; < 0 outside.
+ * `read` has range and azimuth as they are measured. */
 double look_within_range_m(const struct look *look, const struct kinematics *read);
 double look_within_view_rad(const struct look *look, double azimuth_rad);
 

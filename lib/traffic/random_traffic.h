@@ -54,9 +54,10 @@ struct random_address random_traffic_address(const struct random_traffic *traffi
  * the origin along x, so that places can be exact. */
 void random_traffic_fill(const struct random_traffic *traffic, int64_t number, struct frame *frame);
 
-/* Draws what stands beside the road, at the address of a snapshot: on each side a rail or a kerb 5
- * to 12 m from the ego in half of all snapshots, then poles in a third and vegetation in half of
- * them behind it. The strips go from 300 m behind the ego to 300 m ahead. */
+/* Draws what stands beside the road, at the address of a snapshot: on each
+ * side, independently, a rail or a kerb 5 to 12 m from the ego with probability 0.5, poles farther
+ * out with 0.3 and vegetation farther out with 0.5. The strips go from 300 m behind the ego to 300
+ * m ahead. */
 void random_traffic_roadside(struct random_address address, struct frame *frame);
 
 /* Draws road, weather and the objects with a radar (interferers) at the address of a snapshot or a

@@ -260,8 +260,13 @@ static void suites_with_contradictory_members_are_refused(void **state)
         {SUITE(SENSOR("a", "\"range_min_m\":5,\"range_max_m\":5,", TABLES)), levels, pattern,
          "/suite.json: sensors[0].range_max_m: 5 is not above range_min_m, 5 m"},
         {SUITE(SENSOR("a", RANGES, TABLES LIMITS("0", "1", "31"))), levels, pattern,
-         "/suite.json: sensors[0].range_limits[1].range_max_m: 31; expected at most the sensor's, "
-         "30 m"},
+         "/suite.json: sensors[0].range_limits[1].range_max_m: 31; expected more than range_min_m, "
+         "1 "
+         "m, and at most the sensor's range_max_m, 30 m"},
+        {SUITE(SENSOR("a", RANGES, TABLES LIMITS("0", "1", "1"))), levels, pattern,
+         "/suite.json: sensors[0].range_limits[1].range_max_m: 1; expected more than range_min_m, "
+         "1 "
+         "m, and at most the sensor's range_max_m, 30 m"},
         {SUITE(SENSOR("a", RANGES, TABLES LIMITS("0.5", "0.5", "10"))), levels, pattern,
          "/suite.json: sensors[0].range_limits[1].azimuth_rad: 0.5 does not ascend from 0.5 rad"},
         {SUITE(SENSOR("a", RANGES, TABLES "\"unambiguous_middle_mps\":-3,")), levels, pattern,
