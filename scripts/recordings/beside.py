@@ -111,10 +111,11 @@ def print_skills(second, results, scores):
     if blocks < score.LONG_BLOCKS:
         print(f"too short: intervals of {blocks:.0f} blocks of scans; {score.LONG_BLOCKS} are needed")
     for chain, before in zip(chains.CHAINS[1:], [*chains.CHAINS[:4], chains.ALL, chains.ALL]):
-        if gains(scores[chain], scores[before], ideal, scans)[1] > 0:
-            for body in sorted({name for name, _ in ideal}):
-                if gains(scores[chain], scores[before], ideal, scans, body)[1] <= 0:
-                    print(f"vanishes without {body}: the gain of {chain.name} over {before.name}")
+        points, least, _ = gains(scores[chain], scores[before], ideal, scans)
+        if least > 0:
+            left = {body: gains(scores[chain], scores[before], ideal, scans, body) for body in sorted({key[0] for key in ideal})}
+            print(f"gain of {chain.name} over {before.name}: {points:.1f} points;", ", ".join(
+                f"without {body} {rest:.1f}{' (vanishes)' * (lowest <= 0)}" for body, (rest, lowest, _) in left.items()))
 
 
 def kept(recording, folder):

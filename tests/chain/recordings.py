@@ -10,6 +10,7 @@ import json
 import math
 import os
 import random
+import statistics
 import struct
 import subprocess
 import sys
@@ -297,6 +298,19 @@ def the_real_recording_shows_what_its_page_says():
             ("cell_range_m", fit.sensor["cell_range_m"], 1.4, 0.3),
             ("cell_range_rate_mps", fit.sensor["cell_range_rate_mps"], 0.2, 0.05)):
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} stands beside the recording")
+    cars_are_detected_as_often_as_measured(fit, readers.read(folder))
+
+
+def cars_are_detected_as_often_as_measured(fit, recording):
+    """Two radars have 1.0 to 1.1 detections of a car in a scan at 40 to 80 m; detailed vehicles have as many within 25 %."""
+    part = beside.part(fit, recording.radar, recording.scans)
+    chain = next(one for one in chains.CHAINS if one.data == "data/detailed")
+    with tempfile.TemporaryDirectory() as folder:
+        lists, _ = chains.run(chain, fitted.write_suite(fit, folder), fit, part)
+    cars = [key for key, box in part.boxes.items() if box.kind == "car" and 40 <= geometry.look(part.radar, box).range_m < 80]
+    number = statistics.fmean(len(own[key]) for own in map(part.of, lists) for key in cars)
+    print(f"detections of a car in a scan at 40 to 80 m: {number:.2f}, measured 1.0 to 1.1")
+    check(0.75 <= number <= 1.38, f"detections of a car at 40 to 80 m: {number:.2f}")
 
 
 def recordings_of_the_same_law(count):
