@@ -4,12 +4,13 @@
 
 Random scenes of dense traffic move for 2 s each at 25 Hz. Each suite detects them by its cells (glint-sensor,
 glint-noise), a suite with a waveform also by its signal (glint-sensor-signal). The error of a target is its
-difference from the echo of its greatest weight; false alarms have none. A range rate is compared in its true fold,
-but targets that the signal puts into a wrong one are a group of their own. Misalignment is left out, as the quality
-does not contain it. The other groups are targets of one echo and of several, unmarked and marked by `looks_merged`.
-Where variances are right, the mean is 1, and 95 % of the errors are within 1.96 standard deviations. Each figure has its
-95 % interval over scenes. Such intervals of 20 scenes cover 94 % where scenes are alike, and 85 % where few scenes
-have most of the errors.
+difference from the echo of its greatest weight; false alarms have none. Misalignment is left out, as the quality does
+not contain it. The groups are targets of one echo and of several, unmarked and marked by `looks_merged`, and all
+unmarked and all marked targets, which a tracker can tell apart. A range rate is compared in its true fold; targets
+that the signal puts into a wrong one are a group of their own and in no other. NEES is e' P^-1 e of range, range rate
+and azimuth, divided by their number. Where variances are right, each mean is 1, and 95 % of the errors are inside
+their 95 % region (1.96 standard deviations, or the ellipsoid of NEES). Each figure has its 95 % interval over scenes.
+Such intervals of 20 scenes cover 94 % where scenes are alike, and 85 % where few scenes have most of the errors.
 """
 import argparse
 import json
@@ -29,17 +30,24 @@ CELLS, SIGNAL = "glint-sensor | glint-noise", "glint-sensor-signal"
 COMPONENTS = {"range": ("range_m", "range_sd_m"), "rate": ("range_rate_mps", "range_rate_sd_mps"),
               "azimuth": ("azimuth_rad", "azimuth_sd_rad")}
 GROUPS = {(False, False): "one", (False, True): "one, marked", (True, False): "several", (True, True): "several, marked"}
+TOTALS = {False: "all unmarked", True: "all marked"}
 FEWEST = 8  # scenes with such targets, for an interval
-WITHIN = 1.96 ** 2
+REGION = {1: 3.841, 2: 5.991, 3: 7.815}  # 95 % of chi squared, by degrees of freedom
 
 
 def normalised(target):
-    """Squared errors divided by variances, by component; components without a deviation are left out."""
+    """Squared errors divided by variances, by component, each with whether it is inside its 95 % region; components
+    without a deviation are left out."""
     quality, truth = target["quality"], max(target["contributors"], key=lambda one: one["weight"])
     folds = quality.get("ambiguity_number", 0) * quality.get("range_rate_interval_mps", 0)
     reported = dict(target, range_rate_mps=target["range_rate_mps"] + folds)
-    return {name: ((reported[key] - truth[key]) / quality[sd]) ** 2
-            for name, (key, sd) in COMPONENTS.items() if quality[sd] > 0}
+    squares = {name: ((reported[key] - truth[key]) / quality[sd]) ** 2
+               for name, (key, sd) in COMPONENTS.items() if quality[sd] > 0}
+    errors = {name: (square, square <= REGION[1]) for name, square in squares.items()}
+    if squares:
+        nees = sum(squares.values())
+        errors["NEES"] = nees / len(squares), nees <= REGION[len(squares)]
+    return errors
 
 
 def scenes_of(source, suite, chain):
@@ -51,11 +59,12 @@ def scenes_of(source, suite, chain):
     for frame in map(json.loads, done.stdout.splitlines()):
         groups = scenes.setdefault(frame["scene"], {})
         for target in frame["targets"]:
-            quality = target["quality"]
-            group = GROUPS[quality["merged_reflectors"], quality.get("looks_merged", False)]
+            quality, parts = target["quality"], target["contributors"]
+            marked = quality.get("looks_merged", False)
+            belongs = [GROUPS[len(parts) > 1, marked], TOTALS[marked]]
             if chain == SIGNAL and quality["ambiguity_number"] != 0:
-                group = "wrong fold"
-            if target["contributors"][0]["path"] != "false_alarm":
+                belongs = ["wrong fold"]
+            for group in belongs if parts[0]["path"] != "false_alarm" else ():
                 groups.setdefault(group, []).append(normalised(target))
     return list(scenes.values())
 
@@ -77,14 +86,15 @@ def ratio(pairs):
 
 def report(title, scenes):
     """Rows of one chain: groups by component."""
-    for group in [*GROUPS.values(), "wrong fold"]:
+    all_of = [sum(len(scene.get(group, [])) for group in [*GROUPS.values(), "wrong fold"]) for scene in scenes]
+    for group in [*GROUPS.values(), "wrong fold", *TOTALS.values()]:
         own = [scene.get(group, []) for scene in scenes]
-        share = ratio([(100 * len(of), sum(map(len, scene.values()))) for of, scene in zip(own, scenes)])
-        for name in COMPONENTS if any(own) else ():
+        share = ratio([(100 * len(of), every) for of, every in zip(own, all_of)])
+        for name in [*COMPONENTS, "NEES"] if any(own) else ():
             errors = [[one[name] for one in of if name in one] for of in own]
-            mean = ratio([(sum(of), len(of)) for of in errors])
-            within = ratio([(100 * sum(one <= WITHIN for one in of), len(of)) for of in errors])
-            say(f"{title:27}{group:17}{name:9}{sum(map(len, own)):6}  {share:23}{mean:28}{within}")
+            mean = ratio([(sum(square for square, _ in of), len(of)) for of in errors])
+            inside = ratio([(100 * sum(within for _, within in of), len(of)) for of in errors])
+            say(f"{title:27}{group:17}{name:9}{sum(map(len, own)):6}  {share:23}{mean:28}{inside}")
 
 
 def main():
@@ -99,7 +109,7 @@ def main():
         with open(os.path.join(ROOT, "data", "sensors", suite + ".json")) as text:
             if all("waveform" in one for one in json.load(text)["sensors"]):
                 chains.append((f"{suite}, signal", suite, SIGNAL))
-    say(f"{'suite':27}{'echoes':17}{'':9}{'count':>6}  {'% of targets':23}{'mean squared error/variance':28}% within 1.96 sd")
+    say(f"{'suite':27}{'echoes':17}{'':9}{'count':>6}  {'% of targets':23}{'mean squared error/variance':28}% inside 95 %")
     for title, suite, chain in Progress("chains").over(chains):
         report(title, scenes_of(source, suite, chain))
 

@@ -386,11 +386,11 @@ module.exports = ({stream, view, withPage, panelText}) => {
             const wordsOf = one => one.path === 'wheel' || one.path === 'limb'
                 ? `${one.reflector} by ${one.path} ${one.number}` : `${one.reflector} direct`;
             const alike = frame => frame.targets.filter(one => one.contributors.length === 1 &&
-                one.contributors[0].object === 'car' && one.contributors[0].reflector === 'wheel_rr');
+                one.contributors[0].object === 'cyclist' && one.contributors[0].reflector === 'end_f');
             const frame = frames.find(one => alike(one).length >= 3);
             await withPage(view(frames), async page => {
                 await showFrame(page, frame);
-                await page.evaluate(() => chooseObject(names.indexOf('car')));
+                await page.evaluate(() => chooseObject(names.indexOf('cyclist')));
                 const rows = await page.locator('#panel .row:not(.lost) .what').allInnerTexts();
                 for (const {contributors: [one]} of alike(frame)) {
                     assert.ok(rows.some(row => row.endsWith(` ${wordsOf(one)} 100 %`)), `${wordsOf(one)}: ${rows}`);
