@@ -49,7 +49,7 @@ module.exports = ({stream, view, withPage, targetOnMap, panelText, clock}) => {
         'glint-ideal --sensors lrr77-full --sections account | glint-sensor | glint-noise');
 
     return {
-        async 'lanes have a line for each event of the stream, and keys go from one to the next'() {
+        async 'lanes have a line for each event of the stream, and keys and buttons go from one to the next'() {
             for (const name of ['ghosts', 'intersection', 'clutter', 'smear']) {
                 const frames = stream(name);
                 const expected = eventsOf(frames);
@@ -69,6 +69,10 @@ module.exports = ({stream, view, withPage, targetOnMap, panelText, clock}) => {
                         assert.strictEqual(await page.evaluate(() => state.row), row);
                     }
                     await page.keyboard.press(',');
+                    assert.strictEqual(await page.evaluate(() => state.row), every[1]);
+                    await page.click('#next-event');
+                    assert.strictEqual(await page.evaluate(() => state.row), every[2]);
+                    await page.click('#last-event');
                     assert.strictEqual(await page.evaluate(() => state.row), every[1]);
                 });
             }

@@ -317,6 +317,8 @@ function connectOverTime() {
         control('plotted').append(option);
     }
     control('plotted').addEventListener('change', refresh);
+    control('last-event').addEventListener('click', () => stepEvent(-1));
+    control('next-event').addEventListener('click', () => stepEvent(1));
     overTimeCanvas.addEventListener('click', event => {
         setPlaying(false);
         showRow(rowOfPlace(event.offsetX));

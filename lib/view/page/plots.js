@@ -207,10 +207,7 @@ function plotCell(kind, drawing, size, axes, scan, target) {
 
 function plotEchoes(kind, drawing, size, axes, scan, target) {
     const {begin, end} = contributorsOf(target);
-    for (let i = begin; i < end; i++) {
-        if (kind === 'rate' && state.rates === 'compensated') {
-            continue;
-        }
+    for (let i = begin; i < end && (kind === 'azimuth' || state.rates === 'raw'); i++) {
         const x = kind === 'azimuth' ? vehicleAzimuth(scan, column('contributor_azimuth_rad')[i]) * degrees
             : column('contributor_range_rate_mps')[i];
         const at = plotPlace(size, axes, x, column('contributor_range_m')[i]);
