@@ -26,12 +26,16 @@ def between(rows, at):
 
 def beam(scan, half_rad):
     """The level over azimuth in dB, both ways: a function."""
-    gains = scan.figures.rows("gains", "two_way_db", "one_way_db")
+    width_rad, gains = scan.figures.take("beam_two_way_full_width_deg"), scan.figures.rows("gains", "two_way_db", "one_way_db")
     if gains:
+        levels = [between(gains, 0.01 * DEGREE * i) - between(gains, 0) for i in range(-18000, 18000)]
+        shown_deg, stated_deg = 0.01 * sum(level_db >= -3 for level_db in levels), (width_rad or 0) / DEGREE
+        if width_rad and abs(shown_deg - stated_deg) > 0.05 * stated_deg:
+            raise Refused(f"{scan.name}: gains are down by 3 dB both ways over {shown_deg:.3g} degrees, and with "
+                          f"{scan.figures.told('beam_two_way_full_width_deg')} over {stated_deg:.3g}")
         return lambda at: max(between(gains, at) - between(gains, 0), LEAST_DB)
-    width_rad = scan.figures.take("beam_two_way_full_width_deg")
     if width_rad is None:
-        scan.assumed.append(f"{scan.name}: the beam is down by 6 dB both ways at the border of the field of view.")
+        scan.note("the beam is down by 6 dB both ways at the border of the field of view")
         width_rad = math.sqrt(2) * half_rad
     return lambda at: max(-3 * (2 * at / width_rad) ** 2, LEAST_DB)
 
@@ -47,26 +51,28 @@ def elements_sigma(scan, snr):
     if len(virtual) < 2:
         raise Refused(f"{scan.name}: receive_positions_wavelengths has {len(virtual)} place; expected two or more")
     aperture = virtual[-1] - virtual[0] + min(b - a for a, b in zip(virtual, virtual[1:]))
-    scan.assumed.append(f"{scan.name}: {len(virtual)} virtual elements over {aperture:.4g} wavelengths set the accuracy of azimuths "
-                        "and do not separate echoes.")
+    scan.note(f"{len(virtual)} virtual elements over {aperture:.4g} wavelengths set the accuracy of azimuths and do not separate echoes")
     return 0.39 / (aperture * math.sqrt(snr))
 
 
 def accuracies(scan, half_rad, snr):
     """The standard deviation of the azimuth over azimuth, in rad: a function."""
     rows, bound = scan.figures.rows("azimuth_accuracies", "accuracy_deg"), elements_sigma(scan, snr)
-    stated = between(rows, 0) if rows else scan.figures.take("azimuth_accuracy_deg")
+    figure, stated = scan.figures.agreed(("azimuth_accuracies", between(rows, 0) if rows else None),
+                                         ("azimuth_accuracy_deg", scan.figures.take("azimuth_accuracy_deg")))
     if bound and stated and stated < 0.9 * bound:
         raise Refused(f"{scan.name}: an azimuth accuracy of {stated / DEGREE:.3g} degrees is finer than {bound / DEGREE:.3g}, what the "
                       f"elements have at {10 * math.log10(snr):.3g} dB")
     if stated or bound:
-        scan.put("azimuth_sigma_rad", stated or bound, "azimuth_accuracies" if rows else "azimuth_accuracy_deg" if stated else
-                 "receive_positions_wavelengths")
+        scan.put("azimuth_sigma_rad", stated or bound, figure or "receive_positions_wavelengths")
     else:
         scan.assume("azimuth_sigma_rad", half_rad / 50, "a hundredth of the field of view")
+    sigma, step = scan.members["azimuth_sigma_rad"], scan.members.get("azimuth_step_rad", 0)
+    if scan.members.pop("azimuth_floor_rad", None):
+        scan.note("azimuths have no floor of their noise beside the accuracy")
     if rows:
-        return lambda at: between(rows, at)
-    sigma = scan.members["azimuth_sigma_rad"]
+        return lambda at: scan.unrounded(between(rows, at), step, "azimuth_accuracies")
+    sigma = scan.unrounded(sigma, step, "azimuth_accuracy_deg")
     return lambda at: sigma / (1 if stated or not bound else max(math.cos(at), 0.02))
 
 
@@ -75,23 +81,25 @@ def reference_snr(scan):
     snr_db = scan.figures.take("accuracy_snr_db")
     if snr_db is None:
         snr_db = scan.members["threshold_db"] - 20 * math.log10(scan.members["pointer_sigma"]) + 20
-        scan.assumed.append(f"{scan.name}: the accuracy of azimuths holds 20 dB above the threshold, {snr_db:.3g} dB over the noise.")
+        scan.note(f"the accuracy of azimuths, a standard deviation, holds 20 dB above the threshold, {snr_db:.3g} dB over the noise")
     return 10 ** (snr_db / 10)
 
 
 def rows_of(level, sigma, half_rad, snr, scan):
-    """Rows from one side to the other, a little beyond the field of view. Mirrored rows are mirrored exactly."""
-    reach_rad = min(1.02 * half_rad + 0.2 * DEGREE, math.pi / 2)
-    step, psi, right, left = reach_rad / ROWS, 0, [(0, 10 ** (level(0) / 20), 0)], []
-    for i in range(1, ROWS + 1):
-        psi += sum(step / 8 / sigma(step * (i - 1 + (k + 0.5) / 8)) for k in range(8)) / math.sqrt(2 * snr)
-        right.append((i * step, 10 ** (level(i * step) / 20), math.sinh(min(psi, MOST))))
-        left.append((-i * step, 10 ** (level(-i * step) / 20), -math.sinh(min(psi, MOST))))
-    if psi > MOST:
-        raise Refused(f"{scan.name}: the azimuth accuracy of {sigma(0) / DEGREE:.3g} degrees over {2 * half_rad / DEGREE:.3g} degrees of "
-                      f"view is finer than one pair of beams has at {10 * math.log10(snr):.3g} dB; expected {sigma(0) / DEGREE * psi / MOST:.3g} "
-                      "or more, or a higher accuracy_snr_db")
-    return [(at, total, total * ratio) for at, total, ratio in left[::-1] + right]
+    """Rows from one side to the other, beyond the field of view by five deviations. Mirrored rows are mirrored exactly."""
+    reach_rad = min(1.02 * half_rad + 5 * sigma(half_rad), math.pi / 2)
+    psi, step, sides = 0, reach_rad / ROWS, {1: [(0, 10 ** (level(0) / 20), 0)], -1: []}
+    for side, rows in sides.items():
+        psi = 0
+        for i in range(1, ROWS + 1):
+            at, between_rad = side * i * step, [side * step * (i - 1 + (k + 0.5) / 8) for k in range(8)]
+            psi += sum(step / 8 / sigma(place) for place in between_rad) / math.sqrt(2 * snr)
+            rows.append((at, 10 ** (level(at) / 20), side * math.sinh(min(psi, MOST))))
+        if psi > MOST:
+            raise Refused(f"{scan.name}: the azimuth accuracy of {sigma(0) / DEGREE:.3g} degrees over {2 * half_rad / DEGREE:.3g} degrees of view "
+                          f"is finer than one pair of beams has at {10 * math.log10(snr):.3g} dB; expected "
+                          f"{sigma(0) / DEGREE * psi / MOST:.3g} or more, or a higher accuracy_snr_db")
+    return [(at, total, total * ratio) for at, total, ratio in sides[-1][::-1] + sides[1]]
 
 
 def table(scan):

@@ -3,7 +3,50 @@ its amplitude with noise (MODEL 14.14)."""
 import math
 
 STEPS = 100
-ORDERS = {"none": None, "swerling_1": 1, "swerling_3": 2}  # of the gamma law of the power
+ORDERS = {"swerling_1": 1, "swerling_3": 2}  # of the gamma law of the power
+
+
+class Law:
+    """How a sensor's echoes vary: by its fluctuation, and by levels of bodies, which are normal in dB (MODEL 14.22)."""
+
+    def __init__(self, members):
+        levels = [(math.hypot(*(members.get(f"level_{name}_db", 0) for name in ("constant", "slow", "fast"))), members.get("level_keeps"))]
+        if members["fluctuation"] == "log_normal":
+            levels.append((members.get("fluctuation_sigma_db", 3.41), "mean"))
+        self.order, self.final = ORDERS.get(members["fluctuation"]), members.get("final_threshold", True)
+        self.sigma_db = math.hypot(*(sigma_db for sigma_db, _ in levels))
+        self.mean_db = sum(-math.log(10) / 20 * sigma_db ** 2 for sigma_db, keeps in levels if keeps != "median")
+
+    def probability(self, mean, threshold):
+        """Of an echo of this mean amplitude (root of the mean power)."""
+        if self.sigma_db == 0:
+            return self.alone(mean, threshold)
+        count = 400 if self.order is None else 40
+        places = [12 * (i + 0.5) / count - 6 for i in range(count)]
+        chances = [self.alone(mean * 10 ** ((self.mean_db + self.sigma_db * x) / 20), threshold) for x in places]
+        return sum(chance * math.exp(-x * x / 2) for chance, x in zip(chances, places)) / sum(math.exp(-x * x / 2) for x in places)
+
+    def alone(self, mean, threshold):
+        """Without levels."""
+        if self.order is None:
+            return self.noisy(mean, threshold) if mean >= threshold * (1 - 1e-12) else 0
+        least, total, width, order = (threshold / mean) ** 2, 0, 20 / STEPS, self.order
+        for i in range(STEPS if least < 40 else 0):
+            power = least + ((i + 0.5) / STEPS) ** 2 * 20
+            density = order ** order * power ** (order - 1) * math.exp(-order * power) / math.factorial(order - 1)
+            total += density * self.noisy(mean * math.sqrt(power), threshold) * 2 * (i + 0.5) / STEPS * width
+        return total
+
+    def noisy(self, amplitude, threshold):
+        return in_noise(amplitude, threshold) if self.final else 1
+
+    def amplitude(self, chance, threshold):
+        """The mean amplitude that is detected with this probability."""
+        low, high = threshold / 1e3, threshold * 1e4
+        while high > low * 1.0001:
+            middle = math.sqrt(low * high)
+            low, high = (middle, high) if self.probability(middle, threshold) < chance else (low, middle)
+        return high
 
 
 def in_noise(amplitude, threshold):
@@ -15,26 +58,3 @@ def in_noise(amplitude, threshold):
         rho2 = (amplitude - threshold) ** 2 + 2 * amplitude * threshold * (1 - cosine)
         inside += (threshold - amplitude * cosine) * -math.expm1(-rho2) / rho2
     return min(1, max(0, 1 - threshold * inside / steps))
-
-
-def probability(mean, threshold, fluctuation):
-    """Of an echo of this mean amplitude (root of the mean power)."""
-    order = ORDERS[fluctuation]
-    if order is None:
-        return in_noise(mean, threshold) if mean >= threshold * (1 - 1e-12) else 0
-    least = (threshold / mean) ** 2
-    total, width = 0, 20 / STEPS
-    for i in range(STEPS):
-        power = least + ((i + 0.5) / STEPS) ** 2 * 20
-        density = order ** order * power ** (order - 1) * math.exp(-order * power) / math.factorial(order - 1)
-        total += density * in_noise(mean * math.sqrt(power), threshold) * 2 * (i + 0.5) / STEPS * width
-    return total
-
-
-def amplitude(chance, threshold, fluctuation):
-    """The mean amplitude that is detected with this probability; at least the threshold."""
-    low, high = threshold, threshold * 1e4
-    while high > low * 1.0001:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if probability(middle, threshold, fluctuation) < chance else (low, middle)
-    return high

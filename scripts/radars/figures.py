@@ -2,24 +2,31 @@
 import difflib
 import json
 import math
+import re
 
 DEGREE = math.pi / 180
 # Endings of names, and the factor to the unit in which figures are read.
-UNITS = {"_m": 1, "_mm": 1e-3, "_deg": DEGREE, "_mps": 1, "_kmh": 1 / 3.6, "_ghz": 1e9, "_ms": 1e-3, "_db": 1, "_dbsm": 1,
-         "_wavelengths": 1}
-# Every figure, by the name under which the script reads it; others() has its other spellings.
-NAMES = """name origin document sources extends radars scans members
-    vehicle_length_m vehicle_width_m ahead_of_middle_m behind_front_bumper_m ahead_of_rear_bumper_m left_of_middle_m
-    inside_left_side_m inside_right_side_m height_m yaw_left_deg
-    carrier_ghz cycle_ms latency_ms range_min_m range_max_m range_limits view_full_width_deg range_unambiguous_m
-    range_resolution_m speed_resolution_mps azimuth_resolution_deg
-    receding_max_mps approaching_max_mps speed_max_mps
-    range_accuracy_m speed_accuracy_mps azimuth_accuracy_deg azimuth_accuracies accuracy_snr_db
-    beam_two_way_full_width_deg elevation_one_way_full_width_deg gains
-    transmit_positions_wavelengths receive_positions_wavelengths
-    false_alarm_rate false_alarms_per_scan detected_dbsm detected_object detected_at_m detection_probability fluctuation
-    range_step_m speed_step_mps azimuth_step_deg list_limit list_order""".split()
-WORDS = ("detected_object", "fluctuation", "list_order", "members")  # are no numbers
+UNITS = {"_m": 1, "_cm": 1e-2, "_mm": 1e-3, "_deg": DEGREE, "_mps": 1, "_kmh": 1 / 3.6, "_mph": 0.44704, "_ghz": 1e9, "_ms": 1e-3}
+# Figures that are numbers, by the name under which the script reads them, with their least and greatest value.
+NUMBERS = """vehicle_length_m 0.5 50  vehicle_width_m 0.5 10  height_m 0.01 20  yaw_left_deg -180 180
+    ahead_of_middle_m -50 50  behind_front_bumper_m -50 50  ahead_of_rear_bumper_m -50 50
+    left_of_middle_m -10 10  inside_left_side_m -10 10  inside_right_side_m -10 10
+    carrier_ghz 1 1000  cycle_ms 0.1 1e6  update_rate_hz 1e-3 1e4  latency_ms 0 1e4
+    range_min_m 0 1e5  range_max_m 0.1 1e5  range_unambiguous_m 0.1 1e6  view_full_width_deg 0.1 180
+    range_resolution_m 1e-4 1e4  speed_resolution_mps 1e-4 1e3  azimuth_resolution_deg 0.01 180
+    receding_max_mps 0.1 1e4  approaching_max_mps 0.1 1e4  speed_max_mps 0.1 1e4
+    range_accuracy_m 0 1e3  speed_accuracy_mps 0 1e3  azimuth_accuracy_deg 1e-4 90  accuracy_snr_db -20 100
+    beam_two_way_full_width_deg 0.1 360  elevation_one_way_full_width_deg 0.2 180
+    false_alarm_rate 1e-15 0.1  false_alarms_per_scan 1e-9 1e4
+    detected_dbsm -60 60  detected_at_m 0.1 1e5  detection_probability 0.01 0.9999
+    range_step_m 0 1e3  speed_step_mps 0 1e3  azimuth_step_deg 0 90  list_limit 0 1e6""".split()
+BOUNDS = {name: (float(low), float(high)) for name, low, high in zip(NUMBERS[::3], NUMBERS[1::3], NUMBERS[2::3])}
+COLUMNS = {"azimuth_deg": (-180, 180), "range_max_m": (1e-3, 1e5), "accuracy_deg": (1e-4, 90), "one_way_db": (-200, 100),
+           "two_way_db": (-200, 100)}
+WORDS = {"detected_object": ("car", "truck", "motorcycle", "pedestrian"), "fluctuation": ("none", "swerling_1", "swerling_3"),
+         "list_order": ("strongest", "nearest")}
+LISTS = ("range_limits", "azimuth_accuracies", "gains", "transmit_positions_wavelengths", "receive_positions_wavelengths")
+ABOUT = ("name", "origin", "document", "sources", "extends", "radars", "scans")  # are no figures
 
 
 class Refused(Exception):
@@ -27,9 +34,9 @@ class Refused(Exception):
 
 
 # Other spellings of a figure: an ending, what may stand in its place, and the factor to the value under the first name.
-SPELLINGS = (("_resolution_m", "_cell_m", 0.5), ("_resolution_mps", "_cell_mps", 0.5), ("_mps", "_kmh", 1),
-             ("_two_way_full_width_deg", "_one_way_full_width_deg", math.sqrt(0.5)), ("_full_width_deg", "_half_width_deg", 2),
-             ("yaw_left_deg", "yaw_right_deg", -1))
+SPELLINGS = (("_resolution_m", "_cell_m", 0.5), ("_resolution_mps", "_cell_mps", 0.5), ("_mps", "_kmh", 1), ("_mps", "_mph", 1),
+             ("_m", "_cm", 1), ("_two_way_full_width_deg", "_one_way_full_width_deg", math.sqrt(0.5)),
+             ("_full_width_deg", "_half_width_deg", 2), ("yaw_left_deg", "yaw_right_deg", -1))
 
 
 def others(name):
@@ -40,92 +47,132 @@ def others(name):
     return spelled
 
 
-KNOWN = {spelling for name in NAMES for spelling, _ in others(name)}
+FIRST = {spelling: name for name in (*BOUNDS, *WORDS, *LISTS, "members") for spelling, _ in others(name)}
 
 
 def scale(name):
     return next((factor for ending, factor in UNITS.items() if name.endswith(ending)), 1)
 
 
+def number(path, value, low, high):
+    """The value, if it is a number from low to high."""
+    good = isinstance(value, (int, float)) and not isinstance(value, bool) and low <= value <= high
+    expect(path, value, good, f"a number from {low:g} to {high:g}")
+    return value
+
+
+def expect(path, value, good, words):
+    if not good:
+        raise Refused(f"{path} is {json.dumps(value)}; expected {words}")
+
+
+def check_known(path, name):
+    if name not in FIRST:
+        near = difflib.get_close_matches(name, FIRST, 1)
+        raise Refused(f"{path}{name}: unknown figure" + (f"; did you mean {near[0]}?" if near else ""))
+
+
 def check_names(part, path=""):
-    """Refuses a member that no figure has."""
+    """Refuses members that no figure has, and members about the sheet that are of another kind."""
+    expect(path.rstrip(".") or "the sheet", part, isinstance(part, dict), "an object of figures")
     for name, value in part.items():
-        if name not in KNOWN:
-            near = difflib.get_close_matches(name, KNOWN, 1)
-            raise Refused(f"{path}{name}: unknown figure" + (f"; did you mean {near[0]}?" if near else ""))
-        for i, one in enumerate(value if name in ("radars", "scans") else []):
-            check_names(one, f"{path}{name}[{i}].")
+        where = path + name
+        if name not in ABOUT:
+            check_known(path, name)
+        elif name in ("radars", "scans"):
+            expect(where, value, isinstance(value, list) and value, "a list of one or more objects")
+            for i, one in enumerate(value):
+                check_names(one, f"{where}[{i}].")
+        elif name == "sources":
+            expect(where, value, isinstance(value, dict), "an object of texts")
+            for figure, text in value.items():
+                check_known(where + ".", figure)
+                expect(f"{where}.{figure}", text, isinstance(text, str), "a text")
+        else:
+            expect(where, value, isinstance(value, str), "a text")
+            expect(where, value, name != "name" or re.fullmatch(r"[\w-]+", value), "letters, digits, _ and -")
 
 
 class Figures:
     """Of one scan: those of the sheet, of the radar and of the scan, the nearest first."""
 
     def __init__(self, scan, sheet, *parts):
-        self.scan, self.document = scan, sheet.get("document", "the data sheet")
+        self.scan, self.document, self.extends = scan, sheet.get("document", "the data sheet"), sheet.get("extends")
         self.values, self.sources, self.used = {}, {}, set()
         for part in (sheet, *parts):
             for name in part:
                 for other, _ in others(name):
                     self.values.pop(other, None)
-            self.values |= {name: value for name, value in part.items() if name not in (
-                "name", "origin", "document", "sources", "extends", "radars", "scans")}
+            self.values |= {name: value for name, value in part.items() if name not in ABOUT}
             self.sources |= part.get("sources", {})
 
     def __contains__(self, name):
         return any(spelling in self.values for spelling, _ in others(name))
 
-    def take(self, name):
-        """The value of a figure in m, rad, m/s, s or Hz; None if the sheet does not have it. A figure without a unit is as it is."""
-        if name in WORDS:
-            self.used.add(name)
-            return self.values.get(name)
-        given = [(spelling, self.number(spelling) * factor) for spelling, factor in others(name) if spelling in self.values]
-        for spelling, value in given[1:]:
-            if abs(value - given[0][1]) > 1e-3 * abs(value):
-                raise Refused(f"{self.scan}: {given[0][0]} {self.values[given[0][0]]} and {spelling} {self.values[spelling]} "
-                              "contradict each other")
-        return given[0][1] if given else None
+    def spelled(self, name):
+        """The figure's name as the sheet has it."""
+        return next((spelling for spelling, _ in others(name) if spelling in self.values), name)
 
-    def number(self, name):
+    def told(self, name, value=None):
+        """The figure's name and value as the sheet has them; beside lists and words the value that follows from them."""
+        given = self.values[self.spelled(name)]
+        follows = "" if value is None or isinstance(given, (int, float)) else f" ({value / (DEGREE if isinstance(given, list) else 1):.4g})"
+        return self.spelled(name) + ("" if isinstance(given, list) else f" {given}") + follows
+
+    def take(self, name):
+        """The value of a figure in m, rad, m/s, s or Hz, or as it is if it has no unit; None if the sheet does not have it."""
+        given = []
+        for spelling, factor in others(name) if name in self else ():
+            path, value, unit = f"{self.scan}: {spelling}", self.values.get(spelling), scale(spelling) * factor
+            if name in WORDS:
+                expect(path, value, value in WORDS[name], f"one of {', '.join(WORDS[name])}")
+            elif spelling in self.values:
+                value = number(path, value, *sorted(end * scale(name) / unit for end in BOUNDS[name])) * unit
+            self.used.add(spelling)
+            given.append((spelling, value))
+        return self.agreed(*given)[1]
+
+    def agreed(self, *given, slack=1e-3):
+        """The first of some (figure, value) whose value is not None; refuses others that differ from it."""
+        given = [(name, value) for name, value in given if value is not None]
+        for name, value in given[1:]:
+            if abs(value - given[0][1]) > slack * abs(value) + 1e-9:
+                raise Refused(f"{self.scan}: {self.told(*given[0])} and {self.told(name, value)} contradict each other")
+        return given[0] if given else (None, None)
+
+    def whole(self, name, kind, words):
+        """A figure that is a list or an object; an empty one if the sheet does not have it."""
         self.used.add(name)
-        value = self.values[name]
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise Refused(f"{self.scan}: {name} is {json.dumps(value)}; expected a number")
-        return value * scale(name)
+        value = self.values.get(name, kind())
+        expect(f"{self.scan}: {name}", value, isinstance(value, kind) and (value or name not in self.values), words)
+        return value
 
     def places(self, name):
         """Places of elements, a list of numbers; [] if the sheet does not have them."""
-        self.used.add(name)
-        return self.values.get(name, [])
-
-    def first(self, *names):
-        """The first of these figures that the sheet has, and its value."""
-        return next(((name, value) for name in names if (value := self.take(name)) is not None), None)
+        return [number(f"{self.scan}: {name}[{i}]", one, -1e4, 1e4) for i, one in enumerate(self.whole(name, list, "a list of numbers"))]
 
     def rows(self, name, *columns):
         """Rows of a figure over azimuth: (azimuth in rad, value), ascending; the value is that of the first column it has."""
-        self.used.add(name)
         found = []
-        for i, row in enumerate(self.values.get(name, [])):
-            given = [column for column in columns if column in row]
-            if sorted(row) != sorted(["azimuth_deg", *given]) or len(given) != 1:
-                raise Refused(f"{self.scan}: {name}[{i}] has {', '.join(row)}; expected azimuth_deg and one of {', '.join(columns)}")
-            factor = 2 if given[0] == "one_way_db" else 1
-            found.append((row["azimuth_deg"] * DEGREE, row[given[0]] * scale(given[0]) * factor))
-            if i > 0 and found[i][0] <= found[i - 1][0]:
-                raise Refused(f"{self.scan}: {name}[{i}].azimuth_deg {row['azimuth_deg']} does not ascend")
+        for i, row in enumerate(self.whole(name, list, "a list of rows")):
+            path, given = f"{self.scan}: {name}[{i}]", [column for column in columns if isinstance(row, dict) and column in row]
+            expect(path, row, len(given) == 1 and row.keys() == {"azimuth_deg", *given}, f"azimuth_deg and one of {', '.join(columns)}")
+            for column, value in row.items():
+                number(f"{path}.{column}", value, *COLUMNS[column])
+            found.append((row["azimuth_deg"] * DEGREE, row[given[0]] * scale(given[0]) * (2 if given[0] == "one_way_db" else 1)))
+            expect(f"{path}.azimuth_deg", row["azimuth_deg"], i == 0 or found[i][0] > found[i - 1][0], "azimuths that ascend")
         return found
 
     def source(self, names):
-        """Where figures come from, as a suite says it; and why they are guessed, or None."""
-        spelled = [spelling for name in names for spelling, _ in others(name) if spelling in self.values]
-        texts = list(dict.fromkeys(self.sources.get(name, self.document) for name in spelled))
-        figures = ", ".join(f"{name} {self.values[name]}" if not isinstance(self.values[name], list) else name for name in spelled)
-        guessed = any(text.startswith("assumed") for text in texts)
-        return f"[{'A' if guessed else 'F'}] {figures}: {'; '.join(texts)}", "; ".join(texts) if guessed else None
+        """Where figures come from, as a suite says it; and a sentence on those that are guessed, or None."""
+        texts = {name: self.sources.get(name, self.document) for name in map(self.spelled, names) if name in self.values}
+        guesses = [f"{self.told(name)}: {text.removeprefix('assumed').lstrip(', ') or 'a guess'}" for name, text in texts.items()
+                   if text.startswith("assumed")]
+        return (f"[{'A' if guesses else 'F'}] {', '.join(map(self.told, texts))}: {'; '.join(dict.fromkeys(texts.values()))}",
+                "; ".join(guesses) or None)
 
-    def check_used(self, scan):
+    def check_used(self):
         """Refuses a figure that nothing has read: the script knows no use for it beside the others."""
         left = sorted(self.values.keys() - self.used)
         if left:
-            raise Refused(f"{scan}: {', '.join(left)}: not used beside the other figures")
+            raise Refused(f"{self.scan}: {', '.join(left)}: not used beside the other figures")
