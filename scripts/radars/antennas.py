@@ -35,7 +35,7 @@ def beam(scan, half_rad):
                           f"{scan.figures.told('beam_two_way_full_width_deg')} over {stated_deg:.3g}")
         return lambda at: max(between(gains, at) - between(gains, 0), LEAST_DB)
     if width_rad is None:
-        scan.note("the beam is down by 6 dB both ways at the border of the field of view")
+        scan.assumed.append("the beam is down by 6 dB both ways at the border of the field of view")
         width_rad = math.sqrt(2) * half_rad
     return lambda at: max(-3 * (2 * at / width_rad) ** 2, LEAST_DB)
 
@@ -51,7 +51,7 @@ def elements_sigma(scan, snr):
     if len(virtual) < 2:
         raise Refused(f"{scan.name}: receive_positions_wavelengths has {len(virtual)} place; expected two or more")
     aperture = virtual[-1] - virtual[0] + min(b - a for a, b in zip(virtual, virtual[1:]))
-    scan.note(f"{len(virtual)} virtual elements over {aperture:.4g} wavelengths set the accuracy of azimuths and do not separate echoes")
+    scan.assumed.append(f"{len(virtual)} virtual elements over {aperture:.4g} wavelengths set the accuracy of azimuths and do not separate echoes")
     return 0.39 / (aperture * math.sqrt(snr))
 
 
@@ -69,7 +69,7 @@ def accuracies(scan, half_rad, snr):
         scan.assume("azimuth_sigma_rad", half_rad / 50, "a hundredth of the field of view")
     sigma, step = scan.members["azimuth_sigma_rad"], scan.members.get("azimuth_step_rad", 0)
     if scan.members.pop("azimuth_floor_rad", None):
-        scan.note("azimuths have no floor of their noise beside the accuracy")
+        scan.assumed.append("azimuths have no floor of their noise beside the accuracy")
     if rows:
         return lambda at: scan.unrounded(between(rows, at), step, "azimuth_accuracies")
     sigma = scan.unrounded(sigma, step, "azimuth_accuracy_deg")
@@ -81,7 +81,7 @@ def reference_snr(scan):
     snr_db = scan.figures.take("accuracy_snr_db")
     if snr_db is None:
         snr_db = scan.members["threshold_db"] - 20 * math.log10(scan.members["pointer_sigma"]) + 20
-        scan.note(f"the accuracy of azimuths, a standard deviation, holds 20 dB above the threshold, {snr_db:.3g} dB over the noise")
+        scan.assumed.append(f"the accuracy of azimuths, a standard deviation, holds 20 dB above the threshold, {snr_db:.3g} dB over the noise")
     return 10 ** (snr_db / 10)
 
 

@@ -164,12 +164,12 @@ class Figures:
         return found
 
     def source(self, names):
-        """Where figures come from, as a suite says it; and a sentence on those that are guessed, or None."""
+        """Where figures come from, as a suite says it; and a sentence on each that is guessed."""
         texts = {name: self.sources.get(name, self.document) for name in map(self.spelled, names) if name in self.values}
         guesses = [f"{self.told(name)}: {text.removeprefix('assumed').lstrip(', ') or 'a guess'}" for name, text in texts.items()
                    if text.startswith("assumed")]
-        return (f"[{'A' if guesses else 'F'}] {', '.join(map(self.told, texts))}: {'; '.join(dict.fromkeys(texts.values()))}",
-                "; ".join(guesses) or None)
+        told = f"{', '.join(map(self.told, texts))}: {'; '.join(dict.fromkeys(texts.values()))}" if texts else "not stated"
+        return f"[{'A' if guesses or not texts else 'F'}] {told}", guesses
 
     def check_used(self):
         """Refuses a figure that nothing has read: the script knows no use for it beside the others."""

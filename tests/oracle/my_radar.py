@@ -208,7 +208,7 @@ def assumptions(bench):
             figure = text.split()[1] if ":" in text.split(" ")[1] or " " in text else member
             said = not text.startswith("[A]") or "extends" in sheet or member in assumed or figure in assumed
             bench.check(said, f"{member}: {text} is not among {assumed}")
-    for words in ("vehicle_length_m 4.5", "range_max_m 150: far", "10 dBsm are detected at 150 m", "the cross section or the range"):
+    for words in ("vehicle_length_m 4.5", "range_max_m 150: far", "10 dBsm are detected at 150 m", "does not state the cross section of a car or the range or the probability"):
         assumed = printed(bench, PLAIN | {"behind_front_bumper_m": 0.2, "sources": {"range_max_m": "assumed, far"}})[1]
         bench.check(words in assumed, f"{words} is not in {assumed}")
 
@@ -260,7 +260,7 @@ REFUSED = [
     ({"azimuth_accuracies": [{"azimuth_deg": 0, "accuracy_deg": 1}], "azimuth_accuracy_deg": 2}, "azimuth_accuracies (1) and azimuth_accuracy_deg 2 contradict"),
     ({"gains": [{"azimuth_deg": 0, "one_way_db": 0}, {"azimuth_deg": 10, "one_way_db": -3}], "beam_one_way_full_width_deg": 40},
      "gains are down by 3 dB both ways over 9.99 degrees, and with beam_one_way_full_width_deg 40 over 28.3"),
-    ({"range_accuracy_m": 0.05, "range_step_m": 0.2}, "range_accuracy_m has 0.05 m, m/s or rad, finer than 0.05774"),
+    ({"range_accuracy_m": 0.05, "range_step_m": 0.2}, "range_accuracy_m has 0.05; steps of 0.2 alone have a deviation of 0.05774"),
     ({"extends": "lrr77-signal-small"}, "range_resolution_m 1 beside the waveform of the extended suite"),
     ({"extends": "no-radar"}, "no-radar.json: No such file or directory"),
     ({"radars": [{"name": "a"}, {"name": "a"}]}, "two radars or scans have the name a"),
