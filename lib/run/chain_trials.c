@@ -13,7 +13,7 @@
 #include "score/target_score.h"
 #include "text/list_cache.h"
 
-enum { SEEDS = CHAIN_TRIALS_SEEDS, ALL = 2 * SEEDS, SPOILED = SEEDS / 2 };
+enum { SEEDS = CHAIN_TRIALS_SEEDS, ALL = 2 * SEEDS };
 
 /* Which of two: drawn for a stretch of this length, at this place among those of its length. */
 static int64_t drawn_half(int64_t stretch, int64_t length)
@@ -89,7 +89,7 @@ int chain_trials_read(const struct sampled_frame *sampled, struct frame *frame, 
 struct pass {
     struct chain_trials *trials;
     LIST_OF(struct runner *) stages;
-    uint64_t seed; /* number k of the seed */
+    uint64_t seed; /* number k of the seed, below 16 */
     struct frame frame;
     struct arena arena; /* the frame's */
     struct list_cache cache;
@@ -108,7 +108,7 @@ static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
     int64_t begin_ns = chain_cpu_ns();
     if (chain_trials_read(sampled, frame, diag) != 0)
         return -1;
-    frame->seed = sampled->seed + (pass->seed << 32);
+    frame->seed = sampled->seed + ((16 * (uint64_t)frame->frame + pass->seed) << 32);
     for (size_t i = (frame->present & SECTION_REFLECTORS) != 0; i < pass->stages.count; i++)
         if (runner_try(runner, pass->stages.items[i], frame) != 0)
             return diag_prefix(diag, "scene \"%s\", frame %lld: ", frame->scene,
@@ -247,50 +247,6 @@ static void weigh_scans(struct chain_trials *trials)
     }
 }
 
-static struct embedded_list spoil(const struct embedded_list *list, double lost, double off_cells,
-                                  struct random_sequence *draws, struct arena *arena)
-{
-    struct embedded_list spoiled = {0};
-    for (size_t i = 0; i < list->targets.count; i++) {
-        if (random_sequence_chance(draws, lost))
-            continue;
-        struct embedded_target *target = list_add(&spoiled.targets, arena);
-        *target = list->targets.items[i];
-        target->axis[0] += off_cells;
-    }
-    energy_distance_close(&spoiled, arena);
-    return spoiled;
-}
-
-/* The distances between the reference's lists, after the first half of them is spoiled. */
-static void compare_reference(const struct chain_trials *trials, double lost, double off_cells,
-                              double *distance)
-{
-    struct random_sequence draws = random_sequence_at((struct random_address){0}, RANDOM_SAMPLE);
-    struct arena scratch = {0};
-    for (size_t at = 0; at < trials->scans.count; at++) {
-        struct embedded_list spoiled[SPOILED];
-        const struct embedded_list *list[SEEDS];
-        for (size_t i = 0; i < SEEDS; i++) {
-            list[i] = &trials->reference[i].scans.items[at];
-            if (i >= SPOILED)
-                continue;
-            spoiled[i] = spoil(list[i], lost, off_cells, &draws, &scratch);
-            list[i] = &spoiled[i];
-        }
-        energy_distance_add(list, 0, SEEDS, trials->scans.items[at].share, distance);
-        arena_clear(&scratch);
-    }
-    arena_free(&scratch);
-}
-
-double chain_trials_spoiled(const struct chain_trials *trials, double lost, double off_cells)
-{
-    double distance[SEEDS * SEEDS] = {0};
-    compare_reference(trials, lost, off_cells, distance);
-    return energy_distance_of(&(struct energy_sample){distance, SPOILED, SEEDS - SPOILED});
-}
-
 int chain_trials_begin(struct chain_trials *trials, struct tried_chain *reference)
 {
     progress_begin(&trials->progress, "frames");
@@ -302,7 +258,12 @@ int chain_trials_begin(struct chain_trials *trials, struct tried_chain *referenc
     weigh_scans(trials);
     trials->among_reference =
         arena_get(runner_arena(trials->runner), sizeof(double) * SEEDS * SEEDS);
-    compare_reference(trials, 0, 0, trials->among_reference);
+    for (size_t at = 0; at < trials->scans.count; at++) {
+        const struct embedded_list *list[SEEDS];
+        for (size_t i = 0; i < SEEDS; i++)
+            list[i] = &trials->reference[i].scans.items[at];
+        energy_distance_add(list, 0, SEEDS, trials->scans.items[at].share, trials->among_reference);
+    }
     return 0;
 }
 
@@ -333,4 +294,39 @@ int chain_trials_run(struct chain_trials *trials, struct tried_chain *chain)
         chain->lists = compare(trials, lists);
     arena_free(&kept);
     return result;
+}
+
+static struct embedded_list spoil(const struct embedded_list *list, double lost, double off_cells,
+                                  struct random_sequence *draws, struct arena *arena)
+{
+    struct embedded_list spoiled = {0};
+    for (size_t i = 0; i < list->targets.count; i++) {
+        if (random_sequence_chance(draws, lost))
+            continue;
+        struct embedded_target *target = list_add(&spoiled.targets, arena);
+        *target = list->targets.items[i];
+        target->axis[0] += off_cells;
+    }
+    energy_distance_close(&spoiled, arena);
+    return spoiled;
+}
+
+double chain_trials_spoiled(const struct chain_trials *trials, double lost, double off_cells)
+{
+    struct random_sequence draws = random_sequence_at((struct random_address){0}, RANDOM_SAMPLE);
+    struct trial_lists lists[SEEDS] = {0};
+    struct arena kept = {0};
+    for (size_t i = 0; i < SEEDS; i++)
+        for (size_t at = 0; at < trials->scans.count; at++)
+            *list_add(&lists[i].scans, &kept) =
+                spoil(&trials->reference[i].scans.items[at], lost, off_cells, &draws, &kept);
+    const double *distance = compare(trials, lists).distance;
+    double sum = 0;
+    for (size_t i = 0; i < SEEDS; i++)
+        for (size_t k = 0; k < SEEDS; k++)
+            if (i != k)
+                sum += 2 * distance[i * ALL + SEEDS + k] - distance[i * ALL + k] -
+                       distance[(SEEDS + i) * ALL + SEEDS + k];
+    arena_free(&kept);
+    return sum / (SEEDS * (SEEDS - 1));
 }

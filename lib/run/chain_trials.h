@@ -1,9 +1,9 @@
 /* Chains tried on a sample of frames: distances and time.
  *
- * Every chain runs with several seeds. The k-th seed of a frame is its own seed + k 2^32, modulo
- * 2^64. The reference has the odd k, from 1; all other chains share the even k, from 2. So the
- * reference and the chains are independent, and two chains use the same random numbers where both
- * draw them.
+ * Every chain runs with several seeds. The k-th seed of frame f is its own seed + (16 f + k) 2^32,
+ * modulo 2^64. The reference has the odd k, from 1; all other chains share the even k, from 2. So
+ * the reference and the chains are independent, frames are too, and two chains use the same random
+ * numbers where both draw them.
  *
  * The time of a frame is the CPU time to read and check its line, to run all stages, and to write
  * it. A chain may run beside another one: both take turns on every frame, so that load on the
@@ -99,6 +99,6 @@ int chain_trials_begin(struct chain_trials *trials, struct tried_chain *referenc
 /* Runs a chain and compares it with the reference. */
 int chain_trials_run(struct chain_trials *trials, struct tried_chain *chain);
 
-/* The energy distance between half of the reference's lists and the other half after they lost this
- * share of all targets, and the others were moved by so many cells in range. */
+/* The energy distance of the reference from itself after its lists lost this share of all targets,
+ * and the others were moved by so many cells in range; a list is not compared with its own. */
 double chain_trials_spoiled(const struct chain_trials *trials, double lost, double off_cells);

@@ -25,6 +25,14 @@ REFERENCE = range(1, 2 * SEEDS, 2)
 CHAIN = range(2, 2 * SEEDS + 1, 2)
 
 
+def moved(frames, k, each):
+    """The frames, with the seeds s + (each f + k) 2^32."""
+    def line(text):
+        number = int(re.search(rb'"frame":(\d+)', text)[1])
+        return re.sub(rb'"seed":"(\d+)"', lambda found: b'"seed":"%d"' % (int(found[1]) + (each * number + k << 32)), text)
+    return b"".join(map(line, frames.splitlines(keepends=True)))
+
+
 class Bench:
     def __init__(self, bin_dir, folder):
         self.folder = folder
@@ -43,12 +51,12 @@ class Bench:
         return json.loads(self.run(["glint-cost", "--json", "--sensors", suite, *options], frames))
 
     def lists(self, frames, suite, effects, programs, ks):
-        """Target lists of all seeds; those of one frame's own seed s are s + k 2^32."""
+        """Target lists of all seeds: s + (16 f + k) 2^32 of frame f with seed s, written as s + k 2^32; s if k is 0."""
         made = b""
         for k in ks:
-            seeded = re.sub(rb'"seed":"(\d+)"', lambda found: b'"seed":"%d"' % (int(found[1]) + (k << 32)), frames)
-            made += self.glint(f"glint-extract | glint-ideal --sensors {suite} --effects {effects} | "
-                               + " | ".join(programs), seeded)
+            seeded = moved(frames, k, 16 if k else 0)
+            listed = self.glint(f"glint-extract | glint-ideal --sensors {suite} --effects {effects} | " + " | ".join(programs), seeded)
+            made += moved(listed, 0, -16 if k else 0)
         return made
 
     def energy(self, truth, listed):
