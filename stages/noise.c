@@ -2,6 +2,7 @@
  * range rate (9), misalignment, false alarms (14), the final threshold, the order and the limit of
  * the list (10, 11), and the rounding of what is reported. */
 #include "base/units.h"
+#include "noise/beam_cells.h"
 #include "noise/false_alarm_cells.h"
 #include "noise/target_list.h"
 #include "radar/interferer.h"
@@ -35,7 +36,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 {
     struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_NOISE);
     struct cell_span alarms = false_alarm_cells_of(frame, &context);
-    struct cell_span cells = frame_cells_of(frame, sensor->name);
+    struct cell_span cells = beam_cells_of(frame, "noise", sensor, &context);
     struct effect_measurement *measurements =
         arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *measurements);
     size_t count = measure_cells(frame, &context, cells, measurements);

@@ -1,4 +1,5 @@
 /* No noise: the cells become targets as they are. */
+#include "noise/beam_cells.h"
 #include "noise/target_list.h"
 #include "run/suite_choice.h"
 
@@ -6,7 +7,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
 {
     (void)selection;
-    struct cell_span cells = frame_cells_of(frame, sensor->name);
+    struct cell_span cells = beam_cells_of(frame, "noise-none", sensor, NULL);
     struct effect_measurement *measurements =
         arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)

@@ -9,6 +9,7 @@
 #include "frame/effects.h"
 #include "propagation/carrier.h"
 #include "radar/antenna.h"
+#include "radar/array.h"
 #include "radar/detection.h"
 #include "radar/level.h"
 #include "radar/measurement_sigma.h"
@@ -76,6 +77,7 @@ struct sensor {
 
     enum antenna_pattern antenna_pattern;
     const char *antenna_table;
+    struct array_layout array;
     enum antenna_phase phase_reference;
     enum monopulse_estimator angle_estimator;
 
@@ -93,6 +95,7 @@ struct sensor {
 
     struct radar_equation amplitude_law;
     struct antenna antenna;
+    struct array beams; /* of the array; count 0: none */
     struct receiver_curve elevation_levels;
     struct measurement_sigma range_error, range_rate_error;
     double threshold;                         /* linear, on the amplitude */

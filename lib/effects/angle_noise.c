@@ -2,6 +2,7 @@
 
 #include <complex.h>
 
+#include "base/elementary.h"
 #include "base/units.h"
 #include "radar/interferer.h"
 
@@ -11,6 +12,8 @@ static bool add_noise_to_pointers(const struct effect_scan *scan,
                                   struct effect_measurement *measurement)
 {
     const double _Complex i = (double _Complex)I;
+    if (measurement->cell->beam != NULL)
+        return true; /* its elements have noise */
     double draw[4], sigma = scan->sensor->pointer_sigma * sqrt(0.5) *
                             interferer_noise_factor(measurement->cell->interference);
     random_gaussian(&measurement->address, RANDOM_POINTERS, 0, draw);
@@ -19,15 +22,33 @@ static bool add_noise_to_pointers(const struct effect_scan *scan,
     return true;
 }
 
+/* Noise on the sine of the azimuth that an array reads of a single echo (MODEL 7.5). */
+static void add_array_noise(const struct effect_scan *scan, struct effect_measurement *measurement,
+                            double gaussian)
+{
+    const struct sensor *sensor = scan->sensor;
+    double noise = sensor->pointer_sigma * interferer_noise_factor(measurement->cell->interference);
+    double ratio = measurement->cell->sum_re / noise;
+    double sine = elementary_sin(measurement->azimuth_rad) +
+                  array_sigma(&sensor->beams, ratio * ratio) * gaussian;
+    measurement->azimuth_rad = elementary_asin(elementary_max(elementary_min(sine, 1), -1));
+}
+
 /* Gaussian noise that no signal-to-noise ratio lessens (MODEL 14.7), independent of the pointers'.
  */
-static bool add_floor(const struct effect_scan *scan, struct effect_measurement *measurement)
+static bool add_noise_to_azimuth(const struct effect_scan *scan,
+                                 struct effect_measurement *measurement)
 {
-    double floor_rad = scan->sensor->azimuth_floor_rad, draw[2];
-    if (floor_rad == 0)
+    const struct sensor *sensor = scan->sensor;
+    double draw[2];
+    bool single = sensor->beams.count > 0 && measurement->cell->beam == NULL;
+    if (!single && sensor->azimuth_floor_rad == 0)
         return false;
     random_gaussian_pair(&measurement->address, RANDOM_AZIMUTH, 0, draw);
-    measurement->azimuth_rad = units_wrap_rad(measurement->azimuth_rad + floor_rad * draw[0]);
+    if (single && sensor->pointer_sigma > 0)
+        add_array_noise(scan, measurement, draw[1]);
+    measurement->azimuth_rad =
+        units_wrap_rad(measurement->azimuth_rad + sensor->azimuth_floor_rad * draw[0]);
     return true;
 }
 
@@ -40,5 +61,5 @@ const struct effect effect_angle_noise = {
     .home = EFFECT_HOME_NOISE,
     .members = {{EFFECT_SENSOR(pointer_sigma)}, {EFFECT_SENSOR(azimuth_floor_rad)}},
     .measure[EFFECT_STEP_POINTERS] = add_noise_to_pointers,
-    .measure[EFFECT_STEP_NOISE] = add_floor,
+    .measure[EFFECT_STEP_NOISE] = add_noise_to_azimuth,
 };

@@ -21,6 +21,7 @@
 #include "frame/sightings.h"
 #include "propagation/roadside.h"
 #include "radar/antenna.h"
+#include "radar/array.h"
 #include "text/field.h"
 
 enum { FRAME_VERSION = 0 };
@@ -152,6 +153,10 @@ struct cell {
     double interference; /* power of other radars over that of the sensor's own noise */
     uint64_t effects;    /* EFFECT_BITs of those that changed a value of the cell or a member */
     LIST_OF(struct contributor) members;
+    LIST_OF(struct phasor) elements; /* of an array, without noise; empty for a single echo */
+    /* The beam in which noise_beams found the cell, with noise; NULL elsewhere and on the wire. */
+    const struct array_maximum *beam;
+    bool repeats; /* is its label that of another cell of the frame as well? Not on the wire */
     struct margins margins;
     const char *extra;
 };

@@ -165,6 +165,15 @@ static const struct field contributor_fields[] = {
 const struct record contributor_record = {
     FIELD_TABLE(struct contributor, contributor_fields, "contributor", "An echo and its weight.")};
 
+static const struct field element_fields[] = {
+    {POINTER(struct phasor, re, "real part")},
+    {POINTER(struct phasor, im, "imaginary part")},
+    {0},
+};
+
+static const struct record element_record = {
+    FIELD_TABLE(struct phasor, element_fields, "element", "Signal of a virtual element.")};
+
 static const struct field cell_fields[] = {
     {NAME(struct cell, sensor, "name in the suite")},
     {RANGE(struct cell, range_m, "weighted mean of the members")},
@@ -180,6 +189,8 @@ static const struct field cell_fields[] = {
                    "power of other radars over that of the sensor's own noise")},
     {EFFECTS(struct cell, "effects that changed a value of the cell or of a member")},
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
+    {OPTIONAL_LIST(struct cell, elements, &element_record,
+                   "of an array, by place from the right; absent: a single echo")},
     {MARGINS(struct cell)},
     {EXTRA(struct cell)},
     {0},

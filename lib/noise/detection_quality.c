@@ -89,8 +89,13 @@ static void estimate_azimuth(const struct detection_source *source,
                              struct effect_measurement *measurement, double noise)
 {
     const struct sensor *sensor = source->sensor;
+    const struct array_maximum *beam = measurement->cell->beam;
     double ratio = measurement->amplitude / noise, sigma_rad = 0;
-    if (noise > 0)
+    if (noise > 0 && sensor->beams.count > 0)
+        sigma_rad =
+            (beam != NULL ? beam->sigma * noise : array_sigma(&sensor->beams, ratio * ratio)) /
+            elementary_cos(measurement->azimuth_rad);
+    else if (noise > 0)
         sigma_rad = detection_quality_widening(measurement, noise) *
                     monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
                                         measurement->azimuth_rad, ratio * ratio);
@@ -114,7 +119,7 @@ void detection_quality_estimate(struct detection_source *source, bool first_thre
         existence->least_echo = existence->least_false_alarm * existence->rise;
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         noise = source->noise * sqrt(existence->rise);
-    source->channels = noise > 0;
+    source->channels = noise > 0 && source->sensor->beams.count == 0;
     for (size_t i = 0; i < count; i++) {
         estimate_range(source, &measurements[i], noise);
         estimate_azimuth(source, &measurements[i], noise);

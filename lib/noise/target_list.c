@@ -73,6 +73,32 @@ static struct target *add_target(struct frame *frame, const struct effect_measur
     return target;
 }
 
+static bool has_echo(const struct cell *cell, const struct contributor *echo)
+{
+    for (size_t i = 0; i < cell->members.count; i++)
+        if (frame_order_echo_ids(&cell->members.items[i], echo) == 0)
+            return true;
+    return false;
+}
+
+/* Loses the echoes of a measurement. Where labels repeat, an echo of an earlier measurement is
+ * listed or lost already. */
+static void lose(struct frame *frame, const char *stage, const struct effect_measurement *all,
+                 size_t number, enum loss reason, bool repeats)
+{
+    const struct cell *cell = all[number].cell;
+    if (!repeats)
+        frame_lose_cell(frame, stage, cell, reason, 0, &all[number].margins);
+    for (size_t i = 0; repeats && i < cell->members.count; i++) {
+        bool known = false;
+        struct lost_echo lost = frame_lost_echo(&cell->members.items[i], &all[number].margins);
+        for (size_t j = 0; j < number && !known; j++)
+            known = has_echo(all[j].cell, &cell->members.items[i]);
+        if (!known)
+            frame_lose(frame, stage, cell->sensor, reason, &lost);
+    }
+}
+
 void target_list_make(struct frame *frame, const char *stage, const struct detection_source *source,
                       struct effect_measurement *measurements, size_t count)
 {
@@ -80,17 +106,20 @@ void target_list_make(struct frame *frame, const char *stage, const struct detec
     const struct effect_scan *scan = source->scan;
     bool limited = scan != NULL && effect_simulates(scan, EFFECT_LIST_LIMIT);
     int64_t limit = limited ? sensor->list_limit : 0, listed = 0;
+    bool repeats = false;
     sort_items(measurements, count, sizeof *measurements,
                sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
                frame->arena);
     if (frame_carries(frame, CARRY_MARGINS) && limit > 0)
         note_limit_margins(measurements, count, sensor->list_order, limit);
+    for (size_t i = 0; i < count; i++)
+        repeats |= measurements[i].cell->repeats;
     for (size_t i = 0; i < count; i++) {
         struct effect_measurement *measurement = &measurements[i];
         bool silent = !(measurement->amplitude > 0);
         if (silent || (limit > 0 && listed == limit)) {
-            frame_lose_cell(frame, stage, measurement->cell,
-                            silent ? LOSS_NO_AMPLITUDE : LOSS_LIST_LIMIT, 0, &measurement->margins);
+            lose(frame, stage, measurements, i, silent ? LOSS_NO_AMPLITUDE : LOSS_LIST_LIMIT,
+                 repeats);
             continue;
         }
         if (scan != NULL)
@@ -102,23 +131,37 @@ void target_list_make(struct frame *frame, const char *stage, const struct detec
     }
 }
 
+/* Reads azimuth and amplitude: of the pointers, or of a beam. False without an azimuth. */
+static bool read_angle(const struct sensor *sensor, struct effect_measurement *measurement)
+{
+    const struct array_maximum *beam = measurement->cell->beam;
+    measurement->amplitude =
+        elementary_hypot(creal(measurement->pointers.sum), cimag(measurement->pointers.sum));
+    if (beam != NULL) {
+        measurement->azimuth_rad = elementary_asin(beam->sine);
+        measurement->amplitude = beam->amplitude;
+    }
+    if (sensor->beams.count > 0)
+        return true;
+    struct monopulse_angle angle =
+        monopulse_angle(&sensor->antenna, sensor->angle_estimator, measurement->pointers);
+    measurement->azimuth_rad = angle.azimuth_rad;
+    measurement->sign_undecided = angle.sign_undecided;
+    return angle.valid;
+}
+
 bool target_list_measure(const struct effect_scan *context, const struct cell *cell,
                          struct effect_measurement *measurement)
 {
     const struct sensor *sensor = context->sensor;
     *measurement = effect_measurement_of(context, cell);
     effect_measure(context, EFFECT_STEP_POINTERS, measurement);
-    struct monopulse_angle angle =
-        monopulse_angle(&sensor->antenna, sensor->angle_estimator, measurement->pointers);
-    measurement->azimuth_rad = angle.azimuth_rad;
-    measurement->sign_undecided = angle.sign_undecided;
-    measurement->amplitude =
-        elementary_hypot(creal(measurement->pointers.sum), cimag(measurement->pointers.sum));
+    bool has_angle = read_angle(sensor, measurement);
     effect_measure(context, EFFECT_STEP_NOISE, measurement);
     effect_measure(context, EFFECT_STEP_AZIMUTH, measurement);
     if (frame_carries(context->frame, CARRY_MARGINS))
         target_list_note_margins(sensor, cell, measurement->pointers, measurement->amplitude,
                                  effect_simulates(context, EFFECT_FINAL_THRESHOLD),
                                  &measurement->margins);
-    return angle.valid;
+    return has_angle;
 }

@@ -72,7 +72,8 @@ static struct antenna_pair table_pair(const struct antenna *antenna, double azim
 static struct antenna_pair pair_at(const struct antenna *antenna, double azimuth_rad)
 {
     struct antenna_pair pair = antenna->pattern == ANTENNA_TABLE ? table_pair(antenna, azimuth_rad)
-                                                                 : dipole_pair(azimuth_rad);
+                               : antenna->pattern == ANTENNA_ARRAY ? (struct antenna_pair){1, 0}
+                                                                   : dipole_pair(azimuth_rad);
     if (antenna->curve.rows == NULL || pair.sum == 0)
         return pair;
     double gain = receiver_curve_gain(&antenna->curve, azimuth_rad);

@@ -10,7 +10,9 @@
  * delta/sum, a ratio of two straight lines, is monotone and has a closed inverse, so that a single
  * noise-free echo is read at its own azimuth.
  *
- * A receiver curve over azimuth replaces the sum amplitude of either pattern. The delta amplitude
+ * An array (radar/array.h) has the sum amplitude 1 and no delta channel.
+ *
+ * A receiver curve over azimuth replaces the sum amplitude of any pattern. The delta amplitude
  * keeps its ratio to the sum, by which angles are read (MODEL 4.3). */
 #pragma once
 
@@ -19,7 +21,7 @@
 
 #include "radar/receiver_curve.h"
 
-enum antenna_pattern { ANTENNA_DIPOLE_PAIR, ANTENNA_TABLE };
+enum antenna_pattern { ANTENNA_DIPOLE_PAIR, ANTENNA_TABLE, ANTENNA_ARRAY };
 enum antenna_phase { PHASE_CENTRE, PHASE_ELEMENT };
 
 /* A row of a pattern table. Azimuth and delta/sum ascend strictly from row to row. */

@@ -14,6 +14,7 @@ enum monopulse_estimator {
     /* The signed ratio -Im(delta conj(sum)) / |sum|^2: for one echo the same azimuth, for several
      * continuous. */
     MONOPULSE_RATIO,
+    MONOPULSE_BEAMS, /* the maxima of an array's beams (radar/array.h): not read by this module */
 };
 
 struct monopulse_angle {

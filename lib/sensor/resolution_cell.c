@@ -80,8 +80,10 @@ static struct received_echo merge(const struct received_echo *echoes, size_t cou
     struct received_echo merged = echoes[0];
     for (size_t i = 0; i < count; i++)
         azimuth[i] = echoes[i].echo.azimuth_rad;
-    for (size_t i = 1; i < count; i++)
+    for (size_t i = 1; i < count; i++) {
         merged.strength += echoes[i].strength;
+        merged.amplitude += echoes[i].amplitude;
+    }
     merged.echo.azimuth_rad = resolution_mean(azimuth, weight, count);
     return merged;
 }
@@ -113,6 +115,30 @@ bool resolution_cell_measure(const struct sensor *sensor, struct antenna_pointer
     return angle.valid;
 }
 
+bool resolution_cell_see(const struct sensor *sensor, const struct received_echo *echoes,
+                         size_t count, struct arena *arena, struct cell *cell)
+{
+    const struct array *array = &sensor->beams;
+    double azimuth_rad = echoes[0].echo.azimuth_rad, amplitude = echoes[0].amplitude;
+    struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
+    struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
+    for (size_t i = 0; count > 1 && i < count; i++) {
+        struct elementary_sincos phase =
+            elementary_sincos(echoes[i].phase_rad - echoes[0].phase_rad);
+        struct phasor echo = {echoes[i].amplitude * phase.cos, echoes[i].amplitude * phase.sin};
+        array_receive(array, elementary_sin(echoes[i].echo.azimuth_rad), echo, samples);
+    }
+    for (size_t n = 0; count > 1 && n < array->count; n++)
+        *list_add(&cell->elements, arena) = samples[n];
+    if (count > 1 && array_maxima(array, samples, maxima) > 0) {
+        azimuth_rad = elementary_asin(maxima[0].sine);
+        amplitude = maxima[0].amplitude;
+    }
+    cell->azimuth_rad = azimuth_rad;
+    cell->sum_re = amplitude;
+    return amplitude > 0;
+}
+
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell)
 {
@@ -136,6 +162,9 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
     cell->range_m = resolution_mean(range, weight, count);
     cell->range_rate_mps = resolution_mean(rate, weight, count);
     struct received_echo merged = superpose ? echoes[0] : merge(echoes, count, weight, azimuth);
+    if (sensor->beams.count > 0)
+        return resolution_cell_see(sensor, superpose ? echoes : &merged, superpose ? count : 1,
+                                   arena, cell);
     struct antenna_pointers pointers =
         superpose ? add_pointers(sensor, echoes, count) : add_pointers(sensor, &merged, 1);
     return resolution_cell_measure(sensor, pointers, cell);

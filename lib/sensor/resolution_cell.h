@@ -21,6 +21,12 @@ struct resolution_echo resolution_cell_place(const struct received_echo *echo);
 bool resolution_cell_measure(const struct sensor *sensor, struct antenna_pointers pointers,
                              struct cell *cell);
 
+/* Sets the azimuth and the sum pointer of a cell of an array, whose delta pointer is 0: those of a
+ * single echo, or the samples of several at the elements, and the strongest beam's. False if the
+ * amplitude is 0. */
+bool resolution_cell_see(const struct sensor *sensor, const struct received_echo *echoes,
+                         size_t count, struct arena *arena, struct cell *cell);
+
 /* Makes the cell of count echoes, strongest first, which become its members in this order.
  *
  *     amplitude          the sum of the echoes' amplitudes: the denominator of equation (5), and
@@ -30,7 +36,7 @@ bool resolution_cell_measure(const struct sensor *sensor, struct antenna_pointer
  *                        these cancel to no less than 1e-15 of their sizes (hard case 13)
  *
  * Without superpose the pointers are those of one echo of the summed strength at the echoes' mean
- * azimuth; for a single echo they are the same bit for bit. False as resolution_cell_measure. */
+ * azimuth; for a single echo they are the same bit for bit. An array has beams instead. False as resolution_cell_measure. */
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell);
 

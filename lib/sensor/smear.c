@@ -210,6 +210,28 @@ static uint64_t effects_of(const struct smear_sample *peak)
                             : peak->effects & ~EFFECT_BIT(EFFECT_COHERENCE);
 }
 
+/* Reads the beams of an array from the echoes of the cell, as strong as they are at its place. */
+static bool see(const struct smear *smear, size_t number, struct arena *arena, struct cell *cell)
+{
+    const struct sensor *sensor = smear->sensor;
+    struct received_echo *members = arena_get(arena, smear->count * sizeof *members);
+    size_t count = 0;
+    for (size_t i = 0; i < smear->count; i++) {
+        struct received_echo member = smear->echoes[i];
+        double width = width_of(&member);
+        double range = (member.range_m - cell->range_m) / sensor->cell_range_m / width;
+        double rate =
+            (member.range_rate_mps - cell->range_rate_mps) / sensor->cell_range_rate_mps / width;
+        if (smear->cell[i] != number)
+            continue;
+        member.amplitude *= point_response_hann(range) * point_response_hann(rate);
+        members[count++] = member;
+    }
+    bool seen = resolution_cell_see(sensor, members, count, arena, cell);
+    cell->amplitude = cell->sum_re;
+    return seen;
+}
+
 static void add_members(const struct smear *smear, size_t number, struct arena *arena,
                         struct cell *cell)
 {
@@ -248,5 +270,6 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
         .effects = effects_of(peak),
     };
     add_members(smear, number, arena, cell);
-    return resolution_cell_measure(sensor, pointers, cell);
+    return sensor->beams.count > 0 ? see(smear, number, arena, cell)
+                                   : resolution_cell_measure(sensor, pointers, cell);
 }

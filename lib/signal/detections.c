@@ -270,12 +270,15 @@ void detections_label(struct detections *detections, struct frame *frame, const 
             own == 0 ? dominant_echo_of(detections, detection, received_echoes, count) : NONE;
         if (dominant != NONE) {
             members[own++] = received_echoes[dominant];
-            owner[dominant] = owner[dominant] == NONE ? number : owner[dominant];
         }
         if (own > 0)
             label(detections->signal, detection, members, own, arena);
         else
             label_false_alarm(sensor, detection, ++alarms, detections->time_s, arena);
+        if (dominant != NONE) {
+            detection->cell.repeats = owner[dominant] != NONE;
+            owner[dominant] = detection->cell.repeats ? owner[dominant] : number;
+        }
     }
     for (size_t i = 0; i < count; i++)
         if (owner[i] == NONE)

@@ -1,0 +1,287 @@
+#include "radar/array.h"
+
+#include "base/elementary.h"
+#include "base/units.h"
+
+static double middle_of(const struct array *array, size_t n)
+{
+    return (double)n - (double)(array->count - 1) / 2;
+}
+
+/* Taylor's coefficients for side lobes of -30 dB (Taylor 1955). */
+static double taylor_coefficient(int order)
+{
+    const int nbar = 4;
+    double level = units_amplitude_from_db(30);
+    double a = elementary_log(level + sqrt(level * level - 1)) / PI;
+    double dilation = nbar * nbar / (a * a + (nbar - 0.5) * (nbar - 0.5));
+    double over = 1, under = 2, square = order * order;
+    for (int i = 1; i < nbar; i++) {
+        over *= 1 - square / dilation / (a * a + (i - 0.5) * (i - 0.5));
+        under *= i == order ? 1 : 1 - square / (i * i);
+    }
+    return (order % 2 == 1 ? 1 : -1) * over / under;
+}
+
+static double taylor_weight(double turns)
+{
+    double weight = 1;
+    for (int order = 1; order < 4; order++)
+        weight += 2 * taylor_coefficient(order) * elementary_sincos_turns(order * turns).cos;
+    return weight;
+}
+
+/* Chebyshev's polynomial of this degree. */
+static double chebyshev(size_t degree, double x)
+{
+    double before = 1, here = x;
+    for (size_t i = 1; i < degree; i++) {
+        double next = 2 * x * here - before;
+        before = here;
+        here = next;
+    }
+    return degree == 0 ? 1 : here;
+}
+
+/* The weight whose pattern is Chebyshev's polynomial (Dolph 1946). turns = m/N. */
+static double chebyshev_weight(size_t count, double turns)
+{
+    double level = units_amplitude_from_db(30), weight = 0;
+    double root =
+        elementary_exp(elementary_log(level + sqrt(level * level - 1)) / (double)(count - 1));
+    double stretch = (root + 1 / root) / 2;
+    for (size_t k = 0; k < count; k++) {
+        double x = stretch * elementary_sincos_turns((double)k / (double)(2 * count)).cos;
+        weight += chebyshev(count - 1, x) * elementary_sincos_turns((double)k * turns).cos;
+    }
+    return weight;
+}
+
+static double taper_weight(enum array_taper taper, size_t count, double middle)
+{
+    double turns = middle / (double)count;
+    if (taper == TAPER_HANN)
+        return (1 + elementary_sincos_turns(turns).cos) / 2;
+    if (taper == TAPER_TAYLOR)
+        return taylor_weight(turns);
+    if (taper == TAPER_CHEBYSHEV && count > 1)
+        return chebyshev_weight(count, turns);
+    return 1;
+}
+
+/* S and its derivatives by turns from element to element. */
+struct beam {
+    struct phasor value, slope, bend;
+};
+
+static struct beam beam_at(const struct array *array, const struct phasor *samples, double turns)
+{
+    struct beam beam = {{0, 0}, {0, 0}, {0, 0}};
+    for (size_t n = 0; n < array->count; n++) {
+        double middle = middle_of(array, n), rate = -2 * PI * middle;
+        struct elementary_sincos turn = elementary_sincos_turns(-middle * turns);
+        double re = array->weight[n] * (samples[n].re * turn.cos - samples[n].im * turn.sin);
+        double im = array->weight[n] * (samples[n].re * turn.sin + samples[n].im * turn.cos);
+        beam.value.re += re;
+        beam.value.im += im;
+        beam.slope.re -= rate * im;
+        beam.slope.im += rate * re;
+        beam.bend.re -= rate * rate * re;
+        beam.bend.im -= rate * rate * im;
+    }
+    return beam;
+}
+
+static double product(struct phasor a, struct phasor b)
+{
+    return a.re * b.re + a.im * b.im;
+}
+
+double array_response(const struct array *array, double distance)
+{
+    double sum = 0;
+    for (size_t n = 0; n < array->count; n++)
+        sum += array->weight[n] *
+               elementary_sincos_turns(array->spacing * middle_of(array, n) * distance).cos;
+    return fabs(sum);
+}
+
+/* The largest side lobe at each distance or beyond, up to half a period; within the main lobe,
+ * which ends at the first minimum, the largest of all. */
+static void set_envelope(struct array *array)
+{
+    enum { FINE = 4 };
+    size_t steps = ARRAY_PADDING * array->count / 2;
+    double step = 1 / (array->spacing * ARRAY_PADDING * FINE * (double)array->count);
+    size_t lobe = 1;
+    while (lobe < FINE * steps && array_response(array, (double)(lobe + 1) * step) <
+                                      array_response(array, (double)lobe * step))
+        lobe++;
+    double most = 0;
+    for (size_t i = FINE * steps + 1; i-- > 0;) {
+        if (i >= lobe)
+            most = elementary_max(most, array_response(array, (double)i * step));
+        if (i % FINE == 0)
+            array->envelope[i / FINE] = most;
+    }
+}
+
+static void set_weights(struct array *array, enum array_taper taper)
+{
+    double sum = 0, squares = 0;
+    for (size_t n = 0; n < array->count; n++)
+        sum += array->weight[n] = taper_weight(taper, array->count, middle_of(array, n));
+    for (size_t n = 0; n < array->count; n++) {
+        double phase = 2 * PI * middle_of(array, n), weight = array->weight[n] / sum;
+        array->weight[n] = weight;
+        array->signal_moment += weight * phase * phase;
+        array->noise_moment += weight * weight * phase * phase;
+        squares += weight * weight;
+    }
+    array->noise = sqrt(squares);
+    array->noise_moment /= squares;
+}
+
+/* Puts the virtual elements in their order from the right. */
+static void set_places(struct array *array, const struct array_layout *layout)
+{
+    double places[ARRAY_MOST_ELEMENTS];
+    for (size_t t = 0; t < layout->transmit.count; t++)
+        for (size_t r = 0; r < layout->receive.count; r++) {
+            double place = layout->transmit.items[t].place + layout->receive.items[r].place;
+            size_t n = array->count++;
+            for (; n > 0 && places[n - 1] > place; n--) {
+                places[n] = places[n - 1];
+                array->turn[n] = array->turn[n - 1];
+            }
+            places[n] = place;
+            array->turn[n] = t;
+        }
+    size_t last = array->count - 1;
+    array->least_step = last > 0 ? (double)INFINITY : 0;
+    for (size_t n = 0; n < last; n++) {
+        array->least_step = elementary_min(array->least_step, places[n + 1] - places[n]);
+        array->most_step = elementary_max(array->most_step, places[n + 1] - places[n]);
+    }
+    array->spacing = last > 0 ? (places[last] - places[0]) / (double)last : 0;
+}
+
+struct array array_of(const struct array_layout *layout)
+{
+    struct array array = {.count = 0};
+    set_places(&array, layout);
+    set_weights(&array, layout->taper);
+    size_t length = ARRAY_PADDING * array.count;
+    for (size_t k = 0; k < length; k++) {
+        struct elementary_sincos turn = elementary_sincos_turns(-(double)k / (double)length);
+        array.root[k] = (struct phasor){turn.cos, turn.sin};
+    }
+    if (array.least_step > 0)
+        set_envelope(&array);
+    return array;
+}
+
+void array_receive(const struct array *array, double sine, struct phasor echo,
+                   struct phasor *samples)
+{
+    for (size_t n = 0; n < array->count; n++) {
+        struct elementary_sincos turn =
+            elementary_sincos_turns(array->spacing * middle_of(array, n) * sine);
+        samples[n].re += echo.re * turn.cos - echo.im * turn.sin;
+        samples[n].im += echo.re * turn.sin + echo.im * turn.cos;
+    }
+}
+
+/* |S|^2 at point k of the transform. */
+static double power_at(const struct array *array, const struct phasor *samples, size_t k)
+{
+    size_t length = ARRAY_PADDING * array->count;
+    struct phasor sum = {0, 0};
+    for (size_t n = 0; n < array->count; n++) {
+        struct phasor root = array->root[n * k % length];
+        sum.re += array->weight[n] * (samples[n].re * root.re - samples[n].im * root.im);
+        sum.im += array->weight[n] * (samples[n].re * root.im + samples[n].im * root.re);
+    }
+    return product(sum, sum);
+}
+
+/* The maximum of |S| near this place, which a step either way contains. */
+static struct array_maximum refined(const struct array *array, const struct phasor *samples,
+                                    double place, double step)
+{
+    double turns = place, bend = 0;
+    struct beam beam = beam_at(array, samples, turns);
+    for (int i = 0; i <= 2; i++) {
+        double slope = 2 * product(beam.value, beam.slope);
+        bend = 2 * (product(beam.slope, beam.slope) + product(beam.value, beam.bend));
+        if (i == 2 || !(bend < 0))
+            break;
+        turns = elementary_max(elementary_min(turns - slope / bend, place + step), place - step);
+        beam = beam_at(array, samples, turns);
+    }
+    double power = product(beam.value, beam.value);
+    double noise = product(beam.slope, beam.slope) + power * array->noise_moment;
+    return (struct array_maximum){turns / array->spacing, sqrt(power),
+                                  sqrt(2 * noise) / (fabs(bend) * array->spacing)};
+}
+
+size_t array_maxima(const struct array *array, const struct phasor *samples,
+                    struct array_maximum *maxima)
+{
+    double power[ARRAY_PADDING * ARRAY_MOST_ELEMENTS];
+    size_t length = ARRAY_PADDING * array->count, count = 0;
+    double step = 1 / (double)length;
+    for (size_t k = 0; k < length; k++)
+        power[k] = power_at(array, samples, k);
+    for (size_t k = 0; k < length; k++) {
+        double before = power[(k + length - 1) % length], after = power[(k + 1) % length];
+        double turns = ((double)k - (k > length / 2 ? (double)length : 0)) * step;
+        if (!(power[k] > before && power[k] >= after))
+            continue;
+        struct array_maximum found = refined(
+            array, samples, turns + point_response_vertex(before, power[k], after) * step, step);
+        size_t place = count;
+        if (fabs(found.sine) > 1 || count == array->count)
+            continue;
+        for (count++; place > 0 && maxima[place - 1].amplitude < found.amplitude; place--)
+            maxima[place] = maxima[place - 1];
+        maxima[place] = found;
+    }
+    return count;
+}
+
+/* The envelope of side lobes at a distance of sines, which repeat after 1/spacing. */
+static double side_lobe(const struct array *array, double distance)
+{
+    double turns = fabs(remainder(array->spacing * distance, 1));
+    return array->envelope[(size_t)(turns * (double)(ARRAY_PADDING * array->count))];
+}
+
+size_t array_keep(const struct array *array, double threshold, double noise,
+                  struct array_maximum *maxima, size_t count)
+{
+    size_t kept = count > 0;
+    for (size_t i = 1; i < count; i++) {
+        double lobes = 0, amplitude = maxima[i].amplitude;
+        for (size_t j = 0; j < kept; j++)
+            lobes += side_lobe(array, maxima[i].sine - maxima[j].sine) * maxima[j].amplitude;
+        if (amplitude > threshold && amplitude > 1.06 * lobes + 3 * noise)
+            maxima[kept++] = maxima[i];
+    }
+    return kept;
+}
+
+double array_sigma(const struct array *array, double snr)
+{
+    return sqrt(array->noise_moment / (2 * snr)) / (array->signal_moment * array->spacing);
+}
+
+double array_beam(const struct array *array)
+{
+    double low = 0, high = 1 / (array->spacing * (double)array->count), edge = sqrt(0.5);
+    while (array_response(array, high) > edge && high < 2)
+        high *= 1.5;
+    for (double middle = high / 2; middle > low && middle < high; middle = low + (high - low) / 2)
+        *(array_response(array, middle) > edge ? &low : &high) = middle;
+    return 2 * low;
+}
