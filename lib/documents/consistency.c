@@ -6,7 +6,8 @@
 double consistency_fold_mps(const struct sensor *sensor)
 {
     const struct waveform *waveform = &sensor->waveform;
-    double folds = elementary_max(1, (double)waveform->stagger);
+    double folds =
+        elementary_max(1, (double)waveform->stagger + (double)sensor->array.transmit.count);
     return folds * (double)waveform->repetitions * sensor->cell_range_rate_mps / 2;
 }
 
@@ -105,8 +106,9 @@ static size_t add_accuracy(const struct sensor *sensor, struct consistency *chec
     LIMIT(RAD, "azimuth_floor_rad", sensor->azimuth_floor_rad, "azimuth_cell_rad/sqrt(12)",
           sensor->azimuth_cell_rad * even);
     LIMIT(ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", sqrt(6) / (2 * PI), "window_factor", factor);
-    LIMIT(RAD, "beam of the antenna", antenna_beam_rad(&sensor->antenna), "azimuth_cell_rad",
-          sensor->azimuth_cell_rad);
+    LIMIT(RAD, "beam of the antenna",
+          sensor->beams.count > 0 ? array_beam(&sensor->beams) : antenna_beam_rad(&sensor->antenna),
+          "azimuth_cell_rad", sensor->azimuth_cell_rad);
     if (sensor->waveform.samples > 0 && sensor->pointer_sigma > 0)
         ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
             "noise alone, range bins times repetitions times cfar_false_alarm",

@@ -28,8 +28,7 @@ static struct datasheet_accuracy accuracy_at(const struct sensor *sensor, double
                           sensor->range_rate_step_mps),
     };
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++) {
-        double sigma_rad = monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
-                                               azimuth_rad[i], ratio * ratio);
+        double sigma_rad = suite_azimuth_sigma_rad(sensor, azimuth_rad[i], ratio * ratio);
         bool seen = antenna_gain(&sensor->antenna, azimuth_rad[i]) > LEAST_GAIN;
         sigma_rad = elementary_hypot(sigma_rad, sensor->azimuth_floor_rad);
         accuracy.azimuth_sigma_rad[i] =
@@ -121,18 +120,32 @@ static void add_ambiguity(const struct sensor *sensor, struct text *text)
     text_add_word(text, "\n");
 }
 
+static void add_array(const struct sensor *sensor, struct text *text)
+{
+    const struct array *array = &sensor->beams;
+    text_format(text,
+                "azimuths %.3g degrees apart\n"
+                "  array              %zu transmitters in turn, %zu receivers: %zu elements, %.4g "
+                "wavelengths apart\n",
+                DEGREES * array_beam(array), sensor->array.transmit.count,
+                sensor->array.receive.count, array->count, array->spacing);
+}
+
 static void add_resolution(const struct sensor *sensor, struct text *text)
 {
     double beam = DEGREES * antenna_beam_rad(&sensor->antenna);
     text_format(text, "  cell               %.3g m, %.3g m/s; ", sensor->bin_range_m,
                 sensor->bin_range_rate_mps);
-    if (sensor->waveform.elements > 0)
+    if (sensor->beams.count > 0)
+        add_array(sensor, text);
+    else if (sensor->waveform.elements > 0)
         text_add_word(text, "separation in angle in glint-sensor-signal only\n");
     else
         text_add_word(text, "no separation in angle\n");
     text_format(text, "  resolution         %.3g m or %.3g m/s from a stronger echo\n",
                 sensor->half_range_m, sensor->half_range_rate_mps);
-    text_format(text, "  beam               %.3g degrees wide, ", beam);
+    text_format(text, "  %s%.3g degrees wide, ",
+                sensor->beams.count > 0 ? "element's beam     " : "beam               ", beam);
     if (sensor->elevation_half_width_rad > 0)
         text_format(text, "%.3g degrees high\n", 2 * DEGREES * sensor->elevation_half_width_rad);
     else if (sensor->elevation_curve != NULL)

@@ -285,6 +285,13 @@ double suite_range_max_m(const struct sensor *sensor, double azimuth_rad)
     return from->range_max_m + part * (to->range_max_m - from->range_max_m);
 }
 
+double suite_azimuth_sigma_rad(const struct sensor *sensor, double azimuth_rad, double snr)
+{
+    if (sensor->beams.count > 0)
+        return array_sigma(&sensor->beams, snr) / elementary_cos(azimuth_rad);
+    return monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator, azimuth_rad, snr);
+}
+
 /* With a waveform the stated cells are bins, and half a cell is the resolution (MODEL 6). */
 static void derive_cells(struct sensor *sensor)
 {
@@ -354,7 +361,8 @@ static int check_chirp(const struct sensor *sensor, struct diag *diag)
         return 0;
     double bandwidth_hz = SPEED_OF_LIGHT_MPS / (2 * sensor->cell_range_m);
     double repetition_s = units_wavelength_m(sensor->carrier_hz) /
-                          (2 * sensor->cell_range_rate_mps * (double)waveform->repetitions);
+                          (2 * sensor->cell_range_rate_mps * (double)waveform->repetitions) /
+                          elementary_max(1, (double)sensor->array.transmit.count);
     if (fabs(sensor->chirp_slope_hzps) * repetition_s >= bandwidth_hz * (1 - 1e-9))
         return 0;
     return diag_fail(diag, DIAG_CONFIG,
@@ -441,6 +449,11 @@ static int check_array(const struct sensor *sensor, struct diag *diag)
                          "\"beams\", and only with both");
     if (!array)
         return 0;
+    if (sensor->waveform.elements > 0 || sensor->waveform.stagger > 0)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "waveform: elements %lld and stagger %lld; expected none beside an array, "
+                         "whose transmitters tell folded range rates apart",
+                         (long long)sensor->waveform.elements, (long long)sensor->waveform.stagger);
     if (elements < 2 || elements > ARRAY_MOST_ELEMENTS)
         return diag_fail(diag, DIAG_CONFIG,
                          "array: %zu transmitters times %zu receivers; expected 2 to %d virtual "

@@ -89,15 +89,19 @@ static void add_cell(struct look *look, const struct roadside *side, int64_t alo
         add_scatterer(look, side, &one, along * grid->across_count + across, least);
 }
 
-/* Adds the cells of a row along the strip, without those that are surely out of reach. */
+/* Adds the cells of a row along the strip, without those that are surely out of reach: always by
+ * range, so that strips may be long, and unless the effect is forced by the view, too. */
 static void add_row(struct look *look, const struct roadside *side, int64_t across)
 {
     const struct roadside_grid *grid = &side->grid;
     double count = (double)grid->along_count, cell_m = grid->along_m;
-    struct look_stretch stretch = {0, count * cell_m};
+    struct vec2 middle_m = roadside_cell_middle(grid, 0, across);
+    double here_m = vec2_dot(vec2_sub(look->pose.position_m, middle_m), grid->heading);
+    double reach_m = look->sensor->range_max_m + grid->across_m;
+    struct look_stretch stretch = {here_m - reach_m, here_m + reach_m};
     if (!effects_forced(look->selection, EFFECT_ROADSIDE))
-        stretch = look_stretch_in_reach(look, roadside_cell_middle(grid, 0, across), grid->heading,
-                                        0.5 * grid->across_m, side->height_m);
+        stretch = look_stretch_in_reach(look, middle_m, grid->heading, 0.5 * grid->across_m,
+                                        side->height_m);
     /* Counted from the middle of the first cell; one cell is left at each end for rounding. */
     double first = elementary_max(floor(stretch.first_m / cell_m) - 1, 0);
     double end = elementary_min(ceil(stretch.end_m / cell_m) + 2, count);

@@ -91,14 +91,12 @@ static void estimate_azimuth(const struct detection_source *source,
     const struct sensor *sensor = source->sensor;
     const struct array_maximum *beam = measurement->cell->beam;
     double ratio = measurement->amplitude / noise, sigma_rad = 0;
-    if (noise > 0 && sensor->beams.count > 0)
-        sigma_rad =
-            (beam != NULL ? beam->sigma * noise : array_sigma(&sensor->beams, ratio * ratio)) /
-            elementary_cos(measurement->azimuth_rad);
+    if (noise > 0 && beam != NULL)
+        sigma_rad = beam->sigma * noise / elementary_cos(measurement->azimuth_rad);
     else if (noise > 0)
-        sigma_rad = detection_quality_widening(measurement, noise) *
-                    monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
-                                        measurement->azimuth_rad, ratio * ratio);
+        sigma_rad = suite_azimuth_sigma_rad(sensor, measurement->azimuth_rad, ratio * ratio);
+    if (source->channels)
+        sigma_rad *= detection_quality_widening(measurement, noise);
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         measurement->azimuth_sigma_rad =
             elementary_min(elementary_hypot(sigma_rad, sensor->azimuth_floor_rad),

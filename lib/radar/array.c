@@ -195,34 +195,39 @@ void array_receive(const struct array *array, double sine, struct phasor echo,
 /* |S|^2 at point k of the transform. */
 static double power_at(const struct array *array, const struct phasor *samples, size_t k)
 {
-    size_t length = ARRAY_PADDING * array->count;
+    size_t length = ARRAY_PADDING * array->count, at = 0;
     struct phasor sum = {0, 0};
-    for (size_t n = 0; n < array->count; n++) {
-        struct phasor root = array->root[n * k % length];
+    for (size_t n = 0; n < array->count; n++, at = at + k < length ? at + k : at + k - length) {
+        struct phasor root = array->root[at];
         sum.re += array->weight[n] * (samples[n].re * root.re - samples[n].im * root.im);
         sum.im += array->weight[n] * (samples[n].re * root.im + samples[n].im * root.re);
     }
     return product(sum, sum);
 }
 
-/* The maximum of |S| near this place, which a step either way contains. */
-static struct array_maximum refined(const struct array *array, const struct phasor *samples,
-                                    double place, double step)
+/* The second derivative of |S|^2 by turns. */
+static double bend_of(const struct beam *beam)
 {
-    double turns = place, bend = 0;
+    return 2 * (product(beam->slope, beam->slope) + product(beam->value, beam->bend));
+}
+
+/* The maximum of |S| near this place; a Newton step that would lead down is not taken. */
+static struct array_maximum refined(const struct array *array, const struct phasor *samples,
+                                    double turns)
+{
     struct beam beam = beam_at(array, samples, turns);
-    for (int i = 0; i <= 2; i++) {
-        double slope = 2 * product(beam.value, beam.slope);
-        bend = 2 * (product(beam.slope, beam.slope) + product(beam.value, beam.bend));
-        if (i == 2 || !(bend < 0))
+    for (int i = 0; i < 2 && bend_of(&beam) < 0; i++) {
+        double next = turns - 2 * product(beam.value, beam.slope) / bend_of(&beam);
+        struct beam there = beam_at(array, samples, next);
+        if (product(there.value, there.value) < product(beam.value, beam.value))
             break;
-        turns = elementary_max(elementary_min(turns - slope / bend, place + step), place - step);
-        beam = beam_at(array, samples, turns);
+        beam = there;
+        turns = next;
     }
     double power = product(beam.value, beam.value);
     double noise = product(beam.slope, beam.slope) + power * array->noise_moment;
     return (struct array_maximum){turns / array->spacing, sqrt(power),
-                                  sqrt(2 * noise) / (fabs(bend) * array->spacing)};
+                                  sqrt(2 * noise) / (fabs(bend_of(&beam)) * array->spacing)};
 }
 
 size_t array_maxima(const struct array *array, const struct phasor *samples,
@@ -238,8 +243,8 @@ size_t array_maxima(const struct array *array, const struct phasor *samples,
         double turns = ((double)k - (k > length / 2 ? (double)length : 0)) * step;
         if (!(power[k] > before && power[k] >= after))
             continue;
-        struct array_maximum found = refined(
-            array, samples, turns + point_response_vertex(before, power[k], after) * step, step);
+        double vertex = point_response_vertex(before, power[k], after) * step;
+        struct array_maximum found = refined(array, samples, turns + vertex);
         size_t place = count;
         if (fabs(found.sine) > 1 || count == array->count)
             continue;

@@ -49,7 +49,9 @@ void detections_estimate(const struct signal_cube *signal, double peak, double n
                                      .factor = factors[sensor->waveform.window]};
     double rate_mps = measurement_sigma_at_snr(&rate, peak_snr);
     double coupled_m = signal->coupling * signal->range_step_m * rate_mps;
-    double sigma_rad = signal->array.elements > 0
+    double sigma_rad = measurement->cell->beam != NULL
+                           ? measurement->cell->beam->sigma * noise / elementary_cos(azimuth_rad)
+                       : signal->array.elements > 0
                            ? element_sigma_rad(&signal->array, azimuth_rad, beam_snr)
                            : detection_quality_widening(measurement, noise) *
                                  monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
@@ -66,29 +68,37 @@ double detections_noise_bins(const struct signal_cube *signal)
     const struct sensor *sensor = signal->sensor;
     double ranges = (sensor->range_max_m - sensor->range_min_m) / sensor->cell_range_m;
     double beams = signal->array.elements > 0 ? (double)signal->array.elements : 1;
+    beams *= (double)signal->turns;
     return ranges * (double)signal->repetitions * beams;
 }
 
 #define NONE SIZE_MAX
 #define LEAST_PART 0.5
 
-/* Adds a detection of this amplitude and azimuth, if a range rate puts it within the sensor's
- * ranges.
- */
 static struct detection *add(struct detections *detections, const struct range_doppler_peak *peak,
-                             double amplitude, double azimuth_rad, struct arena *arena)
+                             const struct unfolding_reading *reading, double amplitude,
+                             double azimuth_rad, struct arena *arena)
+{
+    struct detection *detection = list_add(&detections->list, arena);
+    detection->peak = peak;
+    detection->range_m = reading->range_m;
+    detection->range_rate_mps = reading->range_rate_mps;
+    detection->azimuth_rad = azimuth_rad;
+    detection->amplitude = amplitude;
+    return detection;
+}
+
+/* Adds a detection of this amplitude and azimuth, if a range rate puts it within the sensor's
+ * ranges. */
+static struct detection *add_unfolded(struct detections *detections,
+                                      const struct range_doppler_peak *peak, double amplitude,
+                                      double azimuth_rad, struct arena *arena)
 {
     struct unfolding_reading reading;
     if (!unfolding_choose(detections->signal, peak, amplitude, elementary_sin(azimuth_rad),
                           &reading))
         return NULL;
-    struct detection *detection = list_add(&detections->list, arena);
-    detection->peak = peak;
-    detection->range_m = reading.range_m;
-    detection->range_rate_mps = reading.range_rate_mps;
-    detection->azimuth_rad = azimuth_rad;
-    detection->amplitude = amplitude;
-    return detection;
+    return add(detections, peak, &reading, amplitude, azimuth_rad, arena);
 }
 
 /* Adds a detection with the azimuth from sum and delta, as in glint-noise. */
@@ -103,7 +113,8 @@ static void add_monopulse(struct detections *detections, const struct range_dopp
     };
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
-    struct detection *detection = add(detections, peak, peak->amplitude, angle.azimuth_rad, arena);
+    struct detection *detection =
+        add_unfolded(detections, peak, peak->amplitude, angle.azimuth_rad, arena);
     if (detection == NULL)
         return;
     detection->pointers = pointers;
@@ -119,8 +130,52 @@ static void add_beams(struct detections *detections, const struct range_doppler_
     double least = elementary_max(peak->threshold, detections->least) * peak->gain;
     size_t count = beamforming_peaks(&signal->array, at, stride, limit, least, beams);
     for (size_t i = 0; i < count; i++)
-        add(detections, peak, beams[i].amplitude / peak->gain, elementary_asin(beams[i].sine),
-            arena);
+        add_unfolded(detections, peak, beams[i].amplitude / peak->gain,
+                     elementary_asin(beams[i].sine), arena);
+}
+
+/* Adds the beams of an array. Range rates that fold alike have other phases between transmitters
+ * that take turns; the one of the largest maximum is taken. */
+static void add_array(struct detections *detections, const struct range_doppler_peak *peak,
+                      const struct phasor *at, size_t stride, struct arena *arena)
+{
+    const struct signal_cube *signal = detections->signal;
+    const struct array *array = &signal->sensor->beams;
+    double half_mps = (double)signal->turns * signal->fold_mps / 2, best_mps = 0;
+    struct array_maximum best[ARRAY_MOST_ELEMENTS] = {{0}};
+    struct unfolding_reading reading;
+    size_t count = 0;
+    for (size_t fold = 0; fold < signal->turns; fold++) {
+        double rate_mps = folding_range_rate_mps(
+            peak->rate * signal->rate_step_mps + (double)fold * signal->fold_mps, 0, half_mps);
+        struct phasor samples[ARRAY_MOST_ELEMENTS];
+        struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
+        for (size_t n = 0; n < array->count; n++) {
+            struct elementary_sincos turn =
+                elementary_sincos_turns(-signal_cube_turn_phase(signal, n, rate_mps));
+            struct phasor here = at[n * stride];
+            samples[n] = (struct phasor){here.re * turn.cos - here.im * turn.sin,
+                                         here.re * turn.sin + here.im * turn.cos};
+        }
+        size_t found = array_maxima(array, samples, maxima);
+        if (found == 0 || maxima[0].amplitude <= best[0].amplitude)
+            continue;
+        memcpy(best, maxima, sizeof best);
+        count = found;
+        best_mps = rate_mps;
+    }
+    double least = elementary_max(peak->threshold, detections->least) * peak->gain;
+    count = array_keep(array, least, detections->noise, best, count);
+    if (!unfolding_read(signal, peak, best_mps, &reading))
+        return;
+    for (size_t i = 0; i < count && best[i].amplitude >= least; i++) {
+        struct array_maximum *beam = arena_get(arena, sizeof *beam);
+        *beam = best[i];
+        beam->sigma *= peak->gain;
+        add(detections, peak, &reading, best[i].amplitude / peak->gain,
+            elementary_asin(best[i].sine), arena)
+            ->beam = beam;
+    }
 }
 
 struct detections detections_of(const struct signal_cube *signal,
@@ -138,13 +193,15 @@ struct detections detections_of(const struct signal_cube *signal,
         .time_s = context->time_s,
     };
     struct range_doppler_peak *peaks;
-    bool array = signal->array.elements > 0;
+    bool row = signal->array.elements > 0, array = signal->sensor->beams.count > 0;
     size_t count = range_doppler_peaks(spectrum, &detections.cfar, detections.least, arena, &peaks);
     size_t width = spectrum->range_cells, stride = width * spectrum->rate_cells;
     for (size_t i = 0; i < count; i++) {
         const struct phasor *at =
             signal->spectrum + peaks[i].rate_cell * width + peaks[i].range_cell;
-        (array ? add_beams : add_monopulse)(&detections, &peaks[i], at, stride, arena);
+        (array ? add_array
+         : row ? add_beams
+               : add_monopulse)(&detections, &peaks[i], at, stride, arena);
     }
     return detections;
 }
@@ -160,10 +217,12 @@ static double part_of(const struct detections *detections, const struct received
     range_doppler_away(spectrum, detection->peak, &range, &rate);
     double part = fabs(point_response_value(spectrum->range_response, range) *
                        point_response_value(spectrum->rate_response, rate));
+    double distance =
+        elementary_sin(received->echo.azimuth_rad) - elementary_sin(detection->azimuth_rad);
+    if (detection->beam != NULL)
+        return part * array_response(&signal->sensor->beams, distance);
     if (signal->array.elements > 0)
-        part *=
-            beamforming_array_factor(&signal->array, elementary_sin(received->echo.azimuth_rad) -
-                                                         elementary_sin(detection->azimuth_rad));
+        part *= beamforming_array_factor(&signal->array, distance);
     return part;
 }
 
@@ -279,6 +338,7 @@ void detections_label(struct detections *detections, struct frame *frame, const 
             detection->cell.repeats = owner[dominant] != NONE;
             owner[dominant] = detection->cell.repeats ? owner[dominant] : number;
         }
+        detection->cell.beam = detection->beam;
     }
     for (size_t i = 0; i < count; i++)
         if (owner[i] == NONE)

@@ -17,7 +17,8 @@ struct detection {
     double amplitude;
     struct antenna_pointers pointers; /* of sum and delta channels; 0 for an array */
     bool sign_undecided;
-    struct cell cell; /* from the labelled echoes alone, without noise */
+    const struct array_maximum *beam; /* of an array, by noise in units of amplitude; else NULL */
+    struct cell cell;                 /* from the labelled echoes alone, without noise */
 };
 
 struct detections {

@@ -31,8 +31,9 @@ static void set_times(struct signal_cube *signal)
     signal->fold_mps = (double)signal->repetitions * signal->rate_step_mps;
     if (is_pulsed(signal))
         return;
-    signal->slope_hzps = sensor->chirp_slope_hzps != 0 ? sensor->chirp_slope_hzps
-                                                       : bandwidth_hz / signal->repetition_s;
+    signal->slope_hzps = sensor->chirp_slope_hzps != 0
+                             ? sensor->chirp_slope_hzps
+                             : bandwidth_hz / signal->repetition_s * (double)signal->turns;
     signal->chirp_s = bandwidth_hz / signal->slope_hzps;
     signal->coupling = sensor->carrier_hz / signal->slope_hzps / signal->range_step_m;
 }
@@ -60,7 +61,7 @@ static void set_memory(struct signal_cube *signal, struct arena *arena)
     signal->rows = arena_get(arena, channels * signal->row_cells * sizeof *signal->rows);
     signal->spectrum =
         arena_get(arena, SIGNAL_CUBE_PADDING * rows * kept * sizeof *signal->spectrum);
-    if (signal->folds > 1)
+    if (signal->sensor->waveform.stagger > 0)
         signal->second = arena_get(arena, rows * kept * sizeof *signal->second);
     for (size_t n = 0; n < signal->samples; n++)
         signal->weight[n] = is_pulsed(signal)
@@ -81,11 +82,24 @@ struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *are
         .rate_step_mps = sensor->cell_range_rate_mps,
         .folds = waveform->stagger > 0 ? (size_t)waveform->stagger : 1,
         .array = {(size_t)waveform->elements, waveform->spacing},
+        .turns = 1,
+        .turn = sensor->beams.turn,
     };
+    if (sensor->beams.count > 0) {
+        signal.channels = sensor->beams.count;
+        signal.array = (struct beamforming_array){sensor->beams.count, sensor->beams.spacing};
+        signal.folds = signal.turns = sensor->array.transmit.count;
+    }
     set_times(&signal);
     set_cells(&signal);
     set_memory(&signal, arena);
     return signal;
+}
+
+double signal_cube_turn_phase(const struct signal_cube *signal, size_t channel, double rate_mps)
+{
+    double later_s = signal->repetition_s * (double)signal->turn[channel] / (double)signal->turns;
+    return -2 * rate_mps * later_s / units_wavelength_m(signal->sensor->carrier_hz);
 }
 
 double signal_cube_instant_s(const struct signal_cube *signal, size_t train, size_t repetition)
@@ -214,9 +228,11 @@ static void add(struct phasor *row, const struct phasor *tone, size_t count, str
     }
 }
 
+/* Adds a source to the channels of the transmitter whose turn it is. */
 static void add_source(const struct signal_cube *signal, const struct signal_source *source,
-                       double instant_s)
+                       double instant_s, size_t turn)
 {
+    instant_s += signal->repetition_s * (double)turn / (double)signal->turns;
     if (is_pulsed(signal)) {
         double moved_s = source->stretch * instant_s;
         double delay_s = source->delay_s + walked_s(signal, source, instant_s);
@@ -227,8 +243,9 @@ static void add_source(const struct signal_cube *signal, const struct signal_sou
         chirp(signal->tone, signal->samples, chirp_phase_of(signal, source, instant_s));
     }
     for (size_t channel = 0; channel < signal->channels; channel++)
-        add(signal->rows + channel * signal->row_cells, signal->tone, signal->samples,
-            source->weight[channel]);
+        if (signal->turn[channel] == turn)
+            add(signal->rows + channel * signal->row_cells, signal->tone, signal->samples,
+                source->weight[channel]);
 }
 
 /* Adds noise through the receiver's filter, closed to a ring, with its RMS unchanged. */
@@ -255,6 +272,8 @@ static double sample_sigma(const struct signal_cube *signal, double sigma)
         point_response_noise(signal->sensor->waveform.window, signal->repetitions) *
         (is_pulsed(signal) ? 1 : point_response_noise(signal->range_response, signal->samples));
     double elements = signal->array.elements > 0 ? (double)signal->array.elements : 1;
+    if (signal->sensor->beams.count > 0)
+        return sigma * sqrt(0.5) / signal->sensor->beams.noise / gain;
     return sigma * sqrt(elements / 2) / gain;
 }
 
@@ -315,7 +334,8 @@ void signal_cube_receive(const struct signal_cube *signal, const struct signal_i
         point_response_weight(signal->sensor->waveform.window, repetition, signal->repetitions);
     memset(signal->rows, 0, signal->channels * signal->row_cells * sizeof *signal->rows);
     for (size_t i = 0; i < input->count; i++)
-        add_source(signal, &input->sources[i], instant_s);
+        for (size_t turn = 0; turn < signal->turns; turn++)
+            add_source(signal, &input->sources[i], instant_s, turn);
     if (input->sigma > 0)
         add_noise(signal, input, train * signal->repetitions + repetition);
     for (size_t channel = 0; channel < signal->channels; channel++)
@@ -343,16 +363,24 @@ void signal_cube_store(const struct signal_cube *signal, size_t train, size_t re
     }
 }
 
-/* The power of one row of the spectrum in a beam. */
-static void form_beam(const struct signal_cube *signal, double sine, size_t rate_cell,
+/* The power of one row of the spectrum in a beam, for the range rate that is so many folds away. */
+static void form_beam(const struct signal_cube *signal, double sine, size_t rate_cell, size_t fold,
                       double *power)
 {
+    double rate_mps = (double)rate_cell / SIGNAL_CUBE_PADDING * signal->rate_step_mps +
+                      (double)fold * signal->fold_mps;
+    const double *taper = signal->sensor->beams.count > 0 ? signal->sensor->beams.weight : NULL;
     size_t kept = signal->range_cells, size = SIGNAL_CUBE_PADDING * signal->repetitions * kept;
     double part = 1 / (double)signal->channels;
     struct phasor *sum = signal->rows;
     memset(sum, 0, kept * sizeof *sum);
     for (size_t element = 0; element < signal->channels; element++) {
         struct phasor response = beamforming_element_response(&signal->array, sine, element);
+        if (taper != NULL) {
+            response =
+                times(response, phasor_of(signal_cube_turn_phase(signal, element, rate_mps)));
+            part = taper[element];
+        }
         add(sum, signal->spectrum + element * size + rate_cell * kept, kept,
             (struct phasor){part * response.re, -part * response.im});
     }
@@ -368,9 +396,10 @@ static void form_beams(const struct signal_cube *signal, const struct range_dopp
     size_t kept = spectrum->range_cells, size = kept * spectrum->rate_cells;
     for (size_t row = 0; row < spectrum->rate_cells; row++)
         for (size_t beam = 0; beam < spectrum->beams; beam++) {
-            double part = (double)beam / (double)(spectrum->beams - 1);
+            size_t directions = spectrum->beams / signal->turns;
+            double part = (double)(beam % directions) / (double)(directions - 1);
             double *at = power + beam * size + row * kept;
-            form_beam(signal, limit * (2 * part - 1), row, at);
+            form_beam(signal, limit * (2 * part - 1), row, beam / directions, at);
             for (size_t n = 0; n < kept; n++)
                 strongest[row * kept + n] = elementary_max(strongest[row * kept + n], at[n]);
         }
@@ -382,7 +411,7 @@ static size_t beams_of(const struct signal_cube *signal)
         return 1;
     double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
     double width = 1 / (signal->array.spacing * (double)signal->array.elements);
-    return 2 + (size_t)(2 * limit / (width / 2));
+    return signal->turns * (2 + (size_t)(2 * limit / (width / 2)));
 }
 
 struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, struct arena *arena)

@@ -8,7 +8,8 @@
  *
  * Every echo has the exact phase of its delay at the sample's instant. Channels weight it with the
  * antenna's sum and delta pointers at its azimuth, or, for a row of elements, with the magnitude of
- * the sum pointer and the phase of the element's place. Its amplitude is that of the received echo
+ * the sum pointer and the phase of the element's place. Transmitters of an array send one after
+ * another in a repetition. Its amplitude is that of the received echo
  * in glint-sensor. pointer_sigma is the RMS noise of a cell after windows and transforms, over all
  * elements together, as in glint-noise. Noise of pulses has passed a matched receiver: its
  * correlation over range is their point response. */
@@ -37,6 +38,8 @@ struct signal_cube {
     double fold_mps;                    /* range rates this far apart share a bin */
     size_t folds;                       /* that the second train resolves; 1: there is none */
     struct beamforming_array array;     /* elements 0: the channels are sum and delta */
+    size_t turns;                       /* transmitters that take turns in a repetition, or 1 */
+    const size_t *turn;                 /* of each channel */
     size_t range_padding, row_cells;    /* cells to a bin; cells of a transformed row */
     ptrdiff_t first_cell;               /* first cell kept; below 0: from the row's end on */
     size_t range_cells;                 /* number of cells kept */
@@ -57,6 +60,10 @@ struct signal_input {
 
 /* The cube of a sensor with a waveform. */
 struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *arena);
+
+/* The phase, in turns, of a channel's transmitter against the first one's, as it sends later, for
+ * an echo with this range rate. */
+double signal_cube_turn_phase(const struct signal_cube *signal, size_t channel, double rate_mps);
 
 /* Time of a repetition after the measurement. */
 double signal_cube_instant_s(const struct signal_cube *signal, size_t train, size_t repetition);
@@ -82,5 +89,6 @@ void signal_cube_receive(const struct signal_cube *signal, const struct signal_i
 void signal_cube_store(const struct signal_cube *signal, size_t train, size_t repetition);
 
 /* The transformed spectrum with its power in every beam: the sum channel, or beams that cover the
- * field of view, half a beam's width apart. */
+ * field of view, half a beam's width apart. An array of several transmitters has them for each of
+ * the range rates that fold alike. */
 struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, struct arena *arena);

@@ -82,6 +82,14 @@ static double focus(const struct signal_cube *signal, const struct beam *beam, d
     return elementary_hypot(sum.re, sum.im);
 }
 
+bool unfolding_read(const struct signal_cube *signal, const struct range_doppler_peak *peak,
+                    double rate_mps, struct unfolding_reading *reading)
+{
+    double range_m = range_of(signal, peak->range, rate_mps);
+    *reading = (struct unfolding_reading){elementary_max(range_m, 0), rate_mps};
+    return is_measured(signal, range_m);
+}
+
 bool unfolding_choose(const struct signal_cube *signal, const struct range_doppler_peak *peak,
                       double amplitude, double sine, struct unfolding_reading *reading)
 {
@@ -93,15 +101,15 @@ bool unfolding_choose(const struct signal_cube *signal, const struct range_doppl
         double away = (double)folds * (i % 2 == 1 ? 1 : -1) * signal->fold_mps;
         double rate_mps =
             folding_range_rate_mps(peak->rate * signal->rate_step_mps + away, 0, half_mps);
-        double range_m = range_of(signal, peak->range, rate_mps);
-        if (!is_measured(signal, range_m))
+        struct unfolding_reading read;
+        if (!unfolding_read(signal, peak, rate_mps, &read))
             continue;
         double apart = signal->second != NULL
                            ? fabs(focus(signal, &beam, peak->range, rate_mps) - amplitude)
                            : 0;
         if (apart < least) {
             least = apart;
-            *reading = (struct unfolding_reading){elementary_max(range_m, 0), rate_mps};
+            *reading = read;
         }
     }
     return isfinite(least);

@@ -14,6 +14,10 @@ struct unfolding_reading {
     double range_m, range_rate_mps;
 };
 
+/* The reading of a peak with this range rate; false if that puts it out of the sensor's ranges. */
+bool unfolding_read(const struct signal_cube *signal, const struct range_doppler_peak *peak,
+                    double rate_mps, struct unfolding_reading *reading);
+
 /* Chooses for a peak of this amplitude, in a beam at the sine of an azimuth if there are elements.
  * False without a hypothesis. Without a second train the rate is that of the peak, in [-v_u, v_u).
  */
