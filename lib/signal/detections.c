@@ -49,7 +49,7 @@ void detections_estimate(const struct signal_cube *signal, double peak, double n
                                      .factor = factors[sensor->waveform.window]};
     double rate_mps = measurement_sigma_at_snr(&rate, peak_snr);
     double coupled_m = signal->coupling * signal->range_step_m * rate_mps;
-    double sigma_rad = measurement->cell->beam != NULL
+    double sigma_rad = sensor->beams.count > 0
                            ? measurement->cell->beam->sigma * noise / elementary_cos(azimuth_rad)
                        : signal->array.elements > 0
                            ? element_sigma_rad(&signal->array, azimuth_rad, beam_snr)
