@@ -206,18 +206,22 @@ def program(write_one, results):
 
 
 def ego(frame, age_s=0):
-    """The object that carries the sensors; with age_s as it was so long before, along its arc."""
+    """The object that carries the sensors; with age_s as it was so long before."""
     carrier = next((one for one in frame.get("objects", ()) if one["id"] == frame["ego"]), None)
     if carrier is None:
         raise BadFrame(f"{place_of(frame)}: without its ego; --sections objects carries it")
+    return earlier(carrier, age_s)
+
+
+def earlier(one, age_s):
+    """An object as it was so long before, along its arc."""
     if not age_s:
-        return carrier
-    turn = -age_s * carrier["yaw_rate_radps"]
+        return one
+    turn = -age_s * one["yaw_rate_radps"]
     chord = -age_s * (math.sin(turn / 2) / (turn / 2) if turn else 1)
-    dx, dy = turned(carrier["vx_mps"], carrier["vy_mps"], turn / 2)
-    vx, vy = turned(carrier["vx_mps"], carrier["vy_mps"], turn)
-    return dict(carrier, x_m=carrier["x_m"] + chord * dx, y_m=carrier["y_m"] + chord * dy,
-                yaw_rad=carrier["yaw_rad"] + turn, vx_mps=vx, vy_mps=vy)
+    dx, dy = turned(one["vx_mps"], one["vy_mps"], turn / 2)
+    vx, vy = turned(one["vx_mps"], one["vy_mps"], turn)
+    return dict(one, x_m=one["x_m"] + chord * dx, y_m=one["y_m"] + chord * dy, yaw_rad=one["yaw_rad"] + turn, vx_mps=vx, vy_mps=vy)
 
 
 def sensor(frame, name):

@@ -1,0 +1,169 @@
+"""Reads what is exported, with all that formats need: frames of lines, of the tables of glint-tables, or of a set."""
+import csv
+import functools
+import gzip
+import itertools
+import math
+import os
+
+import glint
+from documents import data_folders
+from plan import BAD_DATA, NO_INPUT, ROOT, Fault, read_json
+
+HEIGHT_M = 0.5  # of a sensor whose document has none: usual for radars
+LEVELS = "v0-40", "v40-60", "v60-80", "v80-100"
+# What formats need beyond glint.FRAME, and what gives it.
+LENGTH, VALUE = glint.number(1e-3, 1e6), glint.number(-1e9, 1e9)
+QUALITY = ("rcs_dbsm", "range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad", "existence", "range_rate_over_ground_mps", "x_centre_m",
+           "x_rear_axle_m")
+NEEDED = {**dict.fromkeys(("scene", "seed", "frame", "time_s", "ego"), (lambda value: value is not None, "a value")),
+          "objects": [{"class": glint.NAME, "length_m": LENGTH, "width_m": LENGTH, "height_m": LENGTH}],
+          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(0, math.tau)}]},
+          "targets": [{"quality": dict.fromkeys(QUALITY, VALUE)}]}
+GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave out --sections -objects",
+            "targets:": "expected lists, as glint-noise writes them", "_m:": "glint-extract gives objects the sizes of their class"}
+
+
+@functools.lru_cache
+def types_of(name):
+    """What makes values of the cells of a table."""
+    of = {"integer": int, "number": float, "boolean": "true".__eq__, "string": str}
+    return {one["name"]: of[one["type"]] for one in read_json(os.path.join(ROOT, "schemas", "tables.json"))[name]["fields"]}
+
+
+def rows(folder, name):
+    """The rows of a table, without empty cells."""
+    types, path = types_of(name), os.path.join(folder, name + ".csv")
+    path += ".gz" * (not os.path.exists(path))
+    try:
+        with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="utf-8", newline="") as file:
+            for row in csv.DictReader(file, strict=True):
+                yield {key: types[key](cell) for key, cell in row.items() if cell}
+    except (AttributeError, EOFError, KeyError, TypeError, ValueError, csv.Error) as error:
+        raise Fault(BAD_DATA, f"{path}: {error!r}; expected a table of glint-tables") from error
+
+
+def by(key, folder, name):
+    """Gives the rows of a table that have this key, which does not decrease from call to call."""
+    groups = itertools.groupby(rows(folder, name), lambda row: row[key])
+    state = [-1, ()]
+
+    def of(wanted):
+        while state[0] < wanted:
+            state[:] = next(((found, list(group)) for found, group in groups), (math.inf, ()))
+        return list(state[1]) if state[0] == wanted else []
+    return of
+
+
+def frames_of_tables(folder):
+    objects, scans, targets = (by("frame_key", folder, name) for name in ("objects", "scans", "detections"))
+    parts, sightings = by("detection_key", folder, "contributors"), by("scan_key", folder, "sightings")
+    for row in rows(folder, "frames"):
+        key = row["frame_key"]
+        sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in scans(key)]
+        frame = glint.Frame(row, seed=str(row["seed"]), objects=objects(key), sensors={"suite": row.get("suite"), "list": sensors},
+                            targets=targets(key), visibility=[seen for one in sensors for seen in sightings(one["scan_key"])])
+        for one in frame["targets"]:
+            one["quality"] = {name[8:]: value for name, value in one.items() if name.startswith("quality_")}
+            one["contributors"] = parts(one["detection_key"])
+        frame.place = f"{folder}: frame_key {key}"
+        if fault := glint.fault(frame, glint.FRAME):
+            raise Fault(BAD_DATA, frame.place + fault)
+        yield frame
+
+
+def frames_in(path):
+    return frames_of_tables(path) if os.path.isdir(path) else glint.frames(path)
+
+
+def streams_of(path):
+    """The streams of an input: split and documents of a set, or None, and frames. Shards of a set are read by their tables, or by
+    their lines if they have none."""
+    if not os.path.exists(os.path.join(path, "datapackage.json")):
+        yield None, None, frames_in(path)
+        return
+    shards = {tuple(one["path"].split(".")[0].split("/")[:3]) for one in read_json(os.path.join(path, "datapackage.json"))["resources"]}
+    yield from shards_of(path, sorted(shards))
+
+
+def shards_of(folder, shards):
+    for split, *rest in shards:
+        path = os.path.join(folder, split, *rest)
+        tables = any(os.path.exists(os.path.join(path, "frames.csv" + ending)) for ending in ("", ".gz"))
+        yield split, os.path.join(folder, "documents"), frames_in(path + ".jsonl.gz" * (not tables))
+
+
+@functools.lru_cache
+def mounts(suite, folder, name):
+    """The sensors of a suite by name, from its document: the given one, or the one of its name."""
+    places = [suite] if suite else [os.path.join(one, "sensors", name + ".json") for one in ([folder] if folder else data_folders())]
+    path = next(filter(os.path.isfile, places), None)
+    if path is None:
+        raise Fault(NO_INPUT, f"{' and '.join(places)}: no such file, and frames lack the heights of sensors; name their document by --suite")
+    return path, {one["name"]: one for one in read_json(path)["sensors"]}
+
+
+def complete(frame, suite, folder):
+    """Refuses a frame that lacks what formats need; gives its sensors their heights."""
+    if fault := glint.fault(frame, NEEDED, ()):
+        raise Fault(BAD_DATA, "; ".join([f"{frame.place}: {fault[1:]}", *(hint for name, hint in GIVEN_BY.items() if name in fault)]))
+    path, sensors = mounts(suite, folder, frame["sensors"]["suite"])
+    for one in frame["sensors"]["list"]:
+        mount = sensors.get(one["name"], {})
+        if any(mount.get(key) != one[key] for key in ("mount_x_m", "mount_y_m", "mount_yaw_rad")):
+            raise Fault(BAD_DATA, f"{frame.place}: sensor {one['name']}: {path} has no such sensor at this place")
+        one["mount_z_m"] = mount.get("mount_z_m", HEIGHT_M)
+    words = [word(one["name"]) for one in frame["sensors"]["list"]]
+    if len({*words}) < len(words):
+        raise Fault(BAD_DATA, f"{frame.place}: sensors: two would be {max(words, key=words.count)}; expected names that differ in ASCII letters or digits")
+
+
+def frames_of(streams, suite):
+    """The frames of streams with their splits: those of a scene together and in order."""
+    seen, before = set(), (None, 0, 0)
+    for split, folder, frames in streams:
+        for frame in frames:
+            complete(frame, suite, folder)
+            now = frame["scene"], frame["frame"], frame["time_s"]
+            if now[0] in seen if now[0] != before[0] else now[1] <= before[1] or now[2] <= before[2]:
+                raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0]} at {now[2]} s; expected each scene once, with all of its "
+                                      "frames in their order")
+            seen.add(now[0])
+            before = now
+            yield {None: "train", "validation": "val"}.get(split, split), frame
+
+
+# --- what both layouts need of a frame ------------------------------------------------------------
+
+def scans_of(frame):
+    """Each sensor that has a scan in the frame, with its targets in the order of their points."""
+    for one in frame["sensors"]["list"]:
+        if one.get("measured", True):
+            yield one, [target for target in frame["targets"] if target["sensor"] == one["name"]]
+
+
+def boxes(frame, age_s):
+    """The objects but the ego, so long before the frame's time, in the world."""
+    for one in frame["objects"]:
+        if one["id"] != frame["ego"]:
+            one = glint.earlier(one, age_s)
+            yield one | {"x_m": one["x_m"] + frame.get("origin_x_m", 0), "y_m": one["y_m"] + frame.get("origin_y_m", 0)}
+
+
+def visibility(frame, sensors):
+    """The best level at which one of the sensors has each object in view."""
+    levels = {}
+    for one in frame.get("visibility", ()):
+        if one["sensor"] in sensors and one.get("visibility") in LEVELS:
+            levels[one["object"]] = max(levels.get(one["object"], 0), LEVELS.index(one["visibility"]))
+    return levels
+
+
+def number(value, digits=9):
+    """Rounded, so that lines and tables give the same text; never -0."""
+    return round(float(value), digits) + 0.0
+
+
+def word(name):
+    """FRONT_LEFT for front-left."""
+    return "".join(c if c.isascii() and c.isalnum() else "_" for c in name).upper()
