@@ -15,6 +15,7 @@ of the middle of the ego's box; "sensor", x along its axis. Yaw turns from x to 
 measures `age_s` before the frame's time: its detections are placed from where the ego was then.
 """
 import array
+import contextlib
 import errno
 import glob
 import gzip
@@ -22,7 +23,12 @@ import json
 import math
 import os
 import re
+import select
+import signal
+import subprocess
 import sys
+import tempfile
+import time
 import zlib
 
 # Numbers of a target that are there in every list.
@@ -327,3 +333,127 @@ class Shards:
 
     def __iter__(self):
         return frames(*self.files) if self.files else iter(())
+
+
+class ChainError(RuntimeError):
+    """A chain has ended, or answered something else than targets; with its exit status, or None."""
+
+    def __init__(self, text, status=None):
+        super().__init__(text)
+        self.status = status
+
+
+class Loop:
+    """A chain that answers each frame of a simulator with its targets.
+
+        with glint.Loop("glint-extract | glint-ideal --sensors lrr77-every-frame | glint-sensor | glint-noise") as radar:
+            for objects in my_simulator:                    # dictionaries, as carla_object and sumo_object make
+                targets = radar.step("ego", objects)
+
+    An answer that takes longer than timeout_s is a TimeoutError; a chain that ends or writes no answer is a ChainError, with
+    the message of the stage. Both end the chain; restart() starts it again, at frame 0. Chains of glint's stages run in
+    one process; others need shell=("bash", "-o", "pipefail", "-c").
+    """
+
+    def __init__(self, chain, interval_s=0.05, timeout_s=10, scene="live", seed=1, shell=("glint", "-c"), environment=None):
+        self.words, self.environment, self.timeout_s, self.process = [*shell, chain], environment, timeout_s, None
+        self.head = {"version": 0, "scene": scene, "interval_s": interval_s, "seed": str(seed)}
+        self.restart()
+
+    def restart(self):
+        self.end()
+        self.frames, self.answers, self.told = 0, b"", tempfile.TemporaryFile()
+        self.process = subprocess.Popen(self.words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.told,
+                                        env=self.environment, start_new_session=True, bufsize=0)
+        for pipe in (self.process.stdin, self.process.stdout):
+            os.set_blocking(pipe.fileno(), False)
+
+    def step(self, ego, objects, **members):
+        """The targets of the next frame; members: others of the frame, as conditions."""
+        interval_s = self.head["interval_s"]
+        return self.send(dict(self.head, frame=self.frames, time_s=self.frames * interval_s, ego=ego, objects=objects, **members))["targets"]
+
+    def send(self, frame):
+        """The answer to a frame of your own: the frame with its targets."""
+        if self.process is None:
+            raise ChainError("the chain has ended; restart() starts it again")
+        text = json.dumps(frame, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+        try:
+            answer = decoded(self._exchange(text))
+            if any(answer.get(name) != frame.get(name) for name in ("scene", "frame")) or "targets" not in answer:
+                raise ValueError(f"an answer to {answer.get('scene')}, frame {answer.get('frame')}; expected the targets of {place_of(frame)}")
+        except (AttributeError, ValueError, RecursionError) as error:
+            self.end(1)
+            raise ChainError(f"{self.words[-1]}: {error}") from None
+        except BaseException:  # a late answer would be taken for the next one
+            self.end()
+            raise
+        self.frames += 1
+        return answer
+
+    def _exchange(self, text):
+        """Writes a line and reads the next one."""
+        end_s, pipes = time.monotonic() + self.timeout_s, select.poll()
+        write, read = self.process.stdin.fileno(), self.process.stdout.fileno()
+        pipes.register(read, select.POLLIN)
+        pipes.register(write, select.POLLOUT)
+        while b"\n" not in self.answers:
+            ready = dict(pipes.poll(max(0, 1e3 * (end_s - time.monotonic()))))
+            if not ready:
+                raise TimeoutError(f"{self.words[-1]}: no answer in {self.timeout_s} s")
+            if read in ready:
+                more = os.read(read, 1 << 20)
+                if not more:
+                    status = self.end(1)
+                    self.told.seek(0)
+                    raise ChainError(f"exit status {status}: {self.told.read().decode(errors='replace').strip() or self.words[-1]}", status)
+                self.answers += more
+            if write in ready:
+                with contextlib.suppress(BrokenPipeError):  # the end of the answers says why
+                    text = text[os.write(write, text):]
+                if not text or ready[write] & select.POLLERR:
+                    pipes.unregister(write)
+        line, _, self.answers = self.answers.partition(b"\n")
+        return line
+
+    def end(self, patience_s=0):
+        """Ends the chain, by force if it has not ended after patience_s; its exit status."""
+        process, self.process = self.process, None
+        if process is None:
+            return None
+        process.stdin.close()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(patience_s)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.stdout.close()
+        return process.wait()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.end(1)
+
+
+def carla_object(actor, kind=None):
+    """An object from an actor of CARLA, whose y axis points right and whose yaw turns right, in degrees. The middle of its box is
+    beside its place; extents are half of sizes."""
+    at, box, v, kinds = actor.get_transform(), actor.bounding_box, actor.get_velocity(), actor.attributes
+    yaw, rate = -math.radians(at.rotation.yaw), -math.radians(actor.get_angular_velocity().z)
+    dx, dy = turned(box.location.x, -box.location.y, yaw)
+    return {"id": str(actor.id), "class": kind or kinds.get("base_type") or ("pedestrian" if actor.type_id.startswith("walker") else "car"),
+            "x_m": at.location.x + dx, "y_m": -at.location.y + dy, "yaw_rad": yaw, "vx_mps": v.x - rate * dy, "vy_mps": -v.y + rate * dx,
+            "yaw_rate_radps": rate, "length_m": 2 * box.extent.x, "width_m": 2 * box.extent.y, "height_m": 2 * box.extent.z,
+            "travelled_m": 0}
+
+
+def sumo_object(vehicle, name, kind="car"):
+    """An object from traci.vehicle of SUMO, whose angles turn right from north, in degrees, and whose places are those of front
+    bumpers. The turn rate is that of the last step, which SUMO does not say: 0."""
+    (x, y), yaw = vehicle.getPosition(name), math.radians(90 - vehicle.getAngle(name))
+    along, left = turned(1, 0, yaw), vehicle.getLateralSpeed(name)
+    length, speed = vehicle.getLength(name), vehicle.getSpeed(name)
+    return {"id": name, "class": kind, "x_m": x - length / 2 * along[0], "y_m": y - length / 2 * along[1], "yaw_rad": yaw,
+            "vx_mps": speed * along[0] - left * along[1], "vy_mps": speed * along[1] + left * along[0], "yaw_rate_radps": 0,
+            "length_m": length, "width_m": vehicle.getWidth(name), "height_m": vehicle.getHeight(name), "travelled_m": 0}

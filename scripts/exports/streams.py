@@ -9,6 +9,7 @@ import os
 import glint
 from documents import data_folders
 from plan import BAD_DATA, NO_INPUT, ROOT, Fault, read_json
+from progress import Progress
 
 HEIGHT_M = 0.5  # of a sensor whose document has none: usual for radars
 LEVELS = "v0-40", "v40-60", "v60-80", "v80-100"
@@ -121,7 +122,7 @@ def complete(frame, suite, folder):
 def frames_of(streams, suite):
     """The frames of streams with their splits: those of a scene together and in order."""
     seen, before = set(), (None, 0, 0)
-    for split, folder, frames in streams:
+    for split, folder, frames in Progress("streams").over(streams):
         for frame in frames:
             complete(frame, suite, folder)
             now = frame["scene"], frame["frame"], frame["time_s"]

@@ -7,7 +7,7 @@ import sys
 from documents import copies, copy_documents, described, files_of, files_of_chain, program_version, suite_name
 from durable import alone, canonical, digest_of, make_folder, remove_temporaries, sync_folder, write_whole
 from lines import ENDINGS
-from plan import BAD_DATA, CANNOT_CREATE, ROOT, Fault, read_json, refuse
+from plan import BAD_DATA, CANNOT_CREATE, ROOT, Fault, read_json, refuse, text_of
 from rehearsal import rehearse
 from tables import paths_of
 from traffic import chain_of, packed, source_command, stretches_of
@@ -53,32 +53,6 @@ def lay_out(plan, plan_folder):
 
 # --- the folder of the set ------------------------------------------------------------------------
 
-MAKEFILE = """\
-# The data set {name}, of {count} shards.
-#   make -jN        makes what is missing and names what fails; when all is there, it writes datapackage.json
-#   make part-7     makes one shard
-#   make missing    names what is missing
-#   make slurm      has Slurm make what is missing
-hash := \\#
-dataset = {program} --in . --plan-folder {plan_folder}
-MAKEFLAGS += --keep-going --no-print-directory --no-builtin-rules
-
-all:
-\t@$(dataset) --verify
-\t@$(MAKE) parts; $(dataset) --finish
-
-missing slurm:
-\t@$(dataset) --$@
-
-work/part-%.json:
-\t@$(dataset) --part $*
-
-{rules}
-
-.PHONY: all missing slurm parts
-"""
-
-
 def word_of_make(path):
     """A path as a word of the shell, in a variable of make."""
     return shlex.quote(path).replace("$", "$$").replace("#", "$(hash)")
@@ -87,7 +61,7 @@ def word_of_make(path):
 def makefile_of(layout, plan_folder):
     shards = layout["shards"]
     rules = "\n".join(f"parts part-{i}: work/part-{i}.json  # {shard['split']}/{shard['suite']}" for i, shard in enumerate(shards))
-    return MAKEFILE.format(name=layout["plan"]["name"], count=len(shards), rules=rules,
+    return text_of("makefile.txt").format(name=layout["plan"]["name"], count=len(shards), rules=rules,
                            program=word_of_make(os.path.join(ROOT, "scripts", "dataset")),
                            plan_folder=word_of_make(plan_folder))
 

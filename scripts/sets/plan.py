@@ -58,6 +58,12 @@ def read_json(path):
         raise Fault(BAD_DATA, f"{path}: nested too deep") from error
 
 
+def text_of(name):
+    """A text of data/sets/."""
+    with open(os.path.join(ROOT, "data", "sets", name), encoding="utf-8") as file:
+        return file.read()
+
+
 def kind_of(source):
     """The kind of a source: random snapshots, moving random scenes, a scenario or a recording."""
     kinds = [kind for kind in ("random", "scenario", "recording") if kind in source]
@@ -120,6 +126,9 @@ def check_files(plan):
     refuse(lines != "whole" and not plan.get("tables"), "/lines", f'"{lines}" needs tables')
     for name in ("compression", "level"):
         refuse(lines == "none" and name in plan, f"/{name}", "a set without lines has none")
+    if "exports" in plan:
+        refuse(plan.get("tables") is not True and (lines, compression) != ("whole", "gzip"), "/exports", "are made of tables of CSV, or of whole lines by gzip")
+        refuse("quality" not in plan["chain"], "/exports", "need the quality of targets; write glint-ideal --sections quality in the chain")
     highest = HIGHEST_LEVEL[compression]
     refuse(plan.get("level", 1) > highest, "/level", f"{plan.get('level')}; expected at most {highest} for {compression}")
     for name, value, needed in (("compression", "zstd", "zstd"), ("tables", "parquet", "duckdb")):
