@@ -19,11 +19,13 @@ import contextlib
 import errno
 import glob
 import gzip
+import itertools
 import json
 import math
 import os
 import re
 import select
+import shlex
 import signal
 import subprocess
 import sys
@@ -347,44 +349,56 @@ class Loop:
     """A chain that answers each frame of a simulator with its targets.
 
         with glint.Loop("glint-extract | glint-ideal --sensors lrr77-every-frame | glint-sensor | glint-noise") as radar:
-            for objects in my_simulator:                    # dictionaries, as carla_object and sumo_object make
+            for objects in my_simulator:                    # dictionaries, as carla_object and sumo_object make them
                 targets = radar.step("ego", objects)
 
-    An answer that takes longer than timeout_s is a TimeoutError; a chain that ends or writes no answer is a ChainError, with
-    the message of the stage. Both end the chain; restart() starts it again, at frame 0. Chains of glint's stages run in
-    one process; others need shell=("bash", "-o", "pipefail", "-c").
+    A chain that has not answered after timeout_s is a TimeoutError; one that ends, or answers no targets, is a ChainError
+    with the messages of its stages. Both end the chain; restart() starts it again, at frame 0. A chain of glint's stages is one
+    process, unless fused is false; one with stages of your own is a process for each.
     """
 
-    def __init__(self, chain, interval_s=0.05, timeout_s=10, scene="live", seed=1, shell=("glint", "-c"), environment=None):
-        self.words, self.environment, self.timeout_s, self.process = [*shell, chain], environment, timeout_s, None
+    def __init__(self, chain, interval_s=0.05, timeout_s=10, scene="live", seed=1, fused=True):
+        words = shlex.shlex(chain, posix=True, punctuation_chars="|")
+        words.whitespace_split = True
+        self.commands = [list(stage) for is_stage, stage in itertools.groupby(words, "|".__ne__) if is_stage]
+        if fused and all(stage[0].startswith("glint-") for stage in self.commands):
+            self.commands = [["glint", "-c", chain]]
+        self.chain, self.timeout_s, self.processes = chain, timeout_s, []
         self.head = {"version": 0, "scene": scene, "interval_s": interval_s, "seed": str(seed)}
         self.restart()
 
     def restart(self):
         self.end()
         self.frames, self.answers, self.told = 0, b"", tempfile.TemporaryFile()
-        self.process = subprocess.Popen(self.words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.told,
-                                        env=self.environment, start_new_session=True, bufsize=0)
-        for pipe in (self.process.stdin, self.process.stdout):
+        for command in self.commands:
+            before = self.processes[-1].stdout if self.processes else subprocess.PIPE
+            try:
+                self.processes.append(subprocess.Popen(command, stdin=before, stdout=subprocess.PIPE, stderr=self.told,
+                                                       start_new_session=True, bufsize=0))
+            except OSError:
+                self.end()
+                raise
+            if self.processes[1:]:
+                before.close()  # the next one has it, and alone: its end is told to the one before
+        for pipe in (self.processes[0].stdin, self.processes[-1].stdout):
             os.set_blocking(pipe.fileno(), False)
 
     def step(self, ego, objects, **members):
         """The targets of the next frame; members: others of the frame, as conditions."""
-        interval_s = self.head["interval_s"]
-        return self.send(dict(self.head, frame=self.frames, time_s=self.frames * interval_s, ego=ego, objects=objects, **members))["targets"]
+        time_s = self.frames * self.head["interval_s"]
+        return self.send(dict(self.head, frame=self.frames, time_s=time_s, ego=ego, objects=objects, **members))["targets"]
 
     def send(self, frame):
         """The answer to a frame of your own: the frame with its targets."""
-        if self.process is None:
+        if not self.processes:
             raise ChainError("the chain has ended; restart() starts it again")
         text = json.dumps(frame, allow_nan=False, separators=(",", ":")).encode() + b"\n"
         try:
             answer = decoded(self._exchange(text))
-            if any(answer.get(name) != frame.get(name) for name in ("scene", "frame")) or "targets" not in answer:
-                raise ValueError(f"an answer to {answer.get('scene')}, frame {answer.get('frame')}; expected the targets of {place_of(frame)}")
-        except (AttributeError, ValueError, RecursionError) as error:
-            self.end(1)
-            raise ChainError(f"{self.words[-1]}: {error}") from None
+            if not all(answer[name] == frame[name] for name in ("scene", "frame")) or "targets" not in answer:
+                raise ValueError(f"the answer to another frame than {place_of(frame)}")
+        except (KeyError, TypeError, ValueError, RecursionError) as error:
+            raise ChainError(f"{self.chain}: no targets: {error}", self.end()) from None
         except BaseException:  # a late answer would be taken for the next one
             self.end()
             raise
@@ -394,19 +408,17 @@ class Loop:
     def _exchange(self, text):
         """Writes a line and reads the next one."""
         end_s, pipes = time.monotonic() + self.timeout_s, select.poll()
-        write, read = self.process.stdin.fileno(), self.process.stdout.fileno()
+        write, read = self.processes[0].stdin.fileno(), self.processes[-1].stdout.fileno()
         pipes.register(read, select.POLLIN)
         pipes.register(write, select.POLLOUT)
-        while b"\n" not in self.answers:
+        while text or b"\n" not in self.answers:
             ready = dict(pipes.poll(max(0, 1e3 * (end_s - time.monotonic()))))
             if not ready:
-                raise TimeoutError(f"{self.words[-1]}: no answer in {self.timeout_s} s")
+                raise TimeoutError(f"{self.chain}: no answer in {self.timeout_s} s")
             if read in ready:
                 more = os.read(read, 1 << 20)
                 if not more:
-                    status = self.end(1)
-                    self.told.seek(0)
-                    raise ChainError(f"exit status {status}: {self.told.read().decode(errors='replace').strip() or self.words[-1]}", status)
+                    raise self._ended()
                 self.answers += more
             if write in ready:
                 with contextlib.suppress(BrokenPipeError):  # the end of the answers says why
@@ -416,24 +428,29 @@ class Loop:
         line, _, self.answers = self.answers.partition(b"\n")
         return line
 
+    def _ended(self):
+        status = self.end(patience_s=0.5)
+        self.told.seek(0)
+        return ChainError(f"exit status {status}: {self.told.read().decode(errors='replace').strip() or self.chain}", status)
+
     def end(self, patience_s=0):
-        """Ends the chain, by force if it has not ended after patience_s; its exit status."""
-        process, self.process = self.process, None
-        if process is None:
-            return None
-        process.stdin.close()
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(patience_s)
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.stdout.close()
-        return process.wait()
+        """Ends the chain, by force what has not ended after patience_s; the exit status of the last stage that failed, or 0."""
+        processes, self.processes, end_s = self.processes, [], time.monotonic() + patience_s
+        for process in processes[:1]:
+            process.stdin.close()
+        for process in processes:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(max(0, end_s - time.monotonic()))
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.stdout.close()
+        return next(filter(None, [process.wait() for process in reversed(processes)]), 0)
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        self.end(1)
+        self.end(patience_s=0.5)
 
 
 def carla_object(actor, kind=None):

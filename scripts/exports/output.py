@@ -50,5 +50,4 @@ def whole_folder(path):
         yield output
         for file in output.files:
             file.close()
-        os.sync()
         os.rename(folder, path)

@@ -3,19 +3,27 @@
 Usage: python3 tests/chain/live.py BIN_DIR
 
 Through pipes, FIFOs, sockets and terminals, plain and gzip, through processes and fused, the answers are the bytes
-of a run over a file. An answer that has not come after a minute counts as never coming.
+of a run over a file. An answer that has not come after a minute counts as never coming. glint.Loop (scripts/glint.py) is
+tried hard: its chains are killed, stopped, fed and made to write garbage, and started again.
 """
+import json
+import math
 import os
 import select
-import shutil
+import signal
 import socket
 import subprocess
 import sys
 import tempfile
+import time
 import tty
 import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+import glint  # noqa: E402
+
 PATIENCE_S = 60
 CHAIN = ("glint-extract | glint-ideal --sensors srr24-pair-every-frame --sections account | glint-sensor | glint-noise")
 FRAMES = 60
@@ -163,37 +171,159 @@ def late_truth(frames, folder):
                                  targets.splitlines(True), scores)
 
 
+LINE = {"class": "car", "y_m": 0, "yaw_rad": 0, "vy_mps": 0, "yaw_rate_radps": 0, "length_m": 0, "width_m": 0, "height_m": 0,
+        "travelled_m": 0}
+OBJECTS = [{"id": "ego", "x_m": 0, "vx_mps": 30, **LINE}, {"id": "leader", "x_m": 60, "vx_mps": 20, **LINE}]
+STAGES = "glint-extract | glint-ideal --sensors lrr77-every-frame | glint-sensor | glint-noise"
+OWN = "glint-extract | glint-ideal --sensors lrr77-every-frame | {} | glint-sensor | glint-noise"
+
+
 def simulator():
-    shown = [run([sys.executable, f"{ROOT}/pipelines/live.py", *program]) for program in ([], ["glint"])]
-    speed_mps, gap_m = (float(shown[0].split()[at]) for at in (-4, -2))
-    good = shown[0] == shown[1] and 20 < speed_mps < 21 and 30 < gap_m < 40
-    yield "pipelines/live.py", None if good else f"ends with {shown[0].splitlines()[-1]} in bash"
+    """pipelines/live.py, and how it ends where its chain does."""
+    words = [sys.executable, f"{ROOT}/pipelines/live.py"]
+    shown = run(words)
+    speed_mps, gap_m = (float(shown.split()[at]) for at in (-4, -2))
+    yield "pipelines/live.py", None if 20 < speed_mps < 21 and 30 < gap_m < 40 else f"ends with {shown.splitlines()[-1]}"
+    with tempfile.TemporaryDirectory() as folder:
+        os.makedirs(f"{folder}/sensors")
+        with open(f"{folder}/sensors/lrr77-every-frame.json", "w", encoding="utf-8") as suite:
+            suite.write("{}")
+        done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "GLINT_DATA": folder}, timeout=PATIENCE_S, check=False)
+        said = done.stderr.splitlines()[-1]
+        yield "pipelines/live.py, a bad suite", None if said.startswith(f"glint.ChainError: exit status 78: glint-ideal: {folder}/") else said
 
 
-def simulator_of_a_broken_radar(folder):
-    """A stage in the middle that cannot start, dies after some frames, or is killed: the simulator ends as it does."""
-    os.makedirs(f"{folder}/sensors")
-    with open(f"{folder}/sensors/lrr77-every-frame.json", "w", encoding="utf-8") as suite:
-        suite.write("{}")
-    bad_suite, path = {"GLINT_DATA": folder}, {"PATH": folder + os.pathsep + os.environ["PATH"]}
-    sensor, real = os.path.join(folder, "glint-sensor"), shutil.which("glint-sensor")
-    for name, program, script, environment, code, message in (
-            ("a bad suite", [], None, bad_suite, 78, f"glint-ideal: {folder}/sensors/"),
-            ("a bad suite, glint", ["glint"], None, bad_suite, 78, f"glint-ideal: {folder}/sensors/"),
-            ("a stage that fails", [], f"sed -u 5q | {real}; echo mine: no more >&2; exit 65", path, 65, "mine: no more"),
-            ("a stage that is killed", [], "read -r; kill -9 $$", path, None, "")):
-        if script:
-            with open(sensor, "w", encoding="utf-8") as file:
-                file.write("#!/bin/bash\n" + script + "\n")
-            os.chmod(sensor, 0o755)
+def fails(loop, kind, message, within_s=1.0, objects=OBJECTS, steps=50):
+    """What is wrong with how a loop fails, that it can be started again, and that it leaves no process behind."""
+    begin, groups = time.monotonic(), [process.pid for process in loop.processes]
+    try:
+        for _ in range(steps):
+            begin = time.monotonic()
+            loop.step("ego", objects)
+        return "does not fail"
+    except (glint.ChainError, TimeoutError) as error:
+        if not isinstance(error, kind) or message not in str(error):
+            return f"{type(error).__name__}: {error}"
+    took_s = time.monotonic() - begin
+    if took_s > within_s:
+        return f"takes {took_s:.2f} s"
+    left = [group for group in groups if subprocess.run(["pgrep", "-g", str(group)], stdout=subprocess.DEVNULL, check=False).returncode == 0]
+    if left:
+        return "leaves processes behind"
+    try:
+        loop.step("ego", objects)
+        return "answers after its end"
+    except glint.ChainError as error:
+        return None if "restart()" in str(error) else str(error)
+
+
+def loops(folder):
+    """glint.Loop under all that may happen to its chain."""
+    with glint.Loop(STAGES) as loop:
+        expected = [loop.step("ego", OBJECTS) for _ in range(5)]
+        yield "answers are targets", None if all(one and one[0]["sensor"] == "front" for one in expected) else expected
+        loop.restart()
+        yield "restart", None if [loop.step("ego", OBJECTS) for _ in range(5)] == expected else "other targets"
+        pid = loop.processes[0].pid
         try:
-            done = subprocess.run([sys.executable, f"{ROOT}/pipelines/live.py", *program], capture_output=True, text=True,
-                                  env={**os.environ, **environment}, timeout=PATIENCE_S, check=False)
-            good = (done.returncode == code if code else done.returncode > 0) and message in done.stderr
-            fault = None if good and "Traceback" not in done.stderr else f"exit {done.returncode}: {done.stderr[-300:]}"
-        except subprocess.TimeoutExpired:
-            fault = "hangs"
-        yield f"pipelines/live.py, {name}", fault
+            loop.step("ego", [dict(OBJECTS[0], x_m=float("nan")), OBJECTS[1]])
+            yield "a number that is none", "is taken"
+        except ValueError as error:
+            yield "a number that is none", None if loop.processes and loop.processes[0].pid == pid else error
+        yield "after it", None if loop.step("ego", OBJECTS)[0]["range_m"] > 0 else "no targets"
+        yield "a frame without its ego", fails(loop, glint.ChainError, "exit status 65: glint-extract: ", objects=OBJECTS[1:])
+        loop.restart()
+        os.kill(loop.processes[0].pid, signal.SIGSTOP)
+        loop.timeout_s = 0.3
+        yield "a chain that stands still", fails(loop, TimeoutError, "no answer in 0.3 s")
+        loop.timeout_s = 10
+        loop.restart()
+        yield "again", None if [loop.step("ego", OBJECTS) for _ in range(5)] == expected else "other targets"
+        os.kill(loop.processes[0].pid, signal.SIGKILL)
+        yield "a chain that is killed", fails(loop, glint.ChainError, "exit status -9")
+    yield "after the with", None if not loop.processes else "runs on"
+    with glint.Loop(STAGES, fused=False) as loop:
+        yield "processes", None if [loop.step("ego", OBJECTS) for _ in range(5)] == expected else "other targets"
+        os.kill(loop.processes[2].pid, signal.SIGKILL)
+        yield "a stage that is killed", fails(loop, glint.ChainError, "exit status -9")
+        for i in range(4):
+            loop.restart()
+            loop.timeout_s = 0.3
+            os.kill(loop.processes[i].pid, signal.SIGSTOP)
+            yield f"stage {i} stands still", fails(loop, TimeoutError, "no answer in 0.3 s")
+    for name, stage, kind, message in (("a stage that fails after some frames", "bash -c 'sed -u 5q; echo mine: no more >&2; exit 65'", glint.ChainError, "mine: no more"),
+                                       ("a stage that swallows frames", "grep --line-buffered -v leader", TimeoutError, "no answer in 0.5 s"),
+                                       ("a stage that writes frames twice", "sed -u p", glint.ChainError, ""),
+                                       ("a stage that hangs at its end", "bash -c 'sed -u 5q; exec >&-; sleep 60'", glint.ChainError, "exit status")):
+        with glint.Loop(OWN.format(stage), timeout_s=0.5) as loop:
+            yield name, fails(loop, kind, message)
+    for name, last, message in (("garbage", "sed -u s/targets/targats/", "no targets"), ("noise", "sed -u s/{/x/", "no targets: Expecting value"),
+                                ("an old answer", "sed -u 's/\"frame\":[1-9][0-9]*/\"frame\":0/'", "another frame than live, frame 1"),
+                                ("an array", "sed -u 's/.*/[]/'", "no targets"), ("half a line", "head -c 99", "exit status"), ("a number", "sed -u 's/.*/5/'", "no targets"),
+                                ("nothing", "true", "exit status"), ("a deep line", "sed -u s/.*/" + "[" * 5000 + "/", "no targets")):
+        with glint.Loop(f"{STAGES} | {last}", timeout_s=5) as loop:
+            yield name, fails(loop, glint.ChainError, message)
+    try:
+        glint.Loop(f"{STAGES} | nowhere")
+        yield "a program that is not there", "starts"
+    except FileNotFoundError as error:
+        yield "a program that is not there", None if error.filename == "nowhere" else error
+    before = len(os.listdir("/proc/self/fd"))
+    with glint.Loop(f"{STAGES} | sleep 0") as loop:
+        for _ in range(20):
+            fails(loop, glint.ChainError, "")
+            loop.restart()
+    yield "20 restarts keep no descriptors", None if len(os.listdir("/proc/self/fd")) <= before + 1 else "some are left"
+    yield from large_frames(folder)
+
+
+def large_frames(folder):
+    """Frames and answers of several pipes' size, and stages that read late: nobody waits for the other."""
+    crowd = [OBJECTS[0]] + [dict(OBJECTS[1], id=f"o{i}", x_m=10 + i % 40, y_m=2 * (i // 40) - 40) for i in range(1500)]
+    with glint.Loop("glint-extract | glint-ideal --sensors corner77-four --sections all | glint-sensor | glint-noise", timeout_s=60) as loop:
+        frame = dict(loop.head, frame=0, time_s=0, ego="ego", objects=crowd)
+        answer = loop.send(frame)
+        size = len(json.dumps(answer))
+        yield "large frames", None if len(answer["objects"]) == 1501 and size > 1 << 20 else f"{size} bytes"
+    with glint.Loop(f"bash -c 'sleep 0.3; cat' | {STAGES} | bash -c 'sleep 0.3; cat'") as loop:
+        yield "late readers", None if loop.step("ego", crowd) else "no targets"
+
+
+class Fake:
+    """Members and methods of other programs, by name."""
+
+    def __init__(self, **members):
+        self.__dict__.update(members)
+
+
+def other_simulators():
+    """By hand. CARLA: a car at (10, 20) whose yaw of 90 degrees points along its y, which is the right: south for us. Its box is 1 m ahead
+    of its place; it drives at 5 m/s and turns to its right by 0.5 rad/s, so that the middle of the box drifts to the west.
+    SUMO: a truck of 8 m with its bumper at (100, 50) drives east, by 90 degrees from north, and changes to the left."""
+    vector = lambda x, y, z: Fake(x=x, y=y, z=z)  # noqa: E731
+    actor = Fake(id=7, type_id="vehicle.some.car", attributes={"base_type": "van"},
+                 bounding_box=Fake(location=vector(1, 0, 0.7), extent=vector(2.5, 1, 0.8)),
+                 get_transform=lambda: Fake(location=vector(10, 20, 0), rotation=Fake(yaw=90)), get_velocity=lambda: vector(0, 5, 0),
+                 get_angular_velocity=lambda: vector(0, 0, math.degrees(0.5)))
+    found = glint.carla_object(actor)
+    expected = {"id": "7", "class": "van", "x_m": 10, "y_m": -21, "yaw_rad": -math.pi / 2, "vx_mps": -0.5, "vy_mps": -5,
+                "yaw_rate_radps": -0.5, "length_m": 5, "width_m": 2, "height_m": 1.6, "travelled_m": 0}
+    yield "CARLA's axes", differences(found, expected)
+    actor.attributes, actor.type_id = {}, "walker.pedestrian.0001"
+    yield "CARLA's walkers", None if glint.carla_object(actor)["class"] == "pedestrian" else "another class"
+    of_sumo = {"getPosition": (100, 50), "getAngle": 90, "getSpeed": 10, "getLateralSpeed": 1, "getLength": 8, "getWidth": 2.5, "getHeight": 3}
+    vehicle = Fake(**{name: lambda _, value=value: value for name, value in of_sumo.items()})
+    expected = {"id": "t", "class": "truck", "x_m": 96, "y_m": 50, "yaw_rad": 0, "vx_mps": 10, "vy_mps": 1, "yaw_rate_radps": 0, "length_m": 8,
+                "width_m": 2.5, "height_m": 3, "travelled_m": 0}
+    yield "SUMO's TraCI", differences(glint.sumo_object(vehicle, "t", "truck"), expected)
+    with glint.Loop(STAGES) as loop:
+        yield "objects of both", None if loop.step("7", [found, dict(expected, x_m=40, y_m=-60)]) is not None else "no targets"
+
+
+def differences(found, expected):
+    same = found.keys() == expected.keys() and all(math.isclose(found[key], value, abs_tol=1e-9) if isinstance(value, (int, float)) else found[key] == value
+                                                   for key, value in expected.items())
+    return None if same else found
 
 
 def main():
@@ -205,9 +335,9 @@ def main():
     faults = 0
     with tempfile.TemporaryDirectory() as folder:
         for checks in (ways(frames, folder), sinks(frames[:8], folder), late_truth(frames, folder), simulator(),
-                       simulator_of_a_broken_radar(folder)):
+                       loops(folder), other_simulators()):
             for name, fault in checks:
-                print(f"{name}: {fault or 'no frame waits'}")
+                print(f"{name}: {fault or 'good'}", flush=True)
                 faults += fault is not None
     sys.exit(1 if faults else 0)
 

@@ -1,0 +1,663 @@
+#!/usr/bin/env python3
+"""scripts/export writes what readers of nuScenes, TruckScenes, KITTI and View-of-Delft take: tests/chain/exports.py BIN_DIR [TEST...]
+
+The readers here are our own, after what those of the sets assert, compute and filter. PCL reads the radar files as well,
+where Debian's pcl-tools is installed.
+"""
+import csv
+import filecmp
+import gzip
+import json
+import math
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.dont_write_bytecode = True
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SCRIPTS = os.path.join(ROOT, "scripts")
+sys.path.insert(0, SCRIPTS)
+import glint  # noqa: E402
+
+ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
+FORMATS = "nuscenes", "truckscenes", "kitti", "vod"
+FIELDS = {"nuscenes": "x y z dyn_prop id rcs vx vy vx_comp vy_comp is_quality_valid ambig_state x_rms y_rms invalid_state pdh0 vx_rms vy_rms",
+          "truckscenes": "x y z vrel_x vrel_y vrel_z rcs"}
+QUALITY = {"snr_db": 20, "rcs_dbsm": 5.5, "range_sd_m": 0.1, "range_rate_sd_mps": 0.05, "azimuth_sd_rad": 0.01, "existence": 0.995,
+           "range_rate_interval_mps": 97.3, "ambiguity_number": 0, "range_rate_over_ground_mps": 2.0, "x_centre_m": 12.25, "x_rear_axle_m": 13.5}
+
+
+def shell(command, folder):
+    return subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=ENVIRONMENT, check=True, capture_output=True, text=True).stdout
+
+
+def export(folder, *words, status=0):
+    done = subprocess.run([os.path.join(SCRIPTS, "export"), *words], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    assert done.returncode == status, (words, done.returncode, done.stderr)
+    assert "Traceback" not in done.stderr, done.stderr
+    return done.stderr
+
+
+def near(found, expected, within=1e-5):
+    assert len(found) == len(expected) and all(abs(a - b) <= within for a, b in zip(found, expected)), (found, expected)
+
+
+def save(folder, name, frames):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+        file.writelines(json.dumps(frame) + "\n" for frame in frames)
+    return name
+
+
+def part(**members):
+    return {"object": "other", "reflector": "rear", "path": "direct", "range_m": 10, "azimuth_rad": 0, "range_rate_mps": 0, "ercs": 1,
+            "time_s": 0, "weight": 1} | members
+
+
+def target(sensor="front", range_m=10, azimuth_rad=0, rate=-3, parts=None, **quality):
+    return {"sensor": sensor, "range_m": range_m, "azimuth_rad": azimuth_rad, "range_rate_mps": rate, "amplitude_db": 10,
+            "contributors": parts or [part()], "quality": QUALITY | quality}
+
+
+def body(name, x=0, y=0, yaw=0, vx=0, vy=0, kind="car", turn=0, size=(4.5, 1.8, 1.5)):
+    return {"id": name, "class": kind, "x_m": x, "y_m": y, "yaw_rad": yaw, "vx_mps": vx, "vy_mps": vy, "yaw_rate_radps": turn,
+            "length_m": size[0], "width_m": size[1], "height_m": size[2], "travelled_m": 0}
+
+
+def frame_of(objects, targets, number=0, sensors=None, **members):
+    """A frame by hand, whose radar looks ahead from the middle of the bumper, 0.4 m over the road (suite.json)."""
+    sensors = sensors or [{}]
+    listed = [{"name": "front", "mount_x_m": 2.25, "mount_y_m": 0, "mount_yaw_rad": 0, "field_of_view_rad": math.pi / 2, "range_max_m": 100,
+               "cell_range_m": 1, "cell_range_rate_mps": 1, "carrier_hz": 77e9} | one for one in sensors]
+    return {"version": 0, "scene": "by-hand", "frame": number, "time_s": 0.1 * number, "interval_s": 0.1, "seed": "1", "ego": "ego",
+            "objects": objects, "sensors": {"suite": "mine", "digest": "0", "list": listed}, "targets": targets} | members
+
+
+def suite_of(folder, frame, mount_z_m=0.4):
+    """The document of the suite of a frame by hand."""
+    with open(os.path.join(folder, "suite.json"), "w", encoding="utf-8") as file:
+        json.dump({"sensors": [one | {"mount_z_m": mount_z_m} for one in frame["sensors"]["list"]]}, file)
+    return "suite.json"
+
+
+# --- readers --------------------------------------------------------------------------------------
+
+
+def read_pcd(path, filtered=True):
+    """As the devkit of nuScenes reads radar files: its assertions on header and length, fields counted from both ends, and its
+    default filter. A list of points, with all fields."""
+    with open(path, "rb") as file:
+        data = file.read()
+    head = data[:data.index(b"DATA")].decode().split("\n")[:-1]
+    begin = data.index(b"\n", data.index(b"DATA")) + 1
+    kind = data[data.index(b"DATA"):begin].decode().split()[1]
+    assert len(head) == 10 and head[0].startswith("#") and head[1].startswith("VERSION") and kind == "binary"
+    sizes, types, counts = ([*line.split(" ")[1:]] for line in head[3:6])
+    width, height = int(head[6].split(" ")[1]), int(head[7].split(" ")[1])
+    assert head[2].split(" ")[1:] == FIELDS["nuscenes"].split() and set(counts) == {"1"} and height == 1 and width > 0
+    assert head[9] == f"POINTS {width}" and [head[i].split(" ")[0] for i in (6, 7, 8)] == ["WIDTH", "HEIGHT", "VIEWPOINT"]
+    code = "<" + "".join({"F4": "f", "I1": "b", "I2": "h"}[kind + size] for kind, size in zip(types, sizes))
+    assert begin + width * struct.calcsize(code) < len(data), "no byte behind the points"
+    points = [struct.unpack_from(code, data, begin + i * struct.calcsize(code)) for i in range(width)]
+    if any(math.isnan(value) for value in points[0]):
+        return []
+    keeps = [one for one in points if one[-4] in (0,) and one[3] in range(8) and one[11] in (3,)]
+    return keeps if filtered else points
+
+
+def read_truckscenes(path):
+    """By the names of fields, as TruckScenes' reader does."""
+    with open(path, "rb") as file:
+        head, data = file.read().split(b"\nDATA binary\n", 1)
+    words = {line.split()[0]: line.split()[1:] for line in head.decode().split("\n")}
+    assert {*FIELDS["truckscenes"].split()} <= {*words["FIELDS"]} and {*words["SIZE"]} == {"4"} and {*words["TYPE"]} == {"F"}
+    assert len(data) == 28 * int(words["POINTS"][0]) and words["WIDTH"] == words["POINTS"]
+    return list(struct.iter_unpack("<7f", data))
+
+
+class Tables:
+    """The tables of nuScenes or TruckScenes as the devkits index them; each token of a row must be one of its table."""
+
+    OF = {"nuscenes": ("v1.0-trainval", "log map"), "truckscenes": ("v1.1-trainval", "ego_motion_cabin ego_motion_chassis weather_annotation")}
+
+    def __init__(self, root, form):
+        self.root, self.form, (version, more) = root, form, self.OF[form]
+        self.names = ("attribute calibrated_sensor category ego_pose instance sample sample_annotation sample_data scene sensor visibility "
+                      + more).split()
+        self.rows, self.version = {}, os.path.join(root, version)
+        for name in self.names:
+            with open(os.path.join(self.version, name + ".json"), encoding="utf-8") as file:
+                self.rows[name] = json.load(file)
+        self.by_token = {name: {row["token"]: row for row in rows} for name, rows in self.rows.items()}
+        for name, rows in self.rows.items():
+            assert len(self.by_token[name]) == len(rows), f"{name}: a token twice"
+        for row in self.rows["sample"]:
+            row |= {"data": {}, "anns": []}
+        for row in self.rows["sample_data"]:
+            row["channel"] = self.of("sensor", self.of("calibrated_sensor", row["calibrated_sensor_token"])["sensor_token"])["channel"]
+            assert os.path.isfile(os.path.join(root, row["filename"])) and row["filename"].endswith(".pcd")
+            if row["is_key_frame"]:
+                self.of("sample", row["sample_token"])["data"][row["channel"]] = row["token"]
+        for row in self.rows["sample_annotation"]:
+            row["category_name"] = self.of("category", self.of("instance", row["instance_token"])["category_token"])["name"]
+            self.of("sample", row["sample_token"])["anns"].append(row["token"])
+        if form == "nuscenes":
+            maps = {log: row["token"] for row in self.rows["map"] for log in row["log_tokens"]}
+            assert all(row["token"] in maps for row in self.rows["log"])
+            assert all(os.path.isfile(os.path.join(root, row["filename"])) for row in self.rows["map"])
+
+    def of(self, table, token):
+        return self.by_token[table][token]
+
+    def resolve(self):
+        for name, rows in self.rows.items():
+            for row in rows:
+                for key, value in row.items():
+                    table = {"first_sample": "sample", "last_sample": "sample", "first_annotation": "sample_annotation",
+                             "last_annotation": "sample_annotation"}.get(key[:-6], key[:-6])
+                    if key.endswith("_token") and not (key == "log_token" and self.form == "truckscenes" and value == ""):
+                        assert value in self.by_token[table] or key == "visibility_token" and value == "", (name, key, value)
+                    for one in value if key.endswith("_tokens") else ():
+                        assert one in self.by_token[key[:-7]], (name, key, one)
+        for name in ("sample", "sample_data", "sample_annotation"):
+            for row in self.rows[name]:
+                after = self.by_token[name].get(row["next"])
+                assert (row["next"] == "") == (after is None) and (after is None or after["prev"] == row["token"])
+                if after and name != "sample_annotation":
+                    assert after["timestamp"] > row["timestamp"]
+        for row in self.rows["scene"]:
+            walked, at = [], row["first_sample_token"]
+            while at:
+                walked.append(at)
+                at = self.of("sample", at)["next"]
+            assert walked[-1] == row["last_sample_token"] and len(walked) == row["nbr_samples"]
+        for row in self.rows["instance"]:
+            walked, at = [], row["first_annotation_token"]
+            while at:
+                walked.append(at)
+                at = self.of("sample_annotation", at)["next"]
+            assert walked[-1] == row["last_annotation_token"] and len(walked) == row["nbr_annotations"]
+
+    def points(self, data):
+        path = os.path.join(self.root, data["filename"])
+        return read_pcd(path, filtered=False) if self.form == "nuscenes" else read_truckscenes(path)
+
+    def to_world(self, data, point):
+        """By the mounting and the ego's pose, as quaternions about z."""
+        for row in (self.of("calibrated_sensor", data["calibrated_sensor_token"]), self.of("ego_pose", data["ego_pose_token"])):
+            w, i, j, k = row["rotation"]
+            assert i == j == 0 and abs(w * w + k * k - 1) < 1e-8
+            c, s = w * w - k * k, 2 * w * k
+            x, y, z = row["translation"]
+            point = (c * point[0] - s * point[1] + x, s * point[0] + c * point[1] + y, point[2] + z)
+        return point
+
+
+def in_box(row, point, margin=0.0):
+    w, _, _, k = row["rotation"]
+    dx, dy, dz = (a - b for a, b in zip(point, row["translation"]))
+    c, s = w * w - k * k, 2 * w * k
+    width, length, height = row["size"]
+    return (abs(c * dx + s * dy) <= length / 2 + margin and abs(c * dy - s * dx) <= width / 2 + margin and abs(dz) <= height / 2 + margin)
+
+
+def numbers(text):
+    return [float(word) for word in text.split()]
+
+
+def read_kitti(root, name, form="kitti"):
+    """Points, labels by their cells, and the boxes in the sensor's axes: x, y, z of the middle, length, width, height, heading, as
+    readers of KITTI compute them from the lines of the calibration."""
+    beside = root if form == "kitti" else os.path.join(root, "..", "lidar")
+    with open(f"{root}/training/velodyne/{name}.bin", "rb") as file:
+        points = list(struct.iter_unpack("<7f", file.read()))
+    with open(f"{root}/training/calib/{name}.txt", encoding="utf-8") as file:
+        lines = [numbers(line.partition(":")[2]) for line in file]
+    p2, rectified, (a, b, c, x, d, e, f, y, g, h, i, z) = lines[2], lines[4], lines[5]
+    assert len(p2) == 12 and rectified == [1, 0, 0, 0, 1, 0, 0, 0, 1]
+    labels, boxes = [], []
+    with open(f"{beside}/training/label_2/{name}.txt", encoding="utf-8") as file:
+        for line in file:
+            cells = line.split()
+            assert len(cells) == (15 if form == "kitti" else 16)
+            labels.append([cells[0], *map(float, cells[1:])])
+            height, width, length, px, py, pz, turn = labels[-1][8:15]
+            px, py, pz = px - x, py - y, pz - z  # the inverse of a rotation is its transpose
+            boxes.append((a * px + d * py + g * pz, b * px + e * py + h * pz, c * px + f * py + i * pz + height / 2, length, width, height,
+                          -(math.pi / 2 + turn)))
+    return points, labels, boxes, p2
+
+
+def read_pose(root, name):
+    """The camera in the world, as View-of-Delft's reader takes it."""
+    with open(f"{root}/training/pose/{name}.json", encoding="utf-8") as file:
+        lines = [json.loads(line) for line in file]
+    assert lines[0]["odomToCamera"] == lines[1]["mapToCamera"] == lines[2]["UTMToCamera"]
+    values = lines[0]["odomToCamera"]
+    return [values[i:i + 4] for i in range(0, 16, 4)]
+
+
+# --- numbers worked out by hand -------------------------------------------------------------------
+
+
+def by_hand(folder, frames, form, mount_z_m=0.4):
+    """The exported folder of frames by hand."""
+    out = f"{form}-{time.monotonic_ns()}"
+    export(folder, form, "--out", out, "--suite", suite_of(folder, frames[0], mount_z_m), save(folder, "hand.jsonl", frames))
+    return os.path.join(folder, out)
+
+
+def an_approaching_car(folder, mirror=1):
+    """A car 20 m ahead and 5 m to the left comes at 10 m/s; the ego drives at 20. Its detection is at 15 m ahead and, mirrored
+    or not, 5 m to the side: r^2 = 250, and the rate is -30 x 15/r = -28.46; over ground it is -9.487. Along the line of sight
+    vx = -30 x 15 x 15/250 = -27, vy = -9, compensated -9 and -3."""
+    r, angle = math.sqrt(250), mirror * math.atan2(5, 15)
+    objects = [body("ego", vx=20), body("other", x=19.5, y=mirror * 5, yaw=math.pi, vx=-10)]
+    targets = [target(range_m=r, azimuth_rad=angle, rate=-450 / r, range_rate_over_ground_mps=-150 / r)]
+    frames = [frame_of(objects, targets)]
+    for form in ("nuscenes", "truckscenes"):
+        tables = Tables(by_hand(folder, frames, form), form)
+        point, = tables.points(tables.rows["sample_data"][0])
+        if form == "nuscenes":
+            # Deviations along and across are 0.1 and 0.158 m, 0.05 and 0.285 m/s. In x: 0.107 m (code 13), 0.102 m/s (12);
+            # in y: 0.153 m (14), 0.270 m/s (16).
+            near(point, (15, mirror * 5, 0, 2, 0, 5.5, -27, mirror * -9, -9, mirror * -3, 1, 3, 13, 14, 0, 1, 12, 16))
+        else:
+            near(point, (15, mirror * 5, 0, -27, mirror * -9, 0, 5.5))
+        box, = tables.rows["sample_annotation"]
+        near(box["translation"], (19.5, mirror * 5, 0.75))
+        near(box["size"], (1.8, 4.5, 1.5))
+        near(box["rotation"], (0, 0, 0, 1))
+        assert box["category_name"] == "vehicle.car" and tables.of("attribute", box["attribute_tokens"][0])["name"] == "vehicle.moving"
+        # The rear axle is 1.25 m behind the middle, and the radar 3.5 m ahead of it.
+        near(tables.rows["calibrated_sensor"][0]["translation"], (3.5, 0, 0.4))
+        near(tables.rows["ego_pose"][0]["translation"], (-1.25, 0, 0))
+        near(tables.to_world(tables.rows["sample_data"][0], point), (17.25, mirror * 5, 0.4))
+    for form, root in (("kitti", "front"), ("vod", "front/radar")):
+        place, name = os.path.join(by_hand(folder, frames, form), root), "000000" if form == "kitti" else "00000"
+        points, labels, boxes, p2 = read_kitti(place, name, form)
+        near(points[0], (15, mirror * 5, 0, 5.5, -28.460499, -9.486833, 0))
+        # In the camera's axes the box is 5 m to the right of the mirrored, its bottom 0.4 m down, 17.25 m ahead; it faces us: ry = pi/2.
+        near(labels[0][8:15], (1.5, 1.8, 4.5, mirror * -5, 0.4, 17.25, math.pi / 2))
+        near(boxes[0][:6], (17.25, mirror * 5, 0.35, 4.5, 1.8, 1.5))
+        near([math.cos(boxes[0][6]), math.sin(boxes[0][6])], (-1, 0))
+        near([labels[0][3]], [math.pi / 2 - math.atan2(mirror * -5, 17.25)])
+        # A camera of 90 degrees has 968 pixels for a slope of 1: the nearest corners are 15 m ahead, 4.1 and 5.9 m to the side.
+        near([p2[0], p2[2], p2[6]], (968, 968, 608))
+        left, right = 968 - 968 * 5.9 / 15, 968 - 968 * 4.1 / 19.5
+        near(labels[0][4:8], (left, 608 - 968 * 1.1 / 15, right, 608 + 968 * 0.4 / 15) if mirror == 1 else
+             (1936 - right, 608 - 968 * 1.1 / 15, 1936 - left, 608 + 968 * 0.4 / 15), 1e-4)
+        assert labels[0][0] == "Car" and labels[0][1:3] == [0, 3]
+        near(sum(read_pose(place, name), []), (0, 0, 1, 2.25, -1, 0, 0, 0, 0, -1, 0, 0.4, 0, 0, 0, 1))
+
+
+def a_mirrored_scene_mirrors(folder):
+    an_approaching_car(folder, mirror=-1)
+
+
+def a_turning_ego(folder):
+    """The ego faces north at (100, 50), drives at 10 m/s and turns left at 0.5 rad/s. Its radar sits 2.25 m ahead and 1 m to the
+    left, and looks to the left: it moves at 9.5 m/s to the north and 1.125 to the west. It sees a post 8 m to the west at the
+    rate -1.125, which stands, and a cyclist beside it who rides south at 4 m/s across the line of sight."""
+    sensor = {"name": "side", "mount_y_m": 1, "mount_yaw_rad": math.pi / 2, "field_of_view_rad": 1.0}
+    objects = [body("ego", 100, 50, math.pi / 2, vy=10, turn=0.5), body("post", 90.95, 52.25, kind="post", size=(0.1, 0.1, 1.0)),
+               body("rider", 90, 53, -math.pi / 2, vy=-4, kind="bicycle", size=(1.8, 0.6, 1.7))]
+    targets = [target("side", 8, 0, -1.125, [part(object="post")], range_rate_over_ground_mps=0),
+               target("side", 9, math.atan2(-0.75, 9), -1.1, [part(object="rider")], range_rate_over_ground_mps=0.3)]
+    frames = [frame_of(objects, targets, sensors=[sensor], origin_x_m=1000, origin_y_m=-500)]
+    tables = Tables(by_hand(folder, frames, "nuscenes"), "nuscenes")
+    data = tables.rows["sample_data"][0]
+    post, rider = tables.points(data)
+    near(post[:10], (8, 0, 0, 1, 0, 5.5, -1.125, 0, 0, 0))
+    assert rider[3] == 1 and rider[4] == 1, "a rate over ground below 0.5 m/s stands"
+    near(tables.to_world(data, post), (1091, -447.75, 0.4))
+    near(tables.rows["ego_pose"][0]["translation"], (1100, -451.25, 0))
+    near(tables.rows["ego_pose"][0]["rotation"], (math.sqrt(0.5), 0, 0, math.sqrt(0.5)))
+    rows = {row["category_name"]: row for row in tables.rows["sample_annotation"]}
+    near(rows["static_object.post"]["translation"], (1090.95, -447.75, 0.5))
+    assert rows["static_object.post"]["num_radar_pts"] == 1 and rows["static_object.post"]["attribute_tokens"] == []
+    near(rows["vehicle.bicycle"]["rotation"], (math.sqrt(0.5), 0, 0, -math.sqrt(0.5)))
+    points, labels, boxes, _ = read_kitti(os.path.join(by_hand(folder, frames, "kitti"), "side"), "000000")
+    near(points[0], (8, 0, 0, 5.5, -1.125, 0, 0))
+    # West is ahead of the radar, south to its left: the cyclist is 9 m ahead, 0.75 m to the right, and faces left.
+    near([*labels[1][8:14], abs(labels[1][14])], (1.7, 0.6, 1.8, 0.75, 0.4, 9, math.pi))
+    near(boxes[1][:6], (9, -0.75, 0.45, 1.8, 0.6, 1.7))
+    near([math.sin(boxes[1][6])], [1])
+    assert [one[0] for one in labels] == ["Misc", "Cyclist"]
+
+
+def codes_are_those_of_the_ars408(folder):
+    """Deviations in m beside their codes, false alarms in per cent beside theirs, folded rates, and what moves how."""
+    table = {0.004: 0, 0.0055: 1, 0.007: 2, 0.0095: 3, 0.012: 4, 0.048: 9, 0.05: 10, 0.13: 13, 0.47: 18, 1.0: 21, 2.1: 24, 9.9: 30, 10.5: 31, 80: 31}
+    alarms = {1: 1, 0.76: 1, 0.74: 2, 0.4: 3, 0.2: 4, 0.05: 5, 0.005: 6, 0.0005: 7, 0: 7}
+    targets = [target(range_sd_m=sd, azimuth_sd_rad=sd / 10, range_rate_sd_mps=sd, rate=0) for sd in table]
+    targets += [target(existence=one) for one in alarms]
+    targets += [target(ambiguity_number=one) for one in (-1, 0, 2)]
+    targets += [target(range_rate_over_ground_mps=one) for one in (-0.6, -0.4, 0.4, 0.6)]
+    tables = Tables(by_hand(folder, [frame_of([body("ego"), body("other", x=10)], targets)], "nuscenes"), "nuscenes")
+    points = tables.points(tables.rows["sample_data"][0])
+    assert [(one[12], one[13], one[16]) for one in points[:len(table)]] == [(code,) * 3 for code in table.values()]
+    points = points[len(table):]
+    assert [one[15] for one in points[:len(alarms)]] == [*alarms.values()]
+    points = points[len(alarms):]
+    assert [one[11] for one in points[:3]] == [1, 3, 1] and [one[3] for one in points[3:]] == [2, 1, 1, 0]
+
+
+# --- lists of the chain ---------------------------------------------------------------------------
+
+
+LISTS = {  # a list with everything that a label may say
+    "ghosts": "glint-traffic walled-road | glint-extract | glint-ideal --sensors lrr77-full --sections quality,visibility",
+    "folded": "glint-traffic wet-road --sections quality | glint-extract | glint-ideal --sensors lrr77-full --effects=-interference,-rain,-fog",
+    "merged": "glint-traffic two-vehicles | glint-extract | glint-ideal --sensors srr24-pair --sections quality,visibility",
+    "clutter": "glint-traffic gravel | glint-extract | glint-ideal --sensors radarscenes77-full --sections quality",
+    "moving": "glint-traffic wheels-and-limbs | glint-extract | glint-ideal --sensors radarscenes77-full --sections quality,visibility",
+    "alarms": "glint-traffic open-road | glint-extract | glint-ideal --sensors lrr77-full --sections quality"}
+
+
+def lists_of(folder):
+    """The lists, and all of them in one stream, as scenes of one suite each."""
+    for name, text in LISTS.items():
+        if not os.path.exists(os.path.join(folder, name + ".jsonl")):
+            shell(f"{text} | glint-sensor | glint-noise > {name}.jsonl", folder)
+    return [name + ".jsonl" for name in LISTS]
+
+
+def scans(frames):
+    """Each scan in the order of the export: frame, sensor, targets."""
+    for frame in frames:
+        for sensor in frame["sensors"]["list"]:
+            if sensor.get("measured", True):
+                yield frame, sensor, [one for one in frame["targets"] if one["sensor"] == sensor["name"]]
+
+
+def read_table(root, name):
+    with open(os.path.join(root, f"glint-{name}.csv"), encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def labels_survive(folder):
+    """Every contributor of every target, of all lists and in all formats, stands beside its point; of every path, merged or not."""
+    paths, merged = set(), 0
+    files = lists_of(folder)
+    for form in FORMATS:
+        for name in files:
+            root = os.path.join(folder, f"labels-{form}-{name}")
+            export(folder, form, "--out", root, name)
+            labels, rows = {}, read_table(root, "scans")
+            for row in read_table(root, "labels"):
+                labels.setdefault((row["path"], int(row["point"])), []).append(row)
+            for row, (frame, sensor, targets) in zip(rows, scans(glint.frames(os.path.join(folder, name))), strict=True):
+                assert (row["scene"], int(row["frame"]), row["sensor"], int(row["points"])) == (frame["scene"], frame["frame"], sensor["name"], len(targets))
+                path = os.path.join(root, row["path"])
+                points = read_pcd(path, False) if form == "nuscenes" else read_truckscenes(path) if form == "truckscenes" else \
+                    list(struct.iter_unpack("<7f", open(path, "rb").read()))
+                classes = {one["id"]: one["class"] for one in frame["objects"]}
+                for i, (point, one) in enumerate(zip(points, targets, strict=True)):
+                    x, y = one["range_m"] * math.cos(one["azimuth_rad"]), one["range_m"] * math.sin(one["azimuth_rad"])
+                    near(point[:2], (x, y), 1e-4)
+                    near([point[{"nuscenes": 5, "truckscenes": 6}.get(form, 3)]], [one["quality"]["rcs_dbsm"]], 1e-4)
+                    found = [(it["object"], it["class"], it["reflector"], it["echo"], it["mirror"], it["number"], float(it["weight"]))
+                             for it in labels.pop((row["path"], i))]
+                    assert found == [(it["object"], classes.get(it["object"], ""), it["reflector"], it["path"], it.get("mirror", ""),
+                                      str(it.get("number", "")), it["weight"]) for it in one["contributors"]], found
+                    paths.update(it["path"] for it in one["contributors"])
+                    merged += len({it["object"] for it in one["contributors"]}) > 1
+            assert not labels
+            shutil.rmtree(root)
+    assert paths == {"direct", "wall_object", "object_wall", "wall_object_wall", "wheel", "limb", "clutter", "false_alarm"}, paths
+    assert merged > 100, merged
+
+
+def the_default_filter_keeps_the_valid_ones(folder):
+    """Those whose range rate is not folded; the others are there without the filter."""
+    lists_of(folder)
+    kept = folded = empty = 0
+    for name in ("folded.jsonl", "ghosts.jsonl"):
+        root = os.path.join(folder, "filtered-" + name)
+        export(folder, "nuscenes", "--out", root, name)
+        for row, (_, _, targets) in zip(read_table(root, "scans"), scans(glint.frames(os.path.join(folder, name))), strict=True):
+            valid = [i for i, one in enumerate(targets) if one["quality"]["ambiguity_number"] == 0]
+            assert [one[4] for one in read_pcd(os.path.join(root, row["path"]))] == valid
+            kept, folded, empty = kept + len(valid), folded + len(targets) - len(valid), empty + (not targets)
+    assert kept > 500 and folded > 50 and empty > 5, (kept, folded, empty)
+
+
+def every_token_resolves(folder):
+    for form in ("nuscenes", "truckscenes"):
+        root = os.path.join(folder, form)
+        export(folder, form, "--out", root, *lists_of(folder))
+        tables = Tables(root, form)
+        tables.resolve()
+        assert len(tables.rows["scene"]) == len(LISTS) and len(tables.rows["sample"]) > 300
+        with open(os.path.join(tables.version, "splits.json"), encoding="utf-8") as file:
+            assert json.load(file) == {"train": [row["name"] for row in tables.rows["scene"]]}
+        # Scenes do not overlap in time, as TruckScenes' reader finds poses by it.
+        spans = sorted([min(times), max(times)] for times in ([data["timestamp"] for data in tables.rows["sample_data"] if tables.of(
+            "sample", data["sample_token"])["scene_token"] == scene["token"]] for scene in tables.rows["scene"]))
+        assert all(one[1] < other[0] for one, other in zip(spans, spans[1:]))
+        poses = {row["timestamp"]: row for row in tables.rows["ego_pose"]}
+        for data in tables.rows["sample_data"]:
+            assert poses[data["timestamp"]]["translation"] == tables.of("ego_pose", data["ego_pose_token"])["translation"]
+
+
+def points_in_boxes_are_counted(folder):
+    """num_radar_pts is what a reader counts, over all sensors and without a filter."""
+    root = os.path.join(folder, "counted")
+    export(folder, "nuscenes", "--out", root, *lists_of(folder))
+    tables, whole, seen = Tables(root, "nuscenes"), 0, 0
+    for sample in tables.rows["sample"]:
+        places = [tables.to_world(data, point) for data in (tables.of("sample_data", one) for one in sample["data"].values())
+                  for point in tables.points(data)]
+        for row in (tables.of("sample_annotation", one) for one in sample["anns"]):
+            sure, possible = (sum(in_box(row, place, margin) for place in places) for margin in (-1e-4, 1e-4))
+            assert sure <= row["num_radar_pts"] <= possible
+            whole, seen = whole + row["num_radar_pts"], seen + (row["visibility_token"] != "")
+    assert whole > 1000 and seen > 1000, (whole, seen)
+
+
+def boxes_lie_on_their_detections(folder):
+    """Lists of exact echoes, of radars with a latency, of a car that turns: each lies in the box of its object."""
+    scene = {"origin": "For tests.", "ego": "ego", "rate_hz": 10, "duration_s": 3, "objects": [
+        {"id": "ego", "class": "car", "x_m": 0, "y_m": 0, "speed_mps": 12, "segments": [{"duration_s": 3, "yaw_rate_radps": 0.3}]},
+        {"id": "near", "class": "car", "x_m": 22, "y_m": 8, "speed_mps": 9, "yaw_rad": 0.4, "segments": [{"duration_s": 3, "yaw_rate_radps": 0.5}]},
+        {"id": "far", "class": "truck", "x_m": 40, "y_m": 12, "yaw_rad": 2.0, "speed_mps": 6}]}
+    save(folder, "turning.json", [scene])
+    with open(ROOT + "/data/sensors/corner77-every-frame.json", encoding="utf-8") as file:
+        suite = json.load(file)  # without heights, so that ranges are those in the plane
+    for sensor in suite["sensors"]:
+        sensor |= {"latency_s": 0.05, "antenna_table": ROOT + "/data/antennas/corner77.csv"}
+    save(folder, "late.json", [suite])
+    shell("glint-traffic ./turning.json | glint-extract | glint-ideal --sensors ./late.json --sections quality | glint-sensor-perfect"
+          " | glint-noise-none > exact.jsonl", folder)
+    frames, count = list(glint.frames(os.path.join(folder, "exact.jsonl"))), 0
+    assert all(one["age_s"] == 0.05 for frame in frames for one in frame["sensors"]["list"])
+    for form in FORMATS:
+        root = os.path.join(folder, "exact-" + form)
+        export(folder, form, "--out", root, "--suite", "late.json", "exact.jsonl")
+        names = {row["box"]: row["object"] for row in read_table(root, "boxes")}
+        tables = Tables(root, form) if form in Tables.OF else None
+        data = {row["filename"]: row for row in tables.rows["sample_data"]} if tables else {}
+        for row, (_, _, targets) in zip(read_table(root, "scans"), scans(frames), strict=True):
+            if tables:
+                rows = {names[one["instance_token"]]: one for one in map(tables.by_token["sample_annotation"].get, tables.of(
+                    "sample", data[row["path"]]["sample_token"])["anns"])}
+                places = [tables.to_world(data[row["path"]], point) for point in tables.points(data[row["path"]])]
+            else:
+                place, name = row["path"].split("/training/velodyne/")
+                points, _, boxes, _ = read_kitti(os.path.join(root, place), name[:-4], form)
+                rows = {names[f"{place}/{name[:-4]}:{i + 1}"]: {"translation": box[:3], "size": (box[4], box[3], box[5]), "rotation": (
+                    math.cos(box[6] / 2), 0, 0, math.sin(box[6] / 2))} for i, box in enumerate(boxes)}
+                places = [point[:3] for point in points]
+            for one, place in zip(targets, places, strict=True):
+                label = one["contributors"][0]
+                if label["path"] == "direct":
+                    assert in_box(rows[label["object"]], place, 1e-4), (form, row["path"], label)
+                    count += 1
+    assert count > 500, count
+
+
+def lines_tables_and_sets_give_the_same_bytes(folder):
+    """So does another run; only the split of a set has another name."""
+    shell("glint-traffic cut-in | glint-extract | glint-ideal --sensors radarscenes77-full --sections quality,visibility | glint-sensor"
+          " | glint-noise | head -50 > list.jsonl; gzip -k list.jsonl; glint-tables tables list.jsonl; glint-tables --plain --part 3 plain list.jsonl", folder)
+    for form in FORMATS:
+        for i, name in enumerate(("list.jsonl", "list.jsonl", "list.jsonl.gz", "tables", "plain")):
+            export(folder, form, "--out", f"{form}-{i}", name)
+        for i in range(1, 5):
+            same(os.path.join(folder, f"{form}-0"), os.path.join(folder, f"{form}-{i}"))
+
+
+def same(one, other):
+    found = filecmp.dircmp(one, other)
+    stack = [found]
+    while stack:
+        found = stack.pop()
+        assert not (found.left_only or found.right_only or found.funny_files), (one, other, found.left_only, found.right_only)
+        _, differ, errors = filecmp.cmpfiles(found.left, found.right, found.common_files, shallow=False)
+        assert not differ and not errors, (one, other, differ)
+        stack += found.subdirs.values()
+
+
+def a_plan_names_exports(folder):
+    """The set is the same without them; its splits are those of the exports, from lines and from tables."""
+    plan = {"name": "set", "origin": "For tests.", "sources": [{"random": "medium", "seconds": 1, "scenes": [0, 6], "rate_hz": 10}],
+            "chain": "glint-extract | glint-ideal --sensors {suite} --sections quality | glint-sensor | glint-noise", "suites": ["corner77-every-frame"],
+            "frames_per_shard": 20, "splits": {"by": "scene", "shares": {"train": 0.5, "validation": 0.25, "test": 0.25}}}
+    for name, members in (("lines", {}), ("tables", {"tables": True, "lines": "none"})):
+        save(folder, name + ".json", [plan | members | {"exports": ["nuscenes", "vod"]}])
+        shell(f"{SCRIPTS}/dataset {name}.json --out {name} && make -s -C {name} && {SCRIPTS}/check-set {name}", folder)
+    same(f"{folder}/lines/exports", f"{folder}/tables/exports")
+    with open(f"{folder}/lines/exports/nuscenes/v1.0-trainval/splits.json", encoding="utf-8") as file:
+        assert {split: len(scenes) for split, scenes in json.load(file).items()} == {"train": 3, "val": 1, "test": 2}
+    sets = f"{folder}/lines/exports/vod/corner_left/radar/ImageSets"
+    assert {name: len(open(os.path.join(sets, name)).read().split()) for name in os.listdir(sets)} == {"train.txt": 30, "val.txt": 10, "test.txt": 20}
+    export(folder, "nuscenes", "--out", "again", "lines")
+    same(os.path.join(folder, "again"), f"{folder}/lines/exports/nuscenes")
+    shutil.rmtree(f"{folder}/lines/exports/vod")
+    shell("make -s -C lines", folder)
+    same(f"{folder}/lines/exports", f"{folder}/tables/exports")
+    for wrong, members in (("need the quality", {"chain": plan["chain"].replace(" --sections quality", "")}),
+                           ("are made of tables of CSV", {"compression": "zstd"}), ("'sim'; expected one of", {"exports": ["sim"]})):
+        save(folder, "wrong.json", [plan | {"exports": ["kitti"]} | members])
+        done = subprocess.run([SCRIPTS + "/dataset", "wrong.json", "--out", "wrong"], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+        assert done.returncode == 65 and wrong in done.stderr, done.stderr
+
+
+def cycles_make_sweeps(folder):
+    """Of two radars one measures in every second frame: these are samples, and other scans sweeps of the next sample."""
+    sensors = [{"name": "front"}, {"name": "rear", "mount_yaw_rad": math.pi}]
+    objects = [body("ego", vx=1), body("other", x=12)]
+    frames = [frame_of(objects, [target()], i, [sensors[0], sensors[1] | {"measured": i % 2 == 1}]) for i in range(5)]
+    tables = Tables(by_hand(folder, frames, "nuscenes"), "nuscenes")
+    tables.resolve()
+    front = [row for row in tables.rows["sample_data"] if row["channel"] == "RADAR_FRONT"]
+    first, second = (row["token"] for row in tables.rows["sample"])
+    assert [(row["is_key_frame"], row["sample_token"]) for row in front] == [(False, first), (True, first), (False, second), (True, second), (False, second)]
+    assert all(len(row["data"]) == 2 for row in tables.rows["sample"])
+    never = [frame_of(objects, [], i, [sensors[0] | {"measured": i % 2 == 0}, sensors[1] | {"measured": i % 2 == 1}]) for i in range(4)]
+    said = export(folder, "nuscenes", "--out", "never", "--suite", suite_of(folder, never[0]), save(folder, "never.jsonl", never), status=65)
+    assert "no frame in which all sensors have a scan" in said
+
+
+# --- refusals -------------------------------------------------------------------------------------
+
+
+def what_formats_cannot_hold_is_refused(folder):
+    """With the place, the value and what is expected, and nothing is left behind."""
+    good = frame_of([body("ego"), body("other", x=12)], [target()])
+    suite = suite_of(folder, good)
+
+    def changed(**members):
+        return [good | members]
+    layout = json.load(open(ROOT + "/data/exports/kitti.json", encoding="utf-8")) | {"digits": 1}
+    save(folder, "short.json", [layout])
+    no_quality = [{key: value for key, value in target().items() if key != "quality"}]
+    two = frame_of(good["objects"], [], sensors=[{"name": "a-b"}, {"name": "a_b"}])
+    cases = [("nuscenes", changed(targets=no_quality), "hand.jsonl:1: targets[0].quality: missing; give glint-ideal --sections quality"),
+             ("kitti", changed(objects=[body("ego"), body("other", size=(4, 2, 0))]), "objects[1].height_m: 0; expected a number in [0.001, 1e+06]; glint-extract"),
+             ("vod", [{key: value for key, value in good.items() if key != "targets"}], "targets: missing; expected lists"),
+             ("vod", [{key: value for key, value in good.items() if key != "objects"}], "objects: missing; leave out --sections -objects"),
+             ("nuscenes", changed(targets=[target()] * 32769), "32769 targets of front at 1000000000000000 us; expected at most 32768"),
+             ("nuscenes", [good, good | {"frame": 1, "time_s": 9.1e9}], "before 9007199254740992"),
+             ("kitti", changed(targets=[target(rcs_dbsm=2e9)]), "expected an object of numbers"),
+             ("nuscenes", [good, good], "frame 0 of by-hand at 0.0 s; expected each scene once, with all of its frames in their order"),
+             ("nuscenes", [good, good | {"scene": "b"}, good | {"frame": 1, "time_s": 1}], "frame 1 of by-hand at 1 s; expected each scene once"),
+             ("kitti", [good, good | {"seed": "2"}], "expected each scene once"),
+             ("nuscenes", [two], "two would be A_B"),
+             ("./short.json", [good | {"frame": i, "time_s": i} for i in range(11)], "hand.jsonl:11: scan 10 of front; expected numbers of 1 digits")]
+    for form, frames, wrong in cases:
+        words = ["--suite", suite_of(folder, frames[0])] if frames == [two] else ["--suite", suite]
+        said = export(folder, form, "--out", "out", *words, save(folder, "hand.jsonl", frames), status=65)
+        assert wrong in said and said.startswith("export: ") and said.count("\n") == 1, (wrong, said)
+        assert not [name for name in os.listdir(folder) if name.startswith("out")], os.listdir(folder)
+        suite_of(folder, good)
+    save(folder, "hand.jsonl", [good])
+    for words, status, wrong in ((["nuscenes", "--out", "out", "hand.jsonl"], 66, "frames lack the heights of sensors; name their document by --suite"),
+                                 (["nuscenes", "--out", "out", "--suite", ROOT + "/data/sensors/srr24-pair.json", "hand.jsonl"], 65, "has no such sensor at this place"),
+                                 (["nuscenes", "--out", ".", "--suite", suite, "hand.jsonl"], 73, "is there already"),
+                                 (["nuscenes", "--out", "no/out", "--suite", suite, "hand.jsonl"], 66, "No such file or directory"),
+                                 (["nuscenes", "--out", "out", "nowhere.jsonl"], 66, "nowhere.jsonl"), (["mine", "--out", "out", "hand.jsonl"], 66, "mine.json"),
+                                 (["kitti", "hand.jsonl"], 64, "--out"), (["kitti", "--out", "out"], 64, "inputs"), (["--sim"], 64, "expected FORMAT")):
+        assert wrong in export(folder, *words, status=status), (words, wrong)
+    with open(os.path.join(folder, "cut.jsonl.gz"), "wb") as file:
+        file.write(gzip.compress(json.dumps(good).encode() + b"\n")[:-20])
+    export(folder, "kitti", "--out", "out", "--suite", suite, "cut.jsonl.gz", status=65)
+    assert not [name for name in os.listdir(folder) if name.startswith("out")], os.listdir(folder)
+
+
+def killed_runs_leave_no_folder_of_the_name(folder):
+    """Killed at any time; the next run removes what is left of them."""
+    shell("glint-traffic cut-in | glint-extract | glint-ideal --sensors radarscenes77-full --sections quality | glint-sensor | glint-noise > list.jsonl", folder)
+    begin = time.monotonic()
+    export(folder, "nuscenes", "--out", "whole", "list.jsonl")
+    took_s = time.monotonic() - begin
+    for i in range(8):
+        process = subprocess.Popen([SCRIPTS + "/export", "nuscenes", "--out", "killed", "list.jsonl"], cwd=folder, env=ENVIRONMENT)
+        time.sleep(took_s * (i + 1) / 10)
+        process.send_signal(signal.SIGKILL)
+        if process.wait() == 0:
+            shutil.rmtree(os.path.join(folder, "killed"))
+        assert not os.path.exists(os.path.join(folder, "killed"))
+    export(folder, "nuscenes", "--out", "killed", "list.jsonl")
+    same(os.path.join(folder, "whole"), os.path.join(folder, "killed"))
+    assert sorted(os.listdir(folder)) == ["killed", "list.jsonl", "whole"], os.listdir(folder)
+
+
+def pcl_reads_the_radar_files(folder):
+    if not shutil.which("pcl_convert_pcd_ascii_binary"):
+        print("skipped  pcl_reads_the_radar_files: pcl-tools is not installed")
+        return
+    lists_of(folder)
+    for form in FIELDS:
+        root = os.path.join(folder, "pcl-" + form)
+        export(folder, form, "--out", root, "clutter.jsonl")
+        row = max(read_table(root, "scans"), key=lambda one: int(one["points"]))
+        subprocess.run(["pcl_convert_pcd_ascii_binary", os.path.join(root, row["path"]), "text.pcd", "0"], cwd=folder, check=True, capture_output=True)
+        with open(os.path.join(folder, "text.pcd"), encoding="utf-8") as file:
+            lines = file.read().split("\n")
+        assert lines[2] == "FIELDS " + FIELDS[form]
+        points = read_pcd(os.path.join(root, row["path"]), False) if form == "nuscenes" else read_truckscenes(os.path.join(root, row["path"]))
+        for line, point in zip(lines[11:], points):
+            assert all(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-5) for a, b in zip(numbers(line), point, strict=True)), (line, point)
+        assert len(points) == int(row["points"]) > 1
+
+
+def main():
+    chosen = sys.argv[2:]
+    for test in (an_approaching_car, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
+                 every_token_resolves, points_in_boxes_are_counted, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
+                 lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_formats_cannot_hold_is_refused,
+                 killed_runs_leave_no_folder_of_the_name, pcl_reads_the_radar_files):
+        if chosen and test.__name__ not in chosen:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            test(folder)
+        print("ok      ", test.__name__.replace("_", " "), flush=True)
+
+
+main()
