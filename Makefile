@@ -296,11 +296,13 @@ install: all man
 	    install -D -m 644 $$page $(doc)/$$page || exit 1; done
 	ln -sfn ../../glint $(doc)/data
 	ln -sfn ../../glint/pipelines ../../glint/schemas $(doc)
-	install -d $(doc)/scripts/sets $(doc)/scripts/radars $(doc)/tests/support $(doc)/build
+	install -d $(doc)/scripts/sets $(doc)/scripts/exports $(doc)/scripts/radars $(doc)/tests/support $(doc)/build
 	ln -sfn ../../../../bin $(doc)/build/bin
-	install -m 755 $(addprefix scripts/,dataset check-set make-radar tracker) $(doc)/scripts
+	install -m 755 $(addprefix scripts/,dataset check-set export make-radar tracker) $(doc)/scripts
 	install -m 644 scripts/glint.py $(doc)/scripts
 	install -m 644 scripts/sets/*.py $(doc)/scripts/sets
+	install -m 644 scripts/exports/*.py $(doc)/scripts/exports
+	ln -sfn ../doc/glint/scripts $(DESTDIR)$(PREFIX)/share/glint/scripts
 	install -m 644 scripts/radars/*.py $(doc)/scripts/radars
 	install -m 644 tests/support/progress.py tests/support/command_line.py $(doc)/tests/support
 	install -m 644 stages/noise_none.c $(doc)/stages

@@ -2,7 +2,6 @@
 import base64
 import hashlib
 import math
-import os
 import struct
 
 import glint
@@ -11,8 +10,7 @@ from plan import BAD_DATA, Fault
 from streams import boxes, number, scans_of, visibility, word
 
 NO_POINT = *(math.nan,) * 3, 0, 0, *(math.nan,) * 5, *(0,) * 8  # a scan of nuScenes without targets
-MOVING_MPS = 0.5  # what is slower stands
-MOST_POINTS = 1 << 15  # as their numbers have 16 bits
+MOVING_MPS, MOST_POINTS = 0.5, 1 << 15  # what is slower stands; numbers of points have 16 bits
 BEGIN_US, GAP_US, END_US = 10 ** 15, 10 ** 6, 2 ** 53  # of the first scene; between scenes; of what all readers of JSON can count
 PDH0 = 0.25, 0.5, 0.75, 0.9, 0.99, 0.999  # limits between the codes 1 to 7 of the probability of a false alarm
 KINDS = {"f": (4, "F"), "h": (2, "I"), "b": (1, "I")}  # size and type of PCD
@@ -68,18 +66,18 @@ class Writer:
 
     def __init__(self, layout, output):
         self.layout, self.output, self.fields = layout, output, layout["fields"].split()
-        self.scene, self.splits, self.shared, self.end_us = None, {}, set(), BEGIN_US - GAP_US
+        self.scene, self.splits, self.shared, self.end_us = None, {}, {}, BEGIN_US - GAP_US
         for name, text in layout.get("files", {}).items():
             output.write(name, base64.b64decode(text))
-        output.write(f"{layout['version']}/splits.json", "")
-        self.tables = {name: open(os.path.join(output.folder, layout["version"], name + ".json"), "w", encoding="utf-8") for name in layout["tables"]}
+        self.tables = {name: output.file(f"{layout['version']}/{name}.json") for name in layout["tables"]}
+        self.before = dict.fromkeys(self.tables, "[\n")
         for name, rows in layout["tables"].items():
-            self.tables[name].write("[\n")
             self.rows(name, *rows)
 
     def rows(self, table, *rows):
         for row in rows:
-            self.tables[table].write("," * (self.tables[table].tell() > 2) + line(row))
+            self.tables[table].write(self.before[table] + line(row))
+            self.before[table] = ","
 
     def linked(self, table, rows):
         """Rows that follow each other in time."""
@@ -88,13 +86,12 @@ class Writer:
 
     def once(self, table, row):
         """A row that scenes share; its token."""
-        if row["token"] not in self.shared:
-            self.shared.add(row["token"])
+        if self.shared.setdefault(row["token"], row) is row:
             self.rows(table, row)
         return row["token"]
 
     def add(self, split, frame):
-        if self.scene and self.scene["name"] != frame["scene"]:
+        if not self.scene or self.scene["name"] != frame["scene"]:
             self.end_scene()
         scans = [(sensor, targets, frame["time_s"] - sensor.get("age_s", 0)) for sensor, targets in scans_of(frame)]
         if not self.scene and scans:
@@ -121,6 +118,8 @@ class Writer:
 
     def end_scene(self):
         """A frame in which all sensors have a scan is a sample; other scans are sweeps of the next sample."""
+        if not self.scene:
+            return
         scene, frames = self.scene, self.scene["frames"]
         channels = sorted({scan["channel"] for _, scans in frames for scan in scans})
         keys = [i for i, (_, scans) in enumerate(frames) if len(scans) == len(channels)]
@@ -176,10 +175,7 @@ class Writer:
         self.linked("sample_annotation", rows)
 
     def close(self):
-        if self.scene:
-            self.end_scene()
-        for file in self.tables.values():
-            file.write("]\n")
-            file.close()
-        with open(os.path.join(self.output.folder, self.layout["version"], "splits.json"), "w", encoding="utf-8") as file:
-            file.write(line(self.splits))
+        self.end_scene()
+        for name, file in self.tables.items():
+            file.write("]\n" if self.before[name] == "," else "[]\n")
+        self.output.write(f"{self.layout['version']}/splits.json", line(self.splits))

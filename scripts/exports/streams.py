@@ -1,6 +1,7 @@
 """Reads what is exported, with all that formats need: frames of lines, of the tables of glint-tables, or of a set."""
 import csv
 import functools
+import glob
 import gzip
 import itertools
 import math
@@ -73,25 +74,15 @@ def frames_of_tables(folder):
         yield frame
 
 
-def frames_in(path):
-    return frames_of_tables(path) if os.path.isdir(path) else glint.frames(path)
-
-
 def streams_of(path):
     """The streams of an input: split and documents of a set, or None, and frames. Shards of a set are read by their tables, or by
     their lines if they have none."""
-    if not os.path.exists(os.path.join(path, "datapackage.json")):
-        yield None, None, frames_in(path)
-        return
-    shards = {tuple(one["path"].split(".")[0].split("/")[:3]) for one in read_json(os.path.join(path, "datapackage.json"))["resources"]}
-    yield from shards_of(path, sorted(shards))
-
-
-def shards_of(folder, shards):
-    for split, *rest in shards:
-        path = os.path.join(folder, split, *rest)
-        tables = any(os.path.exists(os.path.join(path, "frames.csv" + ending)) for ending in ("", ".gz"))
-        yield split, os.path.join(folder, "documents"), frames_in(path + ".jsonl.gz" * (not tables))
+    manifest, shards = os.path.join(path, "datapackage.json"), {(None, path)}
+    if os.path.exists(manifest):
+        shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3])) for one in read_json(manifest)["resources"]}
+    for split, place in sorted(shards, key=str):
+        place += ".jsonl.gz" * (split is not None and not glob.glob(os.path.join(glob.escape(place), "frames.csv*")))
+        yield split, split and os.path.join(path, "documents"), frames_of_tables(place) if os.path.isdir(place) else glint.frames(place)
 
 
 @functools.lru_cache
@@ -133,8 +124,6 @@ def frames_of(streams, suite):
             before = now
             yield {None: "train", "validation": "val"}.get(split, split), frame
 
-
-# --- what both layouts need of a frame ------------------------------------------------------------
 
 def scans_of(frame):
     """Each sensor that has a scan in the frame, with its targets in the order of their points."""

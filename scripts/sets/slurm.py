@@ -7,19 +7,7 @@ import sys
 
 from durable import make_folder, write_whole
 from layout import WORK
-from plan import UNAVAILABLE, Fault, refuse
-
-BATCH = """\
-#!/bin/sh
-# Makes a shard: task T of an array that begins at part B makes part B + T.
-: "${{SLURM_ARRAY_TASK_ID:?is empty; submit this with --array}}" "${{GLINT_FIRST_PART:?is empty}}"
-exec make -C {folder} part-$((GLINT_FIRST_PART + SLURM_ARRAY_TASK_ID))
-"""
-CHECK = """\
-#!/bin/sh
-# Runs after the arrays: writes the manifest if all shards are there, else names those that are missing.
-exec {program} --in {folder} --plan-folder {plan_folder} --finish --slurm
-"""
+from plan import UNAVAILABLE, Fault, refuse, text_of
 
 
 def ask(words):
@@ -90,9 +78,9 @@ def submit(parts, folder, plan_folder):
     place, work = place_of(folder), os.path.join(os.path.abspath(folder), WORK)
     make_folder(place)
     quoted = shlex.quote(os.path.abspath(folder))
-    write_whole(f"{place}/part.sh", work, BATCH.format(folder=quoted))
+    write_whole(f"{place}/part.sh", work, text_of("slurm-batch.txt").format(folder=quoted))
     program, plan_folder = (shlex.quote(os.path.abspath(path)) for path in (sys.argv[0], plan_folder))
-    write_whole(f"{place}/check.sh", work, CHECK.format(folder=quoted, program=program, plan_folder=plan_folder))
+    write_whole(f"{place}/check.sh", work, text_of("slurm-check.txt").format(folder=quoted, program=program, plan_folder=plan_folder))
     ids = [number_of_job(ask(array_words(folder, first, tasks))) for first, tasks in arrays(parts, most_tasks())]
     check = number_of_job(ask(["sbatch", "--parsable", f"--dependency=afterany:{':'.join(ids)}",
                                f"--output={place}/check.out", f"{place}/check.sh"]))

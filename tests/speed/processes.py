@@ -3,8 +3,11 @@ of a single frame take, and whether the end of a long stream costs as much as it
 import os
 import statistics
 import subprocess
+import sys
 import time
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+import glint
 import scenes
 import timing
 from progress import Progress
@@ -96,18 +99,34 @@ def trips(commands, lines):
     return took
 
 
-def round_trip_lines(glint, folder, frames=1000):
+def round_trip_lines(glint_program, folder, frames=1000):
     """Wall times of the way there and back of a simulator in the loop, through processes and through one."""
     source, *stages = scenes.commands("highway", 20, 1, frames, "default")
     path = os.path.join(folder, "trips.jsonl")
-    subprocess.run([glint, "-c", f"{source} -o {path}"], check=True)
+    subprocess.run([glint_program, "-c", f"{source} -o {path}"], check=True)
     with open(path, "rb") as file:
         lines = file.readlines()
-    programs = [[os.path.join(os.path.dirname(glint), word) if at == 0 else word
+    programs = [[os.path.join(os.path.dirname(glint_program), word) if at == 0 else word
                  for at, word in enumerate(stage.split())] for stage in stages]
-    for mode, commands in (("fused", [[glint, "-c", " | ".join(stages)]]), ("piped", programs)):
+    for mode, commands in (("fused", [[glint_program, "-c", " | ".join(stages)]]), ("piped", programs)):
         took = trips(commands, lines)
         yield {"round_trip": mode, "processes": len(commands)} | spread_of(took)
+    yield from loop_lines(glint_program, folder)
+
+
+def loop_lines(glint_program, folder, frames=500):
+    """Times of glint.Loop with a crowd: 100 objects on a highway under ten radars, with JSON on both sides."""
+    path, suite = os.path.join(folder, "crowd.jsonl"), scenes.ten_radars()
+    subprocess.run([glint_program, "-c", f"{scenes.commands('highway', 100, 1, frames, 'default')[0]} -o {path}"], check=True)
+    chain = f"glint-extract | glint-ideal --sensors {suite} | glint-sensor --sensors {suite} | glint-noise --sensors {suite}"
+    for mode, fused in (("loop of ten radars and 100 objects", True), ("the same, a process for each stage", False)):
+        took = []
+        with glint.Loop(chain, fused=fused) as loop:
+            for frame in glint.frames(path):
+                begin = time.perf_counter_ns()
+                loop.send(frame)
+                took.append(time.perf_counter_ns() - begin)
+            yield {"round_trip": mode, "processes": len(loop.processes)} | spread_of(took)
 
 
 def spread_of(took):

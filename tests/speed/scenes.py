@@ -112,6 +112,17 @@ def suite_of(kind, sensors):
     return write("all-ahead", {"origin": "Made by tests/speed/scenes.py.", "sensors": [sensor]})
 
 
+def ten_radars():
+    """The path of a suite of ten corner radars that look all around."""
+    with open("data/sensors/corner77-every-frame.json", encoding="utf-8") as file:
+        sensor = json.load(file)["sensors"][0] | {"antenna_table": "../../data/antennas/corner77.csv"}
+    del sensor["sources"]
+    angles = [math.remainder(2 * math.pi * i / 10, 2 * math.pi) for i in range(10)]
+    return write("ten-radars", {"origin": "Made by tests/speed/scenes.py.", "sensors": [
+        sensor | {"name": f"radar_{i}", "mount_yaw_rad": angle, "mount_x_m": 2.25 * math.cos(angle), "mount_y_m": 0.9 * math.sin(angle)}
+        for i, angle in enumerate(angles)]})
+
+
 def commands(kind, count, sensors, frames, labels):
     """The five stages of the chain. labels: "default", "account", or for ghosts "full" and "full, all"."""
     words = {"account": " --sections account", "full, all": " --effects all"}.get(labels, "")
