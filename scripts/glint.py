@@ -349,7 +349,7 @@ class Loop:
     """A chain that answers each frame of a simulator with its targets.
 
         with glint.Loop("glint-extract | glint-ideal --sensors lrr77-every-frame | glint-sensor | glint-noise") as radar:
-            for objects in my_simulator:                    # dictionaries, as carla_object and sumo_object make them
+            for objects in my_simulator:                    # dictionaries, as pipelines/simulators.py makes them
                 targets = radar.step("ego", objects)
 
     A chain that has not answered after timeout_s is a TimeoutError; one that ends, or answers no targets, is a ChainError

@@ -21,8 +21,9 @@ import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
+sys.path[:0] = [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "pipelines")]
 import glint  # noqa: E402
+import simulators  # noqa: E402
 
 PATIENCE_S = 60
 CHAIN = ("glint-extract | glint-ideal --sensors srr24-pair-every-frame --sections account | glint-sensor | glint-noise")
@@ -305,17 +306,17 @@ def other_simulators():
                  bounding_box=Fake(location=vector(1, 0, 0.7), extent=vector(2.5, 1, 0.8)),
                  get_transform=lambda: Fake(location=vector(10, 20, 0), rotation=Fake(yaw=90)), get_velocity=lambda: vector(0, 5, 0),
                  get_angular_velocity=lambda: vector(0, 0, math.degrees(0.5)))
-    found = glint.carla_object(actor)
+    found = simulators.carla_object(actor)
     expected = {"id": "7", "class": "van", "x_m": 10, "y_m": -21, "yaw_rad": -math.pi / 2, "vx_mps": -0.5, "vy_mps": -5,
                 "yaw_rate_radps": -0.5, "length_m": 5, "width_m": 2, "height_m": 1.6, "travelled_m": 0}
     yield "CARLA's axes", differences(found, expected)
     actor.attributes, actor.type_id = {}, "walker.pedestrian.0001"
-    yield "CARLA's walkers", None if glint.carla_object(actor)["class"] == "pedestrian" else "another class"
+    yield "CARLA's walkers", None if simulators.carla_object(actor)["class"] == "pedestrian" else "another class"
     of_sumo = {"getPosition": (100, 50), "getAngle": 90, "getSpeed": 10, "getLateralSpeed": 1, "getLength": 8, "getWidth": 2.5, "getHeight": 3}
     vehicle = Fake(**{name: lambda _, value=value: value for name, value in of_sumo.items()})
     expected = {"id": "t", "class": "truck", "x_m": 96, "y_m": 50, "yaw_rad": 0, "vx_mps": 10, "vy_mps": 1, "yaw_rate_radps": 0, "length_m": 8,
                 "width_m": 2.5, "height_m": 3, "travelled_m": 0}
-    yield "SUMO's TraCI", differences(glint.sumo_object(vehicle, "t", "truck"), expected)
+    yield "SUMO's TraCI", differences(simulators.sumo_object(vehicle, "t", "truck"), expected)
     with glint.Loop(STAGES) as loop:
         yield "objects of both", None if loop.step("7", [found, dict(expected, x_m=40, y_m=-60)]) is not None else "no targets"
 
