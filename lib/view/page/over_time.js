@@ -317,8 +317,7 @@ function connectOverTime() {
         control('plotted').append(option);
     }
     control('plotted').addEventListener('change', refresh);
-    control('last-event').addEventListener('click', () => stepEvent(-1));
-    control('next-event').addEventListener('click', () => stepEvent(1));
+    [['last-event', -1], ['next-event', 1]].forEach(([id, step]) => control(id).addEventListener('click', () => stepEvent(step)));
     overTimeCanvas.addEventListener('click', event => {
         setPlaying(false);
         showRow(rowOfPlace(event.offsetX));

@@ -4,7 +4,7 @@
 const tableColumns = [
     {title: '', value: row => row.order},
     {title: 'range m', digits: 2, value: row => column('target_range_m')[row.target]},
-    {title: 'azim. °', digits: 1, value: row => column('target_azimuth_rad')[row.target] * degrees},
+    {title: 'azim. °', tells: 'off the boresight of its sensor', digits: 1, value: row => column('target_azimuth_rad')[row.target] * degrees},
     {title: 'rate m/s', digits: 2, value: row => rateOf(row.scan, row.target, state.rates === 'compensated')},
     {title: 'level dB', digits: 1, value: row => column('target_amplitude_db')[row.target]},
     {title: 'object', value: row => names[objectOfTarget(row.target)]},
@@ -181,7 +181,7 @@ function connectTable() {
     tableColumns.forEach((one, i) => {
         const heading = make('th', null, one.digits === undefined ? 'name' : 'number');
         const sorter = button('', () => sortTable(i));
-        sorter.textContent = one.title || 'no.';
+        Object.assign(sorter, {textContent: one.title || 'no.', title: one.tells || ''});
         heading.append(sorter);
         document.querySelector('#targets thead tr').append(heading);
     });
