@@ -6,7 +6,7 @@
  *     S(u) = sum over n of w_n x_n exp(-2 pi j d m_n u),    m_n = n - (N - 1)/2,
  *
  * with the samples x_n of N elements, d wavelengths apart, and a taper w_n of sum 1. So one echo of
- * amplitude A has a maximum of A at its sine. The transform has 4 N points; its maxima are refined
+ * amplitude A has a maximum of A at its sine. The transform has 8 N points; its maxima are refined
  * by a parabola in decibels and two Newton steps on |S|^2. */
 #pragma once
 
@@ -15,7 +15,7 @@
 #include "base/arena.h"
 #include "radar/point_response.h"
 
-enum { ARRAY_MOST_ELEMENTS = 64, ARRAY_PADDING = 4 };
+enum { ARRAY_MOST_ELEMENTS = 64, ARRAY_PADDING = 8 };
 
 /* Weights of the elements. HANN is sin^2(pi (n + 1/2)/N). TAYLOR (nbar 4) and CHEBYSHEV have side
  * lobes of -30 dB. */
@@ -41,7 +41,7 @@ struct array {
     double noise;                       /* RMS of a beam's noise if each element's has RMS 1 */
     double signal_moment, noise_moment; /* of (2 pi m)^2 under w and under w^2 */
     double envelope[ARRAY_PADDING * ARRAY_MOST_ELEMENTS / 2 + 1]; /* by steps of the transform */
-    struct phasor root[ARRAY_PADDING * ARRAY_MOST_ELEMENTS];      /* exp(-2 pi j k/(4 N)) */
+    struct phasor root[ARRAY_PADDING * ARRAY_MOST_ELEMENTS];      /* exp(-2 pi j k/(8 N)) */
 };
 
 /* A maximum of |S|. */
