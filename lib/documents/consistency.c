@@ -73,7 +73,8 @@ static size_t add_strict(const struct sensor *sensor, struct consistency *checks
 static size_t add_signal(const struct sensor *sensor, struct consistency *checks, size_t count)
 {
     double sweep_hz = fabs(sensor->chirp_slope_hzps) * sensor->chirp_s;
-    double sweep_m = sweep_hz > 0 ? SPEED_OF_LIGHT_MPS / (2 * sweep_hz) : 0;
+    bool chirps = sensor->waveform.kind == WAVEFORM_CHIRP && sweep_hz > 0;
+    double sweep_m = chirps ? SPEED_OF_LIGHT_MPS / (2 * sweep_hz) : 0;
     double rate_mps = sensor->unambiguous_rate_mps, dwell_s = sensor->dwell_s;
     double repetition_s =
         rate_mps > 0 ? units_wavelength_m(sensor->carrier_hz) / (4 * rate_mps) : 0;
@@ -82,9 +83,10 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
     double walk_m = sensor->range_migration == MIGRATION_COMPENSATED ? 0 : fastest_mps * dwell_s;
     LIMIT(MPS, "unambiguous_rate_mps", rate_mps, "signal, by repetitions and stagger",
           consistency_fold_mps(sensor));
-    LIMIT(M, "sweep, c/(2 chirp_slope_hzps chirp_s)", sweep_m, "cell_range_m", cell_m);
-    LIMIT(S, "chirp_s", sensor->chirp_s, "repetition, wavelength/(4 unambiguous_rate_mps)",
-          repetition_s);
+    ADD(STRICT, M, "sweep, c/(2 chirp_slope_hzps chirp_s)", sweep_m, "cell_range_m", cell_m,
+        "chirp_slope_hzps");
+    ADD(STRICT, S, "chirp_s", sensor->chirp_s, "repetition, wavelength/(4 unambiguous_rate_mps)",
+        repetition_s, "chirp_s");
     LIMIT(M, "range_max_m", sensor->range_max_m, "unambiguous_range_m",
           sensor->unambiguous_range_m);
     LIMIT(HZ, "receiver_bandwidth_hz", sensor->receiver_bandwidth_hz,
@@ -105,17 +107,19 @@ static size_t add_accuracy(const struct sensor *sensor, struct consistency *chec
           cell_mps * even);
     LIMIT(RAD, "azimuth_floor_rad", sensor->azimuth_floor_rad, "azimuth_cell_rad/sqrt(12)",
           sensor->azimuth_cell_rad * even);
-    LIMIT(ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", sqrt(6) / (2 * PI), "window_factor", factor);
+    ADD(STRICT, ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", sqrt(6) / (2 * PI), "window_factor",
+        factor, "window_factor");
     LIMIT(RAD, "beam of the antenna",
           sensor->beams.count > 0 ? array_beam(&sensor->beams) : antenna_beam_rad(&sensor->antenna),
           "azimuth_cell_rad", sensor->azimuth_cell_rad);
     if (sensor->waveform.samples > 0 && sensor->pointer_sigma > 0)
         ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
             "noise alone, range bins times repetitions times cfar_false_alarm",
-            signal_alarms(sensor), NULL);
+            signal_alarms(sensor), "false_alarms");
     else if (sensor->false_alarms > 0)
-        LIMIT(ONE, "pointer_sigma", sensor->pointer_sigma,
-              "noise of the search, threshold/sqrt(ln(cells/false_alarms))", sensor->search_sigma);
+        ADD(STRICT, ONE, "pointer_sigma", sensor->pointer_sigma,
+            "noise of the search, threshold/sqrt(ln(cells/false_alarms))", sensor->search_sigma,
+            "pointer_sigma");
     return count;
 }
 
@@ -137,18 +141,17 @@ bool consistency_holds(const struct consistency *check)
 
 int consistency_check(const struct sensor *sensor, size_t index, struct diag *diag)
 {
-    static const char *const units[] = {"s", "Hz", "m", "m/s", "rad", ""};
+    static const char *const units[] = {" s", " Hz", " m", " m/s", " rad", ""};
     struct consistency checks[CONSISTENCY_MOST];
-    size_t count = add_strict(sensor, checks);
+    size_t count = consistency_list(sensor, checks);
     for (size_t i = 0; i < count; i++) {
         const struct consistency *check = &checks[i];
         const char *unit = units[check->unit];
-        if (!consistency_holds(check))
-            return diag_fail(diag, DIAG_CONFIG,
-                             "sensors[%zu].%s: %s, %g %s; expected %s sensors[%zu].%s, %g %s",
+        if (check->kind != CONSISTENCY_LIMIT && !consistency_holds(check))
+            return diag_fail(diag, DIAG_CONFIG, "sensors[%zu].%s: %s, %g%s; expected %s %s, %g%s",
                              index, check->member, check->left, check->left_value, unit,
-                             check->kind == CONSISTENCY_SAME ? "about" : "at most", index,
-                             check->right, check->right_value, unit);
+                             check->kind == CONSISTENCY_STRICT ? "at most" : "about", check->right,
+                             check->right_value, unit);
     }
     return 0;
 }

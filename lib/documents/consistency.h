@@ -20,7 +20,7 @@ enum consistency_unit {
 enum consistency_kind {
     CONSISTENCY_LIMIT,  /* left above right is a doubt */
     CONSISTENCY_STRICT, /* left above right is impossible */
-    CONSISTENCY_EQUAL,  /* a factor of more than 2 between them is a doubt */
+    CONSISTENCY_EQUAL,  /* a factor of more than 2 between them is impossible */
     CONSISTENCY_SAME,   /* a factor of more than 1.1 between them is impossible */
 };
 
@@ -29,7 +29,7 @@ struct consistency {
     enum consistency_unit unit;
     const char *left, *right; /* formulas of members of the document */
     double left_value, right_value;
-    const char *member; /* to name in a refusal: the member in the formula `left` */
+    const char *member; /* to name in a refusal; NULL if there is none */
 };
 
 enum { CONSISTENCY_MOST = 20 };

@@ -444,7 +444,8 @@ def list_limit(bench):
 def alternatives(bench):
     """glint-noise-none and glint-noise-gauss simulate none of these effects."""
     frames = frames_of([pole()], 50)
-    radar = snr_sensor("s", 20, misalignment_rad=0.1, false_alarms=5, azimuth_sigma_rad=0, range_step_m=0.5)
+    radar = snr_sensor("s", 20, misalignment_rad=0.1, false_alarms=5, false_alarm_range_rate_mps=5, azimuth_sigma_rad=0,
+                       range_step_m=0.5)
     path = bench.write_suite(suite_of(radar))
     text = "".join(json.dumps(one) + "\n" for one in frames)
     for words in (["glint-extract"], ["glint-ideal", "--sensors", path, "--sections", "account"], ["glint-sensor"]):

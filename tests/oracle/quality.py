@@ -149,7 +149,7 @@ def existence(bench):
         loud = [[cell_of(number, 50, draw.uniform(-1, 1), 0, sigma * math.sqrt(snr * draw.expovariate(1)),
                          interference=interference) for number in range(max(1, poisson(draw, echoes)))]
                 for _ in range(scans)]
-        suite = suite_of(radar(pointer_sigma=sigma, final_threshold=True, false_alarms=3))
+        suite = suite_of(radar(pointer_sigma=sigma, final_threshold=True, false_alarms=3, false_alarm_range_rate_mps=2))
         suite["prior"] = {"echoes": echoes, "snr_db": 15}
         targets = targets_of(heard(bench, suite, loud, effects="all,-threshold"))
         counts = tally(bench, targets, f"interference {interference}")
