@@ -112,22 +112,9 @@ void arena_free(struct arena *arena)
     arena->used = 0;
 }
 
-/* Enlarges the memory where it is, if the arena gave it last and the block has room. */
-static bool grow_in_place(struct arena *arena, const void *memory, size_t size, size_t more)
-{
-    size_t old = round_up(size), rest = round_up(size + more) - old;
-    if (memory == NULL || (const char *)memory + old != (char *)(arena->blocks + 1) + arena->used ||
-        arena->blocks->size - arena->used < rest)
-        return false;
-    arena->used += rest;
-    return true;
-}
-
 void *list_grow(struct arena *arena, void *items, size_t count, size_t *room, size_t size)
 {
     *room = count < 4 ? 8 : 2 * count;
-    if (grow_in_place(arena, items, count * size, (*room - count) * size))
-        return items;
     void *larger = arena_room(arena, *room * size);
     return count > 0 ? memcpy(larger, items, count * size) : larger;
 }

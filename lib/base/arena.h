@@ -53,7 +53,7 @@ void arena_free(struct arena *arena);
          list_room((arena), (list)->items, (list)->count, &(list)->room, sizeof *(list)->items),   \
      &(list)->items[(list)->count++])
 
-/* Makes the array larger, in place or by a copy, for at least one more item. */
+/* A larger copy of the array, with room for at least one more item. */
 void *list_grow(struct arena *arena, void *items, size_t count, size_t *room, size_t size);
 
 /* Makes room for one more item and zeroes it; returns the array, which may have moved. */
