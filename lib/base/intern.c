@@ -2,18 +2,10 @@
 
 #include "base/text.h"
 
-static inline struct intern_name name_of(const char *text, size_t length)
-{
-    if (length < 8)
-        return (struct intern_name){text, length, text_short_word(text, length), 0};
-    return (struct intern_name){text, length, text_word(text), text_word(text + length - 8)};
-}
-
 static inline bool is_name(const void *names, uint32_t number, const void *wanted)
 {
     const struct intern_name *a = (const struct intern_name *)names + number, *b = wanted;
-    return a->first == b->first && a->last == b->last && a->length == b->length &&
-           (a->length <= 16 || memcmp(a->text, b->text, a->length) == 0);
+    return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
 }
 
 static inline uint32_t *slot_of(const struct intern *names, const struct intern_name *name)
@@ -38,7 +30,7 @@ uint32_t intern_number(struct intern *names, const void *text, size_t length, st
 {
     if (2 * names->list.count >= names->numbers.room)
         grow(names, arena);
-    struct intern_name name = name_of(text, length);
+    struct intern_name name = {text, length};
     uint32_t *slot = slot_of(names, &name);
     if (*slot == 0) {
         name.text = arena_text(arena, text, length);
@@ -52,7 +44,7 @@ bool intern_find(const struct intern *names, const void *text, size_t length, ui
 {
     if (names->list.count == 0)
         return false;
-    struct intern_name name = name_of(text, length);
+    struct intern_name name = {text, length};
     uint32_t slot = *slot_of(names, &name);
     *number = slot - 1;
     return slot != 0;

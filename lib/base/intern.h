@@ -10,7 +10,6 @@
 struct intern_name {
     const char *text; /* NUL-terminated */
     size_t length;
-    uint64_t first, last; /* first and last eight bytes; of a name shorter than 8, all and 0 */
 };
 
 struct intern {
