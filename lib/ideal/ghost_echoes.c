@@ -10,8 +10,6 @@
 /* Bounces of a path that takes the mirror one way, or both ways. */
 enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
 
-enum { POSTS_AT_ONCE = 8 }; /* posts of a row that are tested against a mirror at once */
-
 /* Bodies with a mirror in line that ends where a mirror begins, or begins where it ends. */
 struct mirror_joints {
     bool known;
@@ -391,37 +389,20 @@ static void add_points(struct look *look, const struct mirror_face *face,
     }
 }
 
-/* True if the mirror may have a bounce for one of the posts from first to last. */
-static bool may_mirror_posts(const struct mirror_face *face, const struct look_body *body,
-                             const struct post_row *row, int64_t first, int64_t last)
-{
-    struct vec2 from = reflectors_post_place(&body->box, row, first);
-    struct vec2 to = reflectors_post_place(&body->box, row, last);
-    return mirror_may_bounce(&face->mirror, vec2_scale(0.5, vec2_add(from, to)),
-                             0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
-}
-
-/* Adds ghosts of the posts in range: no path is shorter than the direct one. Rows are longer than
- * most mirrors, which have no bounce for most of a row's posts. */
+/* Adds ghosts of the posts in range: no path is shorter than the direct one. */
 static void add_row(struct look *look, const struct mirror_face *face, const struct look_body *body,
                     const struct post_row *row)
 {
     struct vec2 facing = vec2_heading(row->facing_rad), bounce;
-    int64_t first, end;
+    int64_t number, end;
     reflectors_posts_within(&body->box, row, look->pose.position_m, look->sensor->range_max_m,
-                            &first, &end);
-    for (int64_t next; first < end; first = next) {
-        next = first + POSTS_AT_ONCE < end ? first + POSTS_AT_ONCE : end;
-        if (!effects_forced(look->selection, EFFECT_GHOSTS) &&
-            !may_mirror_posts(face, body, row, first, next - 1))
+                            &number, &end);
+    for (; number < end; number++) {
+        struct vec2 place = reflectors_post_place(&body->box, row, number);
+        if (!has_bounce(look, face, place, &bounce))
             continue;
-        for (int64_t number = first; number < next; number++) {
-            struct vec2 place = reflectors_post_place(&body->box, row, number);
-            if (!has_bounce(look, face, place, &bounce))
-                continue;
-            struct point_reflector post = look_post(look, row, number);
-            add_point(look, face, body, &post, facing, place, bounce);
-        }
+        struct point_reflector post = look_post(look, row, number);
+        add_point(look, face, body, &post, facing, place, bounce);
     }
 }
 
