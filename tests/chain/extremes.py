@@ -171,7 +171,7 @@ class Bench:
                         {"id": "wall", "class": "wall", "x_m": 20, "y_m": 6, "length_m": 60}]}
         self.suites = {name: json.load(open(f"{ROOT}/data/sensors/{name}.json"))
                        for name in ("srr24-pair-every-frame", "corner77-every-frame", "lrr77-full",
-                                    "radarscenes77-full", "lrr77-coherent")}
+                                    "radarscenes77-full", "lrr77-coherent", "array77")}
 
     def save(self, name, value):
         with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
