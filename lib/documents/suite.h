@@ -129,8 +129,8 @@ void suite_derive(struct sensor *sensor);
  * constant beyond them, at most range_max_m. */
 double suite_range_max_m(const struct sensor *sensor, double azimuth_rad);
 
-/* The standard deviation of the azimuth of a single echo, at the linear ratio of powers snr, without
- * the floor: by the elements of an array, or by the sum and delta channels. */
+/* The standard deviation of the azimuth of a single echo, at the linear ratio of powers snr,
+ * without the floor: by the elements of an array, or by the sum and delta channels. */
 double suite_azimuth_sigma_rad(const struct sensor *sensor, double azimuth_rad, double snr);
 
 /* Refuses members that contradict each other (DIAG_CONFIG). */

@@ -145,7 +145,7 @@ static void set_weights(struct array *array, enum array_taper taper)
 /* Puts the virtual elements in their order from the right. */
 static void set_places(struct array *array, const struct array_layout *layout)
 {
-    double places[ARRAY_MOST_ELEMENTS];
+    double places[ARRAY_MOST_ELEMENTS] = {0};
     for (size_t t = 0; t < layout->transmit.count; t++)
         for (size_t r = 0; r < layout->receive.count; r++) {
             double place = layout->transmit.items[t].place + layout->receive.items[r].place;
