@@ -39,7 +39,8 @@ def refuse(text, code=os.EX_DATAERR):
 
 def read(folder):
     """The recording of a folder in one of three layouts; ends the program if it cannot be read."""
-    for pattern, reader in (("recording.json", own), ("**/extrinsic_matrices.json", aimotive), ("**/velodyne", kitti)):
+    for pattern, reader in (("recording.json", own), ("**/extrinsic_matrices.json", aimotive),
+                            ("**/radar/**/velodyne", kitti), ("**/velodyne", kitti)):
         for found in sorted(glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))[:1]:
             try:
                 recording = reader(folder, found)
@@ -143,10 +144,12 @@ def aimotive_box(told):
 
 def kitti(folder, clouds):
     """View-of-Delft: points of seven floats, labels in the camera's axes. Only labels of a folder
-    label_2_with_track_ids have ids, in the second column. Boxes move with the slope of their places over five scans."""
-    matrices, labels = numbered(folder, "calib/*.txt"), numbered(folder, "label_2_with_track_ids/*.txt")
+    label_2_with_track_ids have ids, in the second column. The calibration lies beside the points, or else anywhere. Boxes
+    move with the slope of their places over five scans."""
+    matrices = numbered(os.path.dirname(clouds), "calib/*.txt") or numbered(folder, "calib/*.txt")
+    labels = numbered(folder, "label_2_with_track_ids/*.txt")
     scans, tracks = [], {}
-    for number, name in numbered(clouds, "*.bin").items():
+    for number, name in list(numbered(clouds, "*.bin").items())[:MOST + 1]:
         with open(name, "rb") as file:
             points = [Detection(math.hypot(x, y, z), math.atan2(y, x), rate, None, rcs)
                       for x, y, z, rcs, rate, _, when in struct.iter_unpack("<7f", file.read()) if when == 0]

@@ -267,15 +267,19 @@ def what_stands_tells_the_speed(scans):
 
 
 def view_of_delft_is_read(folder):
-    """A car 20 m ahead and 4 m to the left, turned by 0.2 rad, that comes nearer at 3 m/s; and its detection."""
-    for name in ("velodyne", "calib", "label_2_with_track_ids"):
-        os.makedirs(os.path.join(folder, name))
+    """A car 20 m ahead and 4 m to the left, turned by 0.2 rad, that comes nearer at 3 m/s; and its detection. The lidar's
+    points and calibration do not count."""
+    radar, lidar = (os.path.join(folder, name, "training") for name in ("radar", "lidar"))
+    for place in (radar, lidar):
+        for name in ("velodyne", "calib", "label_2_with_track_ids"):
+            os.makedirs(os.path.join(place, name))
     for i in range(8):
-        with open(os.path.join(folder, "velodyne", f"{i:05}.bin"), "wb") as out:
-            out.write(struct.pack("<14f", 20, 4, 0.5, 9, -3, 0, 0, 30, 4, 0.5, 9, -3, 0, -1))
-        with open(os.path.join(folder, "calib", f"{i:05}.txt"), "w", encoding="ascii") as out:
-            out.write("R0_rect: 1 0 0 0 1 0 0 0 1\nTr_velo_to_cam: 0 -1 0 0.1 0 0 -1 0.2 1 0 0 0.3\n")
-        with open(os.path.join(folder, "label_2_with_track_ids", f"{i:05}.txt"), "w", encoding="ascii") as out:
+        for place, points, off in (radar, (20, 4, 0.5, 9, -3, 0, 0, 30, 4, 0.5, 9, -3, 0, -1), 0.3), (lidar, (1, 2, 3, 4), 7):
+            with open(os.path.join(place, "velodyne", f"{i:05}.bin"), "wb") as out:
+                out.write(struct.pack(f"<{len(points)}f", *points))
+            with open(os.path.join(place, "calib", f"{i:05}.txt"), "w", encoding="ascii") as out:
+                out.write(f"R0_rect: 1 0 0 0 1 0 0 0 1\nTr_velo_to_cam: 0 -1 0 0.1 0 0 -1 0.2 1 0 0 {off}\n")
+        with open(os.path.join(lidar, "label_2_with_track_ids", f"{i:05}.txt"), "w", encoding="ascii") as out:
             out.write(f"Car 7 0 0 0 0 0 0 1.5 1.8 4.5 -3.9 1 {20.3 - 0.3 * i} {-0.2 - math.pi / 2}\n")
     scans = readers.read(folder).scans
     box, detections = scans[0].boxes[0], scans[0].detections
