@@ -46,10 +46,8 @@ class Part(namedtuple("Part", "radar scans speeds boxes")):
 
 
 def moved(detections, there, here):
-    return [one._replace(range_m=one.range_m + here.range_m - there.range_m,
-                         azimuth_rad=one.azimuth_rad + here.azimuth_rad - there.azimuth_rad,
-                         range_rate_mps=one.range_rate_mps + here.range_rate_mps - there.range_rate_mps)
-            for one in detections]
+    ways = {name: getattr(here, name) - getattr(there, name) for name in here._fields}
+    return [one._replace(**{name: getattr(one, name) + way for name, way in ways.items()}) for one in detections]
 
 
 def part(fit, radar, scans):

@@ -8,7 +8,7 @@ from collections import namedtuple
 
 import geometry
 import statics
-from readers import STANDING
+from readers import STANDING, json_of
 
 # A list is lag_s older than its boxes, and near faces lie inset_m inside them.
 Annotation = namedtuple("Annotation", "lag_s inset_m")
@@ -46,8 +46,7 @@ def parts(x, knots):
 
 
 def quantile(values, share):
-    values = sorted(values)
-    return values[min(int(share * len(values)), len(values) - 1)]
+    return sorted(values)[min(int(share * len(values)), len(values) - 1)]
 
 
 def spread(values):
@@ -173,8 +172,7 @@ def fit(recording, level_keeps="median"):
              "field_of_view_rad": 2 * law.over_azimuth[-1][0],
              "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "antenna_table": "antenna.csv",
              "level_keeps": level_keeps, **cells(scans), **scatter}
-    with open(os.path.join(ROOT, "data", "sensors", "lrr77-full.json"), encoding="utf-8") as file:
-        shipped = json.load(file)["sensors"][0]
+    shipped = json_of(os.path.join(ROOT, "data", "sensors", "lrr77-full.json"))["sensors"][0]
     members = {name: (shipped[name], shipped["sources"][name]) for name in SHIPPED} | ASSUMED | {
         name: (value, "[F] the recording, its first half") for name, value in found.items()}
     return Fit(annotation(recording), law, azimuth_noise,

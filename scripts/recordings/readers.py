@@ -144,8 +144,7 @@ def aimotive_box(told):
 
 def kitti(folder, clouds):
     """View-of-Delft: points of seven floats, labels in the camera's axes. Only labels of a folder
-    label_2_with_track_ids have ids, in the second column. The calibration lies beside the points, or else anywhere. Boxes
-    move with the slope of their places over five scans."""
+    label_2_with_track_ids have ids, in the second column. Boxes move with the slope of their places over five scans."""
     matrices = numbered(os.path.dirname(clouds), "calib/*.txt") or numbered(folder, "calib/*.txt")
     labels = numbered(folder, "label_2_with_track_ids/*.txt")
     scans, tracks = [], {}
