@@ -112,16 +112,20 @@ def spent_more(rows, row):
     return row["us"] - base["us"] if row["group"] == "added" else base["us"] - row["us"]
 
 
-NOISE_US = 2  # differences of times below it are not significant
+def noise_us(rows, radar):
+    """Differences of times below it are not significant: twice the RMS over the effects that change no list."""
+    more = [spent_more(rows, row) for row in pick(rows, radar=radar)
+            if row["group"] in ("added", "left out") and not changes(row)]
+    return 2 * (sum((us or 0) ** 2 for us in more) / max(len(more), 1)) ** 0.5
 
 
-def effect_cells(rows, row):
+def effect_cells(rows, row, noise):
     if row is None:
         return ["", "", ""]
     more = spent_more(rows, row)
     rate = ""
     if told(row) and more is not None:
-        rate = f"{row['gain'] / more:.2g}" if more > NOISE_US else "free"
+        rate = f"{row['gain'] / more:.2g}" if more > noise else "free"
     return [with_interval(row), "" if more is None else f"{more:.0f}", rate]
 
 
@@ -131,14 +135,16 @@ def effects(rows, radar):
         return ""
     own = [row for row in pick(rows, radar=radar) if row["group"] in ("added", "left out") and changes(row)]
     found = {(row["group"], row["chain"]): row for row in own}
-    text = f"\nEffects, {radar} range: points of the squared error that an effect takes away\n\n"
+    noise = noise_us(rows, radar)
+    text = f"\nEffects, {radar} range: points of the squared error that an effect takes away; "
+    text += f"differences of times below {noise:.0f} µs are not significant\n\n"
     text += head(["effect", "added to the paper's", "µs", "points per µs", "in all others", "µs", "points per µs"])
     gains = {}
     for row in own:
         gains[row["chain"]] = max(gains.get(row["chain"], -1000), row.get("gain", 0))
     for name in sorted(gains, key=lambda name: -gains[name]):
         text += line([name, *(cell for group in ("added", "left out")
-                              for cell in effect_cells(rows, found.get((group, name))))])
+                              for cell in effect_cells(rows, found.get((group, name)), noise))])
     return text
 
 
