@@ -23,10 +23,10 @@ const struct stage stage_extract_3gpp = {
         "five points in the middles of front, left, back, right and roof. Each has the report's "
         "lobe in azimuth and elevation, over a floor that is seen from all around. A class with "
         "sensing_target human becomes one point that is the same from everywhere. All other "
-        "classes keep the reflectors of their document. What a body mirrors and hides is what its "
-        "document says, for every class. Elevation counts for sensors with mount_z_m; for all "
-        "others everything is level. The report's fluctuation is a property of the sensor: "
-        "fluctuation log_normal, 3.41 dB for vehicles.",
+        "classes keep the reflectors of their document. Every class mirrors and hides as its "
+        "document says. Elevations differ from level only for sensors with mount_z_m. The "
+        "report's fluctuation is a property of the sensor: fluctuation log_normal, 3.41 dB for "
+        "vehicles.",
     .options = &extraction_record,
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS | SECTION_VEHICLES,

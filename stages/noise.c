@@ -53,11 +53,10 @@ const struct stage stage_noise = {
     .name = "noise",
     .summary = "Add noise to every cell and write the target list.",
     .details =
-        "Adds complex noise to the sum and delta pointers and estimates the angle from them,\n"
-        "adds noise to range and range rate, turns the angle by misalignment and radome,\n"
-        "applies the final threshold, adds false alarms, and lists the targets in the sensor's\n"
-        "order up to its limit, rounded to its steps. The label of a target names the\n"
-        "reflectors that it comes from.",
+        "Adds complex noise to the pointers of every cell and estimates the angle from them. Adds "
+        "noise to range and range rate, and turns the angle by misalignment and radome. Applies "
+        "the final threshold and adds false alarms. Lists the targets in the sensor's order, up to "
+        "its limit and rounded to its steps, each with a label of the reflectors that made it.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,

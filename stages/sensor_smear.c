@@ -44,11 +44,12 @@ const struct stage stage_sensor_smear = {
         "Stands in for glint-sensor. Instead of sorting echoes into cells, it computes the bins "
         "of a range-Doppler transform with a Hann window; a bin is as wide as the sensor's cell. "
         "Every echo is spread over the bins around it with its phase, amplitude and antenna "
-        "pointers. A peak of the sum that an echo leads up to becomes a cell. Its range, rate and "
-        "amplitude are interpolated between bins; its angle is that of the sum and the delta "
-        "channel. A peak below the detection threshold is lost; a peak of side lobes alone is not "
-        "listed. So echoes merge gradually and shift each other's peaks: apart, if they are out "
-        "of phase. cell_phase sets how their phases differ. Merging and superposition are one "
+        "pointers. The way uphill from an echo ends at a peak of the sum, which becomes a cell. "
+        "Its "
+        "range, rate and amplitude are interpolated between bins; its angle is that of the sum and "
+        "the delta channel. A peak below the detection threshold is lost; a peak of side lobes "
+        "alone is not listed. So echoes merge gradually and shift each other's peaks, apart if "
+        "they are out of phase; cell_phase sets their phases. Merging and superposition are one "
         "effect here: with --effects=-merging every echo is a cell of its own.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,

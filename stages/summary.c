@@ -54,8 +54,8 @@ const struct stage stage_summary = {
     .name = "summary",
     .summary = "Count targets by sensor and class, or the objects of traffic.",
     .details =
-        "A target counts for its strongest contributor: for the class of the contributor's object, "
-        "or as ghost, clutter or false alarm. Shares are in per cent of all targets. If "
+        "A target is counted by its strongest contributor: under the class of that contributor's "
+        "object, or as ghost, clutter or false alarm. Shares are in per cent of all targets. If "
         "glint-ideal was given --sections account, the output also says how many of the reflectors "
         "that a sensor looked for are in a target, and how many are lost for each reason. Frames "
         "that no sensor has seen, as those of glint-traffic, are counted by their objects: each "

@@ -25,9 +25,9 @@ const struct stage stage_traffic_commonroad = {
     .details =
         "The XML is of version 2018b or 2020a. The ego is the obstacle with the id of --ego;\n"
         "planning problems are not read. If a value is an interval or a position is a region, its\n"
-        "middle is used. The body is the box around the parts of the shape. Its velocity has the\n"
-        "components velocity, along the orientation, and velocityY, to its left, or the direction\n"
-        "slipAngle. If the file states none, or positions that are not those of the box's middle,\n"
+        "middle is used. The body is the box around the parts of the shape. Its velocity is read\n"
+        "from velocity, along the orientation, and velocityY, to its left, or from velocity and\n"
+        "slipAngle. If the file lacks these, or its positions are not the middles of boxes, then\n"
         "velocities are centred differences of places; so are yaw rates that the file lacks.\n"
         "Static obstacles are in every frame. Environment obstacles, phantom obstacles and\n"
         "occupancy sets are left out. The whole XML is read before the first frame, because it\n"

@@ -41,12 +41,12 @@ const struct stage stage_traffic_osi = {
     .summary = "Play the ground truth of an OSI trace, frame by frame.",
     .details =
         "A trace holds messages GroundTruth or SensorView, each after its length in four bytes.\n"
-        "Without --ego the host vehicle is the ego, if the trace names it. Places are those of "
-        "box\n"
-        "centres; yaws count counter-clockwise from x. Velocities and yaw rates that the trace\n"
-        "lacks are centred differences, which wait for the next message, or with --live\n"
-        "differences from the message before. A trailer is an object of its own. Stationary\n"
-        "objects of a class below stay until a message has others; other types are left out.\n"
+        "Without --ego the host vehicle is the ego, if the trace names it. Places are the centres\n"
+        "of boxes; yaws count counter-clockwise from x. Velocities and yaw rates that the trace\n"
+        "lacks are centred differences, which wait for the next message, or with --live "
+        "differences\n"
+        "from the message before. A trailer is an object of its own. Stationary objects of the\n"
+        "classes below stay until a message has others; other types are left out.\n"
         "\n"
         "Classes, each with the types of OSI that are read as it:"
 #include "recorded/recorded_classes.def"

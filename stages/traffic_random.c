@@ -164,8 +164,8 @@ const struct stage stage_traffic_random = {
         "(dense). It depends only on seed, density and its number, so --first and --frames may\n"
         "split a set anywhere.\n"
         "\n"
-        "With --seconds, vehicles drive without collisions on scenarios/random-roads.json: with\n"
-        "the flows stated there (medium), 0.3 times (sparse) or twice (dense) these flows. A "
+        "With --seconds, vehicles drive without collisions on scenarios/random-roads.json. Their\n"
+        "flows are those of that file (medium), 0.3 times these (sparse) or twice (dense). A "
         "scene\n"
         "has the objects within 250 m of the ego, and ends early if the ego leaves its road.",
     .options = STAGE_OPTIONS(struct traffic_random, traffic_random_options),

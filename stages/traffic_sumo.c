@@ -27,9 +27,9 @@ const struct stage stage_traffic_sumo = {
     .details =
         "Velocities and yaw rates come from the places, not from SUMO's speeds: while a vehicle\n"
         "changes lanes it does not move along its heading. They are centred differences, which\n"
-        "wait for the next step. With --live they are differences from the step before, a frame "
-        "is\n"
-        "written before the next step arrives, and no frame is marked as the last of its scene.\n"
+        "wait for the next step. With --live they are differences from the step before, each "
+        "frame\n"
+        "goes out before the next step arrives, and no frame is marked as the last of its scene.\n"
         "Give sumo --precision 6: with its default of two decimals velocities are coarse. If it\n"
         "writes to a pipe, also give it --no-step-log, as its log would mix with the XML.\n"
         "\n"

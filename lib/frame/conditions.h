@@ -8,8 +8,8 @@
 
 enum road { ROAD_UNSAID = -1, ROAD_UNKNOWN, ROAD_ASPHALT, ROAD_CONCRETE };
 
-/* A radar of another vehicle, which disturbs the sensors. It is not heard in frames that do not
- * have its object, nor if that is the ego. A scenario must have the object. */
+/* A radar of another vehicle, which disturbs the sensors. It is silent in frames without its
+ * object, and if that object is the ego. A scenario must have the object. */
 struct interferer {
     const char *object;
     double eirp_dbm;
@@ -40,7 +40,7 @@ enum condition_law { CONDITION_EVENLY, CONDITION_BY_LOGARITHM };
 struct condition_draw {
     enum field_kind kind; /* FIELD_REAL, FIELD_CHOICE or FIELD_LIST */
     size_t offset;        /* in struct conditions */
-    double share;         /* of scenes that have it; 0: exactly if they have the one drawn before */
+    double share;         /* of scenes that have it; 0: those that have the condition before it */
     enum condition_law law;
     double low, high;
 };

@@ -47,11 +47,9 @@ struct obstruction {
 
 /* The obstruction of a line by a body.
  *
- * Without diffraction (wavelength_m 0) the body blocks, with the factor 0, a line that touches its
- * outline and is neither above its top nor below its bottom all along; for other lines the factor
- * is
- * 1. A line inside the
- * outline from end to end is free.
+ * Without diffraction (wavelength_m 0) the factor is 0 for a line that touches the outline and is
+ * neither above the top nor below the bottom all along, and 1 for every other line. A line inside
+ * the outline from end to end is free.
  *
  * With diffraction the body is a knife edge on the path with the least loss: to the left, to the
  * right, over the top or under the bottom. The edge of a side is the corner with the largest nu,

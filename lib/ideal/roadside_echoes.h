@@ -1,11 +1,11 @@
 /* Echoes of what stands still beside the road.
  *
- * The scatterers of the frame's strips (propagation/roadside.h) in range and in view that no body
- * hides become echoes of the object "roadside", which is none of the frame, with the kind of the
- * strip as reflector and the path clutter. A scatterer has the same number in every frame of a
- * scene and for every sensor. Those are left out whose echo would be more than 14 dB below the
- * sensor's threshold at the range of their cell's middle, or more than 26 dB where the road
- * mirrors; the antenna and the level count (MODEL 14.23). */
+ * A scatterer of the frame's strips (propagation/roadside.h) becomes an echo if it is in range and
+ * in view and no body hides it. The echo's object is "roadside", which is no object of the frame;
+ * its reflector is the kind of the strip, its path is clutter, and its number is the same in every
+ * frame of a scene and for every sensor. A scatterer is left out if its echo, with antenna and
+ * level, would be more than 14 dB below the sensor's threshold at the range of its cell's middle,
+ * or more than 26 dB where the road mirrors (MODEL 14.23). */
 #pragma once
 
 #include "ideal/look.h"

@@ -5,7 +5,7 @@
  * the frame or the sensor, so it stays where it is (MODEL 14.23). A strip with a spacing has one
  * scatterer in each cell of that length, at a uniform place. Any other has a Poisson process in
  * cells of 4 m, whose scatterers come strongest first (LePage's series): their ranks are the sums
- * of exponential gaps. So a reader may stop at any strength, and has missed nothing above it. */
+ * of exponential gaps. So a caller may stop at any strength without missing a stronger one. */
 #pragma once
 
 #include "base/random.h"
@@ -39,7 +39,7 @@ extern const struct record roadside_strip_record;
 
 void roadside_shift(struct roadside_strip *strip, struct vec2 by_m);
 
-/* The cells of a strip, and what is the same in all of them. */
+/* The cells of a strip, and the values that all of them share. */
 struct roadside_grid {
     struct vec2 from_m, heading;        /* heading: unit vector along the strip */
     double length_m, along_m, across_m; /* of the strip; of a cell */
@@ -50,7 +50,7 @@ struct roadside_grid {
     double height_m;
 };
 
-/* The members that the strip leaves to its kind have the kind's numbers. */
+/* Members that the strip does not set have the values of its kind. */
 struct roadside_grid roadside_grid_of(const struct roadside_strip *strip);
 
 /* The middle of a cell; along counts from the beginning, across from the right border. */
@@ -59,7 +59,7 @@ struct vec2 roadside_cell_middle(const struct roadside_grid *grid, int64_t along
 struct roadside_scatterer {
     struct vec2 place_m;
     double ercs;
-    int64_t rank; /* in its cell, from 0; those beyond the end of the strip count */
+    int64_t rank; /* in its cell, from 0; scatterers beyond the end of the strip are counted */
 };
 
 /* The scatterers of one cell, the strongest first. */

@@ -27,7 +27,7 @@ static const char first_hour[] =
     "\n"
     "    glint two-vehicles > list.jsonl     simulate two cars, as two radars see them\n"
     "    glint-view list.jsonl -o list.html  see it: a page for any browser\n"
-    "    glint-summary list.jsonl            count targets by class, and by distance\n"
+    "    glint-summary list.jsonl            count targets by sensor and by class\n"
     "    glint --list pipelines              other scenes and effects, ready to run\n"
     "    glint --list programs               all programs; each has a --help\n"
     "\n"
