@@ -1,4 +1,4 @@
-/* Beams of a line of virtual antenna elements (MODEL 7.5).
+/* Antenna arrays: tapers, beams, and which maxima count (MODEL 7.5).
  *
  * A transmitter and a receiver act like one element at the sum of their places. The beam towards
  * the sine u of an azimuth is

@@ -21,8 +21,7 @@ static const double factors[] = {
     [POINT_RESPONSE_PULSE] = 0.300281,
 };
 
-static double element_sigma_rad(const struct beamforming_array *array, double azimuth_rad,
-                                double snr)
+static double element_sigma_rad(const struct element_row *array, double azimuth_rad, double snr)
 {
     double count = (double)array->elements;
     struct measurement_sigma sine = {.cell = 1 / (count * array->spacing), .factor = CRAMER_RAO};
@@ -125,10 +124,10 @@ static void add_beams(struct detections *detections, const struct range_doppler_
                       const struct phasor *at, size_t stride, struct arena *arena)
 {
     const struct signal_cube *signal = detections->signal;
-    struct beamforming_peak beams[BEAMFORMING_MOST_PEAKS];
+    struct element_row_peak beams[ELEMENT_ROW_MOST_PEAKS];
     double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
     double least = elementary_max(peak->threshold, detections->least) * peak->gain;
-    size_t count = beamforming_peaks(&signal->array, at, stride, limit, least, beams);
+    size_t count = element_row_peaks(&signal->array, at, stride, limit, least, beams);
     for (size_t i = 0; i < count; i++)
         add_unfolded(detections, peak, beams[i].amplitude / peak->gain,
                      elementary_asin(beams[i].sine), arena);
@@ -222,7 +221,7 @@ static double part_of(const struct detections *detections, const struct received
     if (detection->beam != NULL)
         return part * array_response(&signal->sensor->beams, distance);
     if (signal->array.elements > 0)
-        part *= beamforming_array_factor(&signal->array, distance);
+        part *= element_row_factor(&signal->array, distance);
     return part;
 }
 

@@ -87,7 +87,7 @@ struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *are
     };
     if (sensor->beams.count > 0) {
         signal.channels = sensor->beams.count;
-        signal.array = (struct beamforming_array){sensor->beams.count, sensor->beams.spacing};
+        signal.array = (struct element_row){sensor->beams.count, sensor->beams.spacing};
         signal.folds = signal.turns = sensor->array.transmit.count;
     }
     set_times(&signal);
@@ -132,7 +132,7 @@ static struct phasor times(struct phasor a, struct phasor b)
 /* An echo as the channels receive it: its delay at the instant of the measurement, and by how much
  * that grows in a second. */
 struct signal_source {
-    struct phasor weight[BEAMFORMING_MOST_ELEMENTS];
+    struct phasor weight[ELEMENT_ROW_MOST_ELEMENTS];
     double turns, delay_s, stretch;
 };
 
@@ -147,7 +147,7 @@ static void weigh_channels(const struct signal_cube *signal, const struct receiv
     weight[1] = (struct phasor){received->strength * creal(pointers.delta),
                                 received->strength * cimag(pointers.delta)};
     for (size_t element = 0; element < signal->array.elements; element++) {
-        struct phasor response = beamforming_element_response(&signal->array, sine, element);
+        struct phasor response = element_row_response(&signal->array, sine, element);
         weight[element] =
             (struct phasor){received->amplitude * response.re, received->amplitude * response.im};
     }
@@ -375,7 +375,7 @@ static void form_beam(const struct signal_cube *signal, double sine, size_t rate
     struct phasor *sum = signal->rows;
     memset(sum, 0, kept * sizeof *sum);
     for (size_t element = 0; element < signal->channels; element++) {
-        struct phasor response = beamforming_element_response(&signal->array, sine, element);
+        struct phasor response = element_row_response(&signal->array, sine, element);
         if (taper != NULL) {
             response =
                 times(response, phasor_of(signal_cube_turn_phase(signal, element, rate_mps)));

@@ -17,7 +17,7 @@
 
 #include "base/random.h"
 #include "documents/suite.h"
-#include "signal/beamforming.h"
+#include "signal/element_row.h"
 #include "signal/range_doppler.h"
 
 struct received_echo;
@@ -37,7 +37,7 @@ struct signal_cube {
     double coupling;                    /* bins of range that a rate of 1 m/s adds; 0 for pulses */
     double fold_mps;                    /* range rates this far apart share a bin */
     size_t folds;                       /* that the second train resolves; 1: there is none */
-    struct beamforming_array array;     /* elements 0: the channels are sum and delta */
+    struct element_row array;           /* elements 0: the channels are sum and delta */
     size_t turns;                       /* transmitters that take turns in a repetition, or 1 */
     const size_t *turn;                 /* of each channel */
     size_t range_padding, row_cells;    /* cells to a bin; cells of a transformed row */

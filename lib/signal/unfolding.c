@@ -6,7 +6,7 @@
 /* A beam's weights of the channels. */
 struct beam {
     size_t channels;
-    struct phasor weight[BEAMFORMING_MOST_ELEMENTS];
+    struct phasor weight[ELEMENT_ROW_MOST_ELEMENTS];
 };
 
 static struct beam beam_at(const struct signal_cube *signal, double sine)
@@ -14,7 +14,7 @@ static struct beam beam_at(const struct signal_cube *signal, double sine)
     size_t elements = signal->array.elements;
     struct beam beam = {.channels = 1, .weight = {{1, 0}}};
     for (size_t element = 0; element < elements; element++) {
-        struct phasor response = beamforming_element_response(&signal->array, sine, element);
+        struct phasor response = element_row_response(&signal->array, sine, element);
         double part = 1 / (double)elements;
         beam.weight[element] = (struct phasor){part * response.re, -part * response.im};
         beam.channels = elements;

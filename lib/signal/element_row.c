@@ -1,4 +1,4 @@
-#include "signal/beamforming.h"
+#include "signal/element_row.h"
 
 #include <stdbool.h>
 
@@ -14,18 +14,17 @@
  * the conjugate of x_a. */
 struct series {
     size_t elements;
-    struct phasor r[BEAMFORMING_MOST_ELEMENTS];
+    struct phasor r[ELEMENT_ROW_MOST_ELEMENTS];
 };
 
-struct phasor beamforming_element_response(const struct beamforming_array *array, double sine,
-                                           size_t element)
+struct phasor element_row_response(const struct element_row *array, double sine, size_t element)
 {
     double place = (double)element - (double)(array->elements - 1) / 2;
     struct elementary_sincos phase = elementary_sincos_turns(array->spacing * place * sine);
     return (struct phasor){phase.cos, phase.sin};
 }
 
-double beamforming_array_factor(const struct beamforming_array *array, double distance)
+double element_row_factor(const struct element_row *array, double distance)
 {
     double x = PI * array->spacing * distance, n = (double)array->elements;
     double below = n * elementary_sin(x);
@@ -73,16 +72,16 @@ static double peak_between(const struct series *series, double low, double high)
     return low;
 }
 
-static void insert(struct beamforming_peak *peaks, size_t *count, struct beamforming_peak peak)
+static void insert(struct element_row_peak *peaks, size_t *count, struct element_row_peak peak)
 {
-    size_t place = *count < BEAMFORMING_MOST_PEAKS ? (*count)++ : BEAMFORMING_MOST_PEAKS - 1;
+    size_t place = *count < ELEMENT_ROW_MOST_PEAKS ? (*count)++ : ELEMENT_ROW_MOST_PEAKS - 1;
     for (; place > 0 && peaks[place - 1].amplitude < peak.amplitude; place--)
         peaks[place] = peaks[place - 1];
     peaks[place] = peak;
 }
 
-size_t beamforming_peaks(const struct beamforming_array *array, const struct phasor *samples,
-                         size_t stride, double limit, double least, struct beamforming_peak *peaks)
+size_t element_row_peaks(const struct element_row *array, const struct phasor *samples,
+                         size_t stride, double limit, double least, struct element_row_peak *peaks)
 {
     struct series series = series_of(samples, array->elements, stride);
     double reach = array->spacing * limit;
@@ -98,7 +97,7 @@ size_t beamforming_peaks(const struct beamforming_array *array, const struct pha
         double top =
             peak_between(&series, elementary_max((double)(i - 1) * step - reach, -reach), turns);
         insert(peaks, &count,
-               (struct beamforming_peak){top / array->spacing, sqrt(power_at(&series, top))});
+               (struct element_row_peak){top / array->spacing, sqrt(power_at(&series, top))});
     }
     while (kept < count && peaks[kept].amplitude >= least &&
            peaks[kept].amplitude >= LEAST_OF_STRONGEST * peaks[0].amplitude)
