@@ -1,27 +1,13 @@
 """A picture as SVG: marks at places in metres, and words beside them in pixels; for light and dark pages."""
 import math
+import os
+
+with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../data/figures/style.css"), encoding="utf-8") as file:
+    STYLE = file.read().rstrip()
 
 
 class Drawing:
     """An SVG of places in metres as the observer sees them, and of words beside them in pixels."""
-
-    STYLE = """.road{stroke:#d9dde2;stroke-width:2;stroke-dasharray:14 12}
-.beam{fill:#0072b2;opacity:.06}.body{fill:#e9ecf0;stroke:#7b8490;stroke-width:1.2}.ego{fill:#3d4550}
-.rail{fill:#c3c9d1}.cell{fill:#0072b2;opacity:.3}.centre{fill:#16191d}.merged{stroke:#16191d;stroke-width:1.2;stroke-dasharray:2 3}
-.lost{stroke:#b3261e;stroke-width:1.8}.left{fill:#0072b2;stroke:#fff;stroke-width:1}
-.right{fill:none;stroke:#c74e00;stroke-width:2.6}.rate-left{stroke:#0072b2;stroke-width:1.8}
-.rate-right{stroke:#c74e00;stroke-width:1.8}.ghost{fill:#fff;stroke:#0072b2;stroke-width:1.6;stroke-dasharray:3 2}
-.path{stroke:#0072b2;stroke-width:1.2;stroke-dasharray:6 4;fill:none;opacity:.7}
-.pointer,.frame{stroke:#9aa3ad;stroke-width:1}.frame{fill:none}text{fill:#16191d}.quiet{fill:#5b636e}.red{fill:#b3261e}
-.white{fill:#fff}.strong{font-weight:bold}.paper{fill:#fff}.blue{fill:#0072b2}.orange{fill:#c74e00}.green{fill:#009e73}
-.fan{fill-opacity:.35}.edge{stroke-width:1;stroke-dasharray:8 6}.arrow{stroke:#5b636e;stroke-width:2}
-.plane{stroke:#009e73;stroke-width:4}
-@media (prefers-color-scheme:dark){.paper{fill:#0d1117}.road{stroke:#363c44}.beam{fill:#56b4e9;opacity:.09}
-.body{fill:#262c33;stroke:#7d8794}.ego{fill:#b9c2cc}.rail{fill:#474f59}.cell{fill:#56b4e9}.centre{fill:#eef1f4}
-.merged{stroke:#eef1f4}.lost{stroke:#ff8a80}.left{fill:#56b4e9;stroke:#0d1117}.right{stroke:#f0a030}
-.rate-left,.path{stroke:#56b4e9}.rate-right{stroke:#f0a030}.ghost{fill:#0d1117;stroke:#56b4e9}
-.pointer,.frame{stroke:#6c7681}text{fill:#eef1f4}.quiet{fill:#9aa4b0}.red{fill:#ff8a80}.white{fill:#14171b}
-.blue{fill:#56b4e9}.orange{fill:#f0a030}.green{fill:#2fc59a}.plane{stroke:#2fc59a}.arrow{stroke:#9aa4b0}}"""
 
     def __init__(self, size, scale, x_m, y_m):
         """The place x_m, y_m is at the left upper corner; scale is in pixels to the metre."""
@@ -96,7 +82,7 @@ class Drawing:
         with open(path, "w", encoding="utf-8", newline="\n") as out:
             out.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}"'
                       f' viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="14">\n'
-                      f'<style>{self.STYLE}</style>\n<rect class="paper" width="{width}" height="{height}"/>\n'
+                      f'<style>{STYLE}</style>\n<rect class="paper" width="{width}" height="{height}"/>\n'
                       + "\n".join(self.parts) + "\n</svg>\n")
 
 

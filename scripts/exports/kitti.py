@@ -4,9 +4,8 @@ import os
 import struct
 
 import glint
-from output import line
 from plan import BAD_DATA, Fault
-from streams import boxes, number, scans_of, visibility, word
+from streams import boxes, line, number, scans_of, visibility, word
 
 WIDTH, HEIGHT = 1936, 1216  # of the camera's picture, as View-of-Delft's
 WIDEST_RAD = math.radians(160)  # field of view of the camera, at most

@@ -5,9 +5,8 @@ import math
 import struct
 
 import glint
-from output import line
 from plan import BAD_DATA, Fault
-from streams import boxes, number, scans_of, visibility, word
+from streams import boxes, line, number, scans_of, visibility, word
 
 NO_POINT = *(math.nan,) * 3, 0, 0, *(math.nan,) * 5, *(0,) * 8  # a scan of nuScenes without targets
 MOVING_MPS, MOST_POINTS = 0.5, 1 << 15  # what is slower stands; numbers of points have 16 bits

@@ -4,6 +4,7 @@ import functools
 import glob
 import gzip
 import itertools
+import json
 import math
 import os
 
@@ -26,16 +27,10 @@ GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave
             "targets:": "expected lists, as glint-noise writes them", "_m:": "glint-extract gives objects the sizes of their class"}
 
 
-@functools.lru_cache
-def types_of(name):
-    """What makes values of the cells of a table."""
-    of = {"integer": int, "number": float, "boolean": "true".__eq__, "string": str}
-    return {one["name"]: of[one["type"]] for one in read_json(os.path.join(ROOT, "schemas", "tables.json"))[name]["fields"]}
-
-
 def rows(folder, name):
     """The rows of a table, without empty cells."""
-    types, path = types_of(name), os.path.join(folder, name + ".csv")
+    of, path = {"integer": int, "number": float, "boolean": "true".__eq__, "string": str}, os.path.join(folder, name + ".csv")
+    types = {one["name"]: of[one["type"]] for one in read_json(os.path.join(ROOT, "schemas", "tables.json"))[name]["fields"]}
     path += ".gz" * (not os.path.exists(path))
     try:
         with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="utf-8", newline="") as file:
@@ -157,3 +152,7 @@ def number(value, digits=9):
 def word(name):
     """FRONT_LEFT for front-left."""
     return "".join(c if c.isascii() and c.isalnum() else "_" for c in name).upper()
+
+
+def line(value):
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":")) + "\n"

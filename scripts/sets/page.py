@@ -1,25 +1,10 @@
 """The README.md of a data set, from the texts of data/sets: what is in it, its conventions, and how to load it."""
 import collections
+import json
 import shlex
 
 from plan import kind_of, scene_of, text_of
 from traffic import shell_of
-
-OF_ZSTD = "`zstd -dc {split}/*/*.jsonl.zst` prints the lines; DuckDB's `read_json` reads them as they are.\n"
-OF_TABLES = "`pandas.read_{reader}(\"{first}\")`; DuckDB reads CSV by glint's `schemas/tables.sql`, and Parquet as it is.\n"
-LINES = {"gzip": "A shard is `SPLIT/SUITE/NUMBER.jsonl.gz`: gzip, one frame a line.",
-         "zstd": "A shard is `SPLIT/SUITE/NUMBER.jsonl.zst`: zstd, one frame a line.", None: "A shard is its tables."}
-BARE = " Lines have no `objects`; tables have them."
-TABLES = """
-- The tables of a shard ({form}) are in `SPLIT/SUITE/NUMBER/`. Whole numbers that are unique in the set join
-  them: `frame_key` is a row of `frames`, `scan_key` of `scans`, `object_key` of `objects`, `detection_key` of
-  `detections`."""
-LEAKS = {None: "The set is one split.",
-         "scene": "Splits share no scene: scenes were drawn one by one.",
-         "time": "Splits are blocks of time; {gap_s} s between two of them are left out.",
-         "recording": "Splits share no recording.",
-         "kind": "Splits share no scene and no recorded time."}
-
 
 def split_table(layout, records):
     """Rows of the table of splits and suites."""
@@ -59,17 +44,17 @@ def traffic_of(source):
 
 def page_of(layout, records):
     plan, counts = layout["plan"], classes_by_split(layout, records)
-    splits = plan.get("splits", {})
+    splits, texts = plan.get("splits", {}), json.loads(text_of("page.json"))
     first, parquet = layout["shards"][0], plan.get("tables") == "parquet"
-    compression = plan.get("compression", "gzip") if first["lines"] else None
-    loading = {"zstd": OF_ZSTD, None: OF_TABLES}.get(compression) or text_of("loading.txt")
+    form = plan.get("compression", "gzip") if first["lines"] else "tables"
+    loading = texts["loading"].get(form) or text_of("loading.txt")
     return text_of("page.txt").format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
         rows=sum(record["frames"] for record in records),
         targets=sum(sum(record["targets"].values()) for record in records),
         table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
         classes=class_table(counts), traffic="\n".join(map(traffic_of, plan["sources"])),
-        leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
-        lines=LINES[compression] + BARE * (plan.get("lines") == "without_objects"), shell=shlex.join(shell_of(plan)),
-        tables=TABLES.format(form="Parquet" if parquet else "CSV, gzip") if plan.get("tables") else "",
+        leak=texts["splits"][splits.get("by", "none")].format(gap_s=splits.get("gap_s")),
+        lines=texts["lines"][form] + texts["bare"] * (plan.get("lines") == "without_objects"), shell=shlex.join(shell_of(plan)),
+        tables=texts["tables"].format(form="Parquet" if parquet else "CSV, gzip") if plan.get("tables") else "",
         loading=loading.format(first=first["lines"] or first["tables"][0], split=first["split"], reader="parquet" if parquet else "csv").rstrip())

@@ -119,3 +119,17 @@ def platform(binary):
     libc = subprocess.run(["getconf", "GNU_LIBC_VERSION"], check=True, stdout=subprocess.PIPE,
                           text=True).stdout
     return {"machine": os.uname().machine, "compiler": "; ".join(producers).strip(), "libc": libc.strip()}
+
+
+def lines(glint, chosen, folder):
+    """Instructions of scenes by name. Frames are as many as make a run of callgrind a few seconds."""
+    frames = {2: 30, 20: 12, 100: 6, 1000: 2}
+    for name in Progress("scenes").over([*chosen] if available() else []):
+        scene = chosen[name]
+        for labels in ("default", "account"):
+            of_modes = jobs(glint, scene, frames[scene[1]], labels, folder)
+            found = side_by_side(lambda job: instructions(glint, job), of_modes.values())
+            for mode, parts in zip(of_modes, found):
+                for part, count in parts.items():
+                    yield {"scene": name, "labels": labels, "mode": mode, "part": part,
+                           "instructions_per_frame": round(count, 3)}

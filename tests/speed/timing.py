@@ -34,6 +34,19 @@ def spent(command, stdout=subprocess.DEVNULL):
     return {line["part"]: line for line in map(json.loads, done.stderr.splitlines())}
 
 
+def function_lines(repeat):
+    done = subprocess.run([os.path.join(TOOLS, "functions"), str(repeat)],
+                          check=True, stdout=subprocess.PIPE, text=True)
+    samples = {}
+    for line in done.stdout.splitlines():
+        name, ours, libm = line.split("\t")
+        samples.setdefault(name, []).append((float(ours), float(libm)))
+    for name, pairs in samples.items():
+        ours, libm = (statistics.median(column) for column in zip(*pairs))
+        yield {"function": name, "ns": round(ours, 2), "libm_ns": round(libm, 2),
+               "ratio": round(ours / libm, 2)}
+
+
 def write_text(text, folder, name="chain.sh"):
     path = os.path.join(folder, name)
     with open(path, "w") as out:
