@@ -68,20 +68,20 @@ def start(output):
 
 # What is compared, the figure of this machine, and both of an output.
 LINES = [
-    ("a frame, fused, to a plain chain without labels", "{:,.0f} frames/s",
+    ("a frame, fused / by a plain chain without labels", "{:,.0f} frames/s",
      lambda output: chain(output, "default")),
-    ("the same with an account", "{:,.0f} frames/s", lambda output: chain(output, "account")),
-    ("its physics, to writing it", "{:.0f} to {:.0f} µs", physics),
-    ("writing it, to writing 240 numbers", "{:.1f} kB",
+    ("the same, the frame with an account", "{:,.0f} frames/s", lambda output: chain(output, "account")),
+    ("physics of the frame / writing its line", "{:.0f} to {:.0f} µs", physics),
+    ("writing its line / writing 240 numbers", "{:.1f} kB",
      lambda output: text(output, "noise: write", "write 240 numbers")),
-    ("reading it before noise, to reading 240 numbers", "{:.1f} kB",
+    ("reading it before noise / reading 240 numbers", "{:.1f} kB",
      lambda output: text(output, "noise: read", "read 240 numbers")),
-    ("five processes, to one, in CPU time", "{:,.0f} frames/s", piped),
-    ("one process, to two shards on two cores", "{:,.0f} frames/s", shards),
-    ("an object of 1,000, to one of 20", "{:.1f} µs each", lambda output: growth(output, GROWING[0])),
-    ("the same where all are in view", "{:.1f} µs each", lambda output: growth(output, GROWING[1])),
-    ("and none hides another", "{:.1f} µs each", lambda output: growth(output, GROWING[2])),
-    ("starting glint, to starting a process", "{:.1f} ms", start),
+    ("five processes / one process, in CPU time", "{:,.0f} frames/s", piped),
+    ("one process / two shards on two cores", "{:,.0f} frames/s", shards),
+    ("an object among 1,000 / an object among 20", "{:.1f} µs each", lambda output: growth(output, GROWING[0])),
+    ("the same, all objects in view", "{:.1f} µs each", lambda output: growth(output, GROWING[1])),
+    ("the same, all in view and none hidden", "{:.1f} µs each", lambda output: growth(output, GROWING[2])),
+    ("starting glint / starting a process", "{:.1f} ms", start),
 ]
 
 
