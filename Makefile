@@ -116,14 +116,40 @@ $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(call flags_of,$<) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/lib/%.pb-c.c: lib/%.proto
+# The C of protobuf-c has no room for a field called "base".
+protos := $(interfaces:%.pb-c=%.proto)
+$(protos): $(BUILD)/lib/%.proto: lib/%.proto
 	@mkdir -p $(@D)
-	$(Q)protoc-c --proto_path=lib --c_out=$(BUILD)/lib $<
+	$(Q)sed 's/ base = / body = /' $< >$@
+
+$(BUILD)/lib/%.pb-c.c: $(protos)
+	$(Q)protoc-c --proto_path=$(BUILD)/lib --c_out=$(BUILD)/lib $(BUILD)/lib/$*.proto
 
 # What protoc-c writes is not held to our warnings.
 $(interfaces:%=%.o): %.pb-c.o: %.pb-c.c
 	$(Q)$(CC) $(HOUSE_C) -w -iquote $(BUILD)/lib $(call flags_of,$(*:$(BUILD)/%=%).c) $(CFLAGS) -c -o $@ $<
-$(interfaces:%.pb-c=%.c.o): %.c.o: %.pb-c.c
+$(extra_objects) $(interfaces:%=%.o): $(interfaces:%=%.c)
+
+# What glint-mcap embeds: the interface of OSI as a FileDescriptorSet, and schemas.
+ifneq ($(filter mcap,$(names)),)
+embedded := $(BUILD)/lib/export/embedded
+$(embedded)/osi_trace_descriptors: $(wildcard lib/*/*.proto)
+	@mkdir -p $(@D)
+	$(Q)protoc-c --proto_path=lib --include_imports --descriptor_set_out=$@ lib/export/osi_trace.proto
+
+$(embedded)/%: lib/export/%.json
+	@mkdir -p $(@D)
+	$(Q)cp $< $@
+
+$(embedded).c: $(addprefix $(embedded)/,osi_trace_descriptors foxglove_point_cloud foxglove_scene_update)
+	$(Q)for file in $^; do echo "extern const char $${file##*/}[]; const char $${file##*/}[] = {"; \
+	    od -An -v -tu1 $$file | sed 's/[0-9]\{1,\}/(char)&,/g'; echo '0};'; done >$@
+	$(Q)echo "extern const unsigned osi_trace_size; const unsigned osi_trace_size = sizeof osi_trace_descriptors - 1;" >>$@
+
+$(embedded).o: $(embedded).c
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+stage_objects += $(embedded).o
+endif
 
 # The folder is the registry; the file is rewritten only when the list has changed.
 registry = for n in $(1); do echo "extern const struct stage stage_$$n;"; done; \

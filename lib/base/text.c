@@ -108,6 +108,18 @@ void text_add_json(struct text *text, const char *bytes, size_t length)
     text->length = (size_t)(end - text->bytes);
 }
 
+void text_add_base64(struct text *text, const unsigned char *bytes, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    char *out = text_room(text, size / 3 * 4);
+    for (size_t i = 0; i < size; i += 3) {
+        unsigned group = (unsigned)bytes[i] << 16 | (unsigned)bytes[i + 1] << 8 | bytes[i + 2];
+        for (int shift = 18; shift >= 0; shift -= 6)
+            *out++ = digits[group >> shift & 63];
+    }
+    text->length += size / 3 * 4;
+}
+
 void text_free(struct text *text)
 {
     free(text->bytes);

@@ -38,6 +38,9 @@ void text_add_json(struct text *text, const char *bytes, size_t length);
 char *text_put_json(char *at, const char *bytes, size_t length);
 size_t text_json_size(size_t length);
 
+/* Bytes in base64; size is a multiple of 3. */
+void text_add_base64(struct text *text, const unsigned char *bytes, size_t size);
+
 /* Four or eight bytes as a number, the first one lowest, on every machine. */
 static inline uint64_t text_half_word(const char *bytes)
 {

@@ -165,6 +165,15 @@ static const void *run_named(const void *items, size_t count, size_t size, const
 #define RUN_NAMED(list, name, run)                                                                 \
     run_named((list)->items, (list)->count, sizeof *(list)->items, (name), (run))
 
+double frame_rear_axle_x_m(const struct frame *frame, const struct object *object)
+{
+    for (size_t i = 0; i < frame->vehicles.count; i++)
+        if (frame_same_name(frame->vehicles.items[i].class, object->class) &&
+            frame->vehicles.items[i].rear_axle_x_m != 0)
+            return frame->vehicles.items[i].rear_axle_x_m;
+    return -1.25 / 4.5 * object->length_m;
+}
+
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor)
 {
     return FIND_NAMED(&frame->sensors.list, sensor);

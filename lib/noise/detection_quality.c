@@ -35,10 +35,6 @@ double detection_quality_existence(const struct existence *existence, double pow
     return 1 / (1 + elementary_exp(log_odds));
 }
 
-/* Distance of the rear axle behind the centre of the box, in lengths of the box: that of a car of
- * 4.5 m (MODEL 2.1). */
-#define REAR_AXLE (1.25 / 4.5)
-
 struct detection_source detection_quality_source(const struct sensor *sensor,
                                                  struct cell_span cells,
                                                  const struct effect_scan *scan)
@@ -198,15 +194,6 @@ static void add_labels(const struct detection_source *source, const struct targe
     quality->present |= QUALITY_FOLDS;
 }
 
-static double rear_axle_x_m(const struct frame *frame, const struct object *ego)
-{
-    for (size_t i = 0; i < frame->vehicles.count; i++)
-        if (frame_same_name(frame->vehicles.items[i].class, ego->class) &&
-            frame->vehicles.items[i].rear_axle_x_m != 0)
-            return frame->vehicles.items[i].rear_axle_x_m;
-    return -REAR_AXLE * ego->length_m;
-}
-
 /* Adds places and speeds, rounded to 0.1 mm and 0.1 mm/s, at the instant of the measurement. */
 static void add_places(const struct frame *frame, const struct target *target,
                        struct quality *quality)
@@ -230,7 +217,7 @@ static void add_places(const struct frame *frame, const struct target *target,
         kinematics_sensor_pose(&motion, view->mount_x_m, view->mount_y_m, view->mount_yaw_rad);
     struct vec2 world_m = vec2_add(pose.position_m, vec2_turn(place_m, pose.boresight));
     double own_mps = vec2_dot(pose.velocity_mps, vec2_turn(sight, pose.boresight));
-    quality->x_rear_axle_m = to_part(centre_m.x - rear_axle_x_m(frame, ego), parts);
+    quality->x_rear_axle_m = to_part(centre_m.x - frame_rear_axle_x_m(frame, ego), parts);
     quality->x_world_m = to_part(world_m.x, parts);
     quality->y_world_m = to_part(world_m.y, parts);
     quality->range_rate_over_ground_mps = to_part(target->range_rate_mps + own_mps, parts);

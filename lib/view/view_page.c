@@ -147,18 +147,6 @@ static void put_number(unsigned char *byte, uint32_t number, size_t width)
         byte[i] = (unsigned char)(number >> 8 * i);
 }
 
-static void write_base64(struct text *text, const unsigned char *bytes, size_t size)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    char *out = text_room(text, size / 3 * 4);
-    for (size_t i = 0; i < size; i += 3) {
-        unsigned group = (unsigned)bytes[i] << 16 | (unsigned)bytes[i + 1] << 8 | bytes[i + 2];
-        for (int shift = 18; shift >= 0; shift -= 6)
-            *out++ = digits[group >> shift & 63];
-    }
-    text->length += size / 3 * 4;
-}
-
 /* Fills each column up to a multiple of 12 bytes: whole groups of base64, and aligned for any
  * number. */
 void view_page_write_columns(const struct view_columns *columns, struct text *text)
@@ -173,7 +161,7 @@ void view_page_write_columns(const struct view_columns *columns, struct text *te
                 put_number(bytes + used, columns->list[column].items[index], width);
             size_t padded = (used + 11) / 12 * 12;
             memset(bytes + used, 0, padded - used);
-            write_base64(text, bytes, padded);
+            text_add_base64(text, bytes, padded);
         }
     }
 }

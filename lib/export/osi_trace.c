@@ -1,0 +1,369 @@
+#include "export/osi_trace.h"
+/* needs: libprotobuf-c */
+#include "base/elementary.h"
+#include "base/number.h"
+#include "export/osi_trace.pb-c.h"
+#include "frame/frame_order.h"
+
+static const uint64_t second_ns = 1000000000;
+
+/* ---- frames that a trace takes ---- */
+
+uint64_t osi_trace_ns(const struct osi_trace *trace, double time_s)
+{
+    double shifted_s = time_s + trace->shift_s, whole_s = floor(shifted_s);
+    return (uint64_t)whole_s * second_ns + (uint64_t)round((shifted_s - whole_s) * 1e9);
+}
+
+static int check_times(struct osi_trace *trace, const struct frame *frame, struct diag *diag)
+{
+    double last_s = frame->time_s + trace->shift_s, first_s = last_s;
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (frame->sensors.list.items[i].measured)
+            first_s = elementary_min(first_s, last_s - frame->sensors.list.items[i].age_s);
+    if (first_s < 0 || last_s > 1e10)
+        return diag_fail(diag, DIAG_DATA,
+                         "time_s: a measurement at %.12g s; a trace has times in [0, 1e10] s: "
+                         "expected --shift-s, which is added to all times",
+                         first_s);
+    uint64_t before_ns = trace->time_ns;
+    trace->time_ns = osi_trace_ns(trace, frame->time_s);
+    if (before_ns > 0 && trace->time_ns <= before_ns)
+        return diag_fail(diag, DIAG_DATA, "time_s: %.12g after %.12g; expected ascending times",
+                         last_s, (double)before_ns / 1e9);
+    return 0;
+}
+
+static int check_objects(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        if (object->length_m == 0 || object->width_m == 0 || object->height_m == 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "objects: \"%s\" has no length, width or height; expected "
+                             "glint-extract before this one",
+                             object->id);
+    }
+    return 0;
+}
+
+int osi_trace_take(struct osi_trace *trace, struct frame *frame, struct diag *diag)
+{
+    if (trace->scene == NULL) {
+        trace->scene = arena_text(trace->arena, frame->scene, strlen(frame->scene));
+        trace->seed = frame->seed;
+    }
+    if (strcmp(trace->scene, frame->scene) != 0 || trace->seed != frame->seed)
+        return diag_fail(diag, DIAG_DATA,
+                         "scene: \"%s\" after \"%s\"; expected one scene of one seed", frame->scene,
+                         trace->scene);
+    frame_order_objects(frame);
+    return check_times(trace, frame, diag) != 0 ? -1 : check_objects(frame, diag);
+}
+
+/* ---- messages ---- */
+
+struct writing {
+    struct osi_trace *trace;
+    const struct frame *frame;
+    struct arena *arena; /* of the frame */
+};
+
+#define SET(message, member, value) ((message)->has_##member = 1, (message)->member = (value))
+#define NEW(writing, message) new_message(writing, &osi3__##message##__descriptor)
+#define LIST(writing, list, count) ((list) = arena_get((writing)->arena, (count) * sizeof *(list)))
+#define NUMBERS(writing, message, ...)                                                             \
+    numbers(writing, &osi3__##message##__descriptor, (const double[]){__VA_ARGS__})
+
+static void *new_message(struct writing *writing, const ProtobufCMessageDescriptor *descriptor)
+{
+    void *message = arena_get(writing->arena, descriptor->sizeof_message);
+    protobuf_c_message_init(descriptor, message);
+    return message;
+}
+
+/* A message of numbers, in the order of its fields; NAN leaves one out. */
+static void *numbers(struct writing *writing, const ProtobufCMessageDescriptor *descriptor,
+                     const double *values)
+{
+    char *message = new_message(writing, descriptor);
+    for (unsigned i = 0; i < descriptor->n_fields; i++) {
+        const ProtobufCFieldDescriptor *field = &descriptor->fields[i];
+        char *at = message + field->offset;
+        if (isnan(values[i]))
+            continue;
+        memcpy(message + field->quantifier_offset, &(protobuf_c_boolean){1}, sizeof(int));
+        if (field->type == PROTOBUF_C_TYPE_DOUBLE)
+            memcpy(at, &values[i], sizeof(double));
+        else if (field->type == PROTOBUF_C_TYPE_INT64)
+            memcpy(at, &(int64_t){(int64_t)values[i]}, sizeof(int64_t));
+        else
+            memcpy(at, &(uint32_t){(uint32_t)values[i]}, sizeof(uint32_t));
+    }
+    return message;
+}
+
+static Osi3__InterfaceVersion *version(struct writing *writing)
+{
+    return NUMBERS(writing, interface_version, 3, 8, 0);
+}
+
+static Osi3__Timestamp *stamp(struct writing *writing, double time_s)
+{
+    uint64_t time_ns = osi_trace_ns(writing->trace, time_s);
+    return NUMBERS(writing, timestamp, (double)(time_ns / second_ns),
+                   (double)(time_ns % second_ns));
+}
+
+static Osi3__Identifier *identifier(struct writing *writing, uint64_t number)
+{
+    Osi3__Identifier *identifier = NEW(writing, identifier);
+    SET(identifier, value, number);
+    return identifier;
+}
+
+static Osi3__Identifier *object_id(struct writing *writing, const char *id)
+{
+    enum { MOST_DIGITS = 15 };
+    size_t length = strlen(id);
+    double number;
+    if (length <= MOST_DIGITS && strspn(id, "0123456789") == length &&
+        number_read(id, id + length, &number)) /* without leading zeros */
+        return identifier(writing, (uint64_t)number);
+    uint32_t name = intern_word(&writing->trace->objects, id, writing->trace->arena);
+    return identifier(writing, OSI_TRACE_NAMED + name);
+}
+
+/* The height of a mount is not known. */
+static Osi3__MountingPosition *mounting(struct writing *writing, double x, double y, double yaw)
+{
+    Osi3__MountingPosition *mounting = NEW(writing, mounting_position);
+    mounting->position = NUMBERS(writing, vector3d, x, y, NAN);
+    mounting->orientation = NUMBERS(writing, orientation3d, 0, 0, yaw);
+    return mounting;
+}
+
+/* ---- the truth ---- */
+
+enum object_kind { MOVING, VEHICLE, STATIONARY };
+
+enum { TYPE_OTHER = 1, TYPE_VEHICLE = 2 };
+
+struct type {
+    enum object_kind kind;
+    int32_t number;
+    const char *class;
+};
+
+static struct type type_of(const struct object *object)
+{
+    static const struct type types[] = {
+#define OSI_FIRST(kind, number, word, class) {kind, number, class},
+#include "recorded/recorded_classes.def"
+        {VEHICLE, TYPE_OTHER, "articulated_truck"},
+    };
+    bool moves = object->vx_mps != 0 || object->vy_mps != 0 || object->yaw_rate_radps != 0;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (strcmp(types[i].class, object->class) == 0 && !(moves && types[i].kind == STATIONARY))
+            return types[i];
+    return (struct type){MOVING, TYPE_OTHER, object->class};
+}
+
+/* The id and the class as texts, for which OSI has no other field. */
+static Osi3__ExternalReference *source(struct writing *writing, const struct object *object)
+{
+    Osi3__ExternalReference *source = NEW(writing, external_reference);
+    source->type = (char *)"glint.object";
+    source->n_identifier = 2;
+    LIST(writing, source->identifier, 2);
+    source->identifier[0] = (char *)object->id;
+    source->identifier[1] = (char *)object->class;
+    return source;
+}
+
+/* The box stands on the plane z = 0. */
+static Osi3__Base *body(struct writing *writing, const struct object *object)
+{
+    const struct frame *frame = writing->frame;
+    Osi3__Base *base = NEW(writing, base);
+    base->dimension =
+        NUMBERS(writing, dimension3d, object->length_m, object->width_m, object->height_m);
+    base->position = NUMBERS(writing, vector3d, frame->origin_x_m + object->x_m,
+                             frame->origin_y_m + object->y_m, object->height_m / 2);
+    base->orientation = NUMBERS(writing, orientation3d, 0, 0, object->yaw_rad);
+    return base;
+}
+
+static void add_stationary(struct writing *writing, const struct object *object, int32_t type,
+                           Osi3__GroundTruth *truth)
+{
+    Osi3__StationaryObject *own = NEW(writing, stationary_object);
+    own->id = object_id(writing, object->id);
+    own->body = body(writing, object);
+    own->classification = NUMBERS(writing, stationary_object__classification, type);
+    own->n_source_reference = 1;
+    *LIST(writing, own->source_reference, 1) = source(writing, object);
+    truth->stationary_object[truth->n_stationary_object++] = own;
+}
+
+static void add_moving(struct writing *writing, const struct object *object, struct type type,
+                       Osi3__GroundTruth *truth)
+{
+    Osi3__MovingObject *own = NEW(writing, moving_object);
+    own->id = object_id(writing, object->id);
+    own->body = body(writing, object);
+    own->body->velocity = NUMBERS(writing, vector3d, object->vx_mps, object->vy_mps, 0);
+    own->body->orientation_rate = NUMBERS(writing, orientation3d, 0, 0, object->yaw_rate_radps);
+    own->n_source_reference = 1;
+    *LIST(writing, own->source_reference, 1) = source(writing, object);
+    SET(own, type, type.kind == VEHICLE ? TYPE_VEHICLE : type.number);
+    if (type.kind == VEHICLE) {
+        double axle_x_m = frame_rear_axle_x_m(writing->frame, object);
+        own->vehicle_classification =
+            NUMBERS(writing, moving_object__vehicle_classification, type.number);
+        own->vehicle_attributes = NEW(writing, moving_object__vehicle_attributes);
+        own->vehicle_attributes->bbcenter_to_rear =
+            NUMBERS(writing, vector3d, axle_x_m, 0, -object->height_m / 2);
+    }
+    truth->moving_object[truth->n_moving_object++] = own;
+}
+
+static Osi3__GroundTruth *ground_truth(struct writing *writing)
+{
+    const struct frame *frame = writing->frame;
+    Osi3__GroundTruth *truth = NEW(writing, ground_truth);
+    truth->version = version(writing);
+    truth->timestamp = stamp(writing, frame->time_s);
+    truth->host_vehicle_id = object_id(writing, frame->ego);
+    LIST(writing, truth->moving_object, frame->objects.count);
+    LIST(writing, truth->stationary_object, frame->objects.count);
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        struct type type = type_of(&frame->objects.items[i]);
+        if (type.kind == STATIONARY)
+            add_stationary(writing, &frame->objects.items[i], type.number, truth);
+        else
+            add_moving(writing, &frame->objects.items[i], type, truth);
+    }
+    return truth;
+}
+
+/* The view of all sensors together, whose frame is that of the vehicle. */
+static Osi3__SensorView *sensor_view(struct writing *writing)
+{
+    Osi3__SensorView *view = NEW(writing, sensor_view);
+    view->global_ground_truth = ground_truth(writing);
+    view->version = view->global_ground_truth->version;
+    view->timestamp = view->global_ground_truth->timestamp;
+    view->host_vehicle_id = view->global_ground_truth->host_vehicle_id;
+    view->sensor_id = identifier(writing, 0);
+    view->mounting_position = mounting(writing, 0, 0, 0);
+    return view;
+}
+
+/* ---- detections ---- */
+
+#define CLASS(name) OSI3__DETECTION_CLASSIFICATION__DETECTION_CLASSIFICATION_##name
+
+/* By the label: noise, the ground, a ghost, or what stands or moves there. */
+static Osi3__DetectionClassification class_of(const struct contributor *from)
+{
+    if (from == NULL || from->id.path == PATH_FALSE_ALARM)
+        return CLASS(CLUTTER);
+    if (from->id.path == PATH_CLUTTER)
+        return frame_same_name(from->id.object, "roadside") ? CLASS(OTHER) : CLASS(OVERDRIVABLE);
+    return frame_shows_object(from->id.path) ? CLASS(OTHER) : CLASS(INVALID);
+}
+
+/* The radial velocity of OSI is positive towards the sensor. A range rate that may be folded has an
+ * ambiguity of its own, as its alternatives are in no list. */
+static Osi3__RadarDetection *detection_of(struct writing *writing, const struct target *target,
+                                          size_t number)
+{
+    const struct quality *quality = &target->quality;
+    const struct contributor *from = frame_strongest(target);
+    bool known = from != NULL && frame_object(writing->frame, from->id.object) != NULL;
+    Osi3__RadarDetection *own = NEW(writing, radar_detection);
+    own->object_id = known ? object_id(writing, from->id.object) : identifier(writing, UINT64_MAX);
+    own->position = NUMBERS(writing, spherical3d, target->range_m, target->azimuth_rad);
+    SET(own, radial_velocity, 0 - target->range_rate_mps);
+    own->ambiguity_id = identifier(writing, (quality->present & QUALITY_FOLDS) != 0 ? number : 0);
+    SET(own, classification, class_of(from));
+    if ((quality->present & QUALITY_NOISE) != 0) {
+        SET(own, existence_probability, quality->existence);
+        SET(own, snr, quality->snr_db);
+    }
+    if ((quality->present & QUALITY_RCS) != 0)
+        SET(own, rcs, quality->rcs_dbsm);
+    if ((quality->present & QUALITY_ERRORS) != 0) {
+        own->position_rmse =
+            NUMBERS(writing, spherical3d, quality->range_sd_m, quality->azimuth_sd_rad);
+        SET(own, radial_velocity_rmse, quality->range_rate_sd_mps);
+    }
+    return own;
+}
+
+/* A frame's line has room for fewer targets than a count of 32 bits. */
+static Osi3__RadarDetectionData *radar_of(struct writing *writing, const struct sensor_view *sensor)
+{
+    const struct frame *frame = writing->frame;
+    double axle_x_m = frame_rear_axle_x_m(frame, frame_object(frame, frame->ego));
+    Osi3__RadarDetectionData *own = NEW(writing, radar_detection_data);
+    Osi3__SensorDetectionHeader *header = own->header = NEW(writing, sensor_detection_header);
+    header->measurement_time = stamp(writing, frame->time_s - sensor->age_s);
+    SET(header, cycle_counter, (uint64_t)frame->frame);
+    header->mounting_position =
+        mounting(writing, sensor->mount_x_m - axle_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    SET(header, data_qualifier,
+        OSI3__SENSOR_DETECTION_HEADER__DATA_QUALIFIER__DATA_QUALIFIER_AVAILABLE);
+    SET(header, number_of_valid_detections, 0);
+    header->sensor_id = identifier(writing, (uint64_t)(sensor - frame->sensors.list.items) + 1);
+    LIST(writing, own->detection, frame->targets.count);
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        const struct target *target = &frame->targets.items[i];
+        if (!frame_same_name(target->sensor, sensor->name))
+            continue;
+        own->detection[own->n_detection] = detection_of(writing, target, own->n_detection + 1);
+        header->number_of_valid_detections +=
+            own->detection[own->n_detection++]->classification != CLASS(INVALID);
+    }
+    return own;
+}
+
+static Osi3__SensorData *sensor_data(struct writing *writing)
+{
+    const struct frame *frame = writing->frame;
+    double youngest_s = INFINITY;
+    Osi3__SensorData *own = NEW(writing, sensor_data);
+    Osi3__FeatureData *features = own->feature_data = NEW(writing, feature_data);
+    own->version = features->version = version(writing);
+    own->timestamp = stamp(writing, frame->time_s);
+    own->sensor_id = identifier(writing, 0);
+    own->mounting_position = mounting(writing, 0, 0, 0);
+    own->n_sensor_view = 1;
+    *LIST(writing, own->sensor_view, 1) = sensor_view(writing);
+    LIST(writing, features->radar_sensor, frame->sensors.list.count);
+    for (size_t i = 0; i < frame->sensors.list.count; i++) {
+        const struct sensor_view *sensor = &frame->sensors.list.items[i];
+        if (!sensor->measured)
+            continue;
+        features->radar_sensor[features->n_radar_sensor++] = radar_of(writing, sensor);
+        youngest_s = elementary_min(youngest_s, sensor->age_s);
+    }
+    if (features->n_radar_sensor > 0)
+        own->last_measurement_time = stamp(writing, frame->time_s - youngest_s);
+    return own;
+}
+
+int osi_trace_add(struct osi_trace *trace, const struct frame *frame, struct text *text,
+                  struct diag *diag)
+{
+    if (!frame_carries(frame, CARRY_QUALITY))
+        return diag_fail(diag, DIAG_DATA,
+                         "quality: missing; expected --sections quality at glint-noise or before, "
+                         "for OSI's errors, rcs, snr and existence");
+    struct writing writing = {trace, frame, frame->arena};
+    const Osi3__SensorData *data = sensor_data(&writing);
+    char *room = text_room(text, osi3__sensor_data__get_packed_size(data));
+    text->length += osi3__sensor_data__pack(data, (uint8_t *)room);
+    return 0;
+}

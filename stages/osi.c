@@ -1,0 +1,38 @@
+/* OSI 3.8: a trace of messages SensorData, with the detections of all radars and the truth. */
+#include "export/osi_trace.h"
+/* needs: libprotobuf-c */
+#include "run/stage.h"
+
+static int osi_start(void *state, struct runner *runner)
+{
+    struct osi_trace *trace = state;
+    trace->arena = runner_arena(runner);
+    return 0;
+}
+
+/* A message stands behind its length in four bytes. */
+static int osi_step(void *state, struct frame *frame, struct runner *runner)
+{
+    struct text message = {0};
+    char length[8];
+    if (osi_trace_take(state, frame, runner_diag(runner)) != 0 ||
+        osi_trace_add(state, frame, &message, runner_diag(runner)) != 0)
+        return -1;
+    text_put_word(length, message.length);
+    return runner_write(runner, length, sizeof length / 2) == 0
+               ? runner_write_text(runner, &message)
+               : -1;
+}
+
+static const struct field osi_fields[] = {OSI_TRACE_OPTION, {0}};
+
+const struct stage stage_osi = {
+    .name = "osi",
+    .summary = "Write a trace of OSI 3.8 with the detections of all radars and the truth.",
+    .details = "",
+    .options = STAGE_OPTIONS(struct osi_trace, osi_fields),
+    .sink = true,
+    .reads = SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS,
+    .start = osi_start,
+    .step = osi_step,
+};
