@@ -130,7 +130,7 @@ $(interfaces:%=%.o): %.pb-c.o: %.pb-c.c
 	$(Q)$(CC) $(HOUSE_C) -w -iquote $(BUILD)/lib $(call flags_of,$(*:$(BUILD)/%=%).c) $(CFLAGS) -c -o $@ $<
 $(extra_objects) $(interfaces:%=%.o): $(interfaces:%=%.c)
 
-# What glint-mcap embeds: the interface of OSI as a FileDescriptorSet, and schemas.
+# What glint-mcap embeds: the interface of OSI as a FileDescriptorSet, schemas and patterns.
 ifneq ($(filter mcap,$(names)),)
 embedded := $(BUILD)/lib/export/embedded
 $(embedded)/osi_trace_descriptors: $(wildcard lib/*/*.proto)
@@ -139,12 +139,12 @@ $(embedded)/osi_trace_descriptors: $(wildcard lib/*/*.proto)
 
 $(embedded)/%: lib/export/%.json
 	@mkdir -p $(@D)
-	$(Q)cp $< $@
+	$(Q)sed 's/^ *//' $< | tr -d '\n' >$@
 
-$(embedded).c: $(addprefix $(embedded)/,osi_trace_descriptors foxglove_point_cloud foxglove_scene_update)
-	$(Q)for file in $^; do echo "extern const char $${file##*/}[]; const char $${file##*/}[] = {"; \
+$(embedded).c: $(embedded)/osi_trace_descriptors $(patsubst lib/export/%.json,$(embedded)/%,$(wildcard lib/export/*.json))
+	$(Q)for file in $^; do name=$${file##*/}; echo "extern const char $$name[]; const char $$name[] = {"; \
 	    od -An -v -tu1 $$file | sed 's/[0-9]\{1,\}/(char)&,/g'; echo '0};'; done >$@
-	$(Q)echo "extern const unsigned osi_trace_size; const unsigned osi_trace_size = sizeof osi_trace_descriptors - 1;" >>$@
+	$(Q)echo 'extern const unsigned osi_trace_size; const unsigned osi_trace_size = sizeof osi_trace_descriptors - 1;' >>$@
 
 $(embedded).o: $(embedded).c
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<

@@ -29,7 +29,11 @@ static const struct field osi_fields[] = {OSI_TRACE_OPTION, {0}};
 const struct stage stage_osi = {
     .name = "osi",
     .summary = "Write a trace of OSI 3.8 with the detections of all radars and the truth.",
-    .details = "",
+    .details = "Each frame is a message SensorData behind its length in four bytes. "
+               "radial_velocity is positive "
+               "towards the sensor, as OSI 3.8 says. data/exports/README.md lists the fields and "
+               "what OSI has "
+               "no place for. A trace holds one scene; frames need --sections quality.",
     .options = STAGE_OPTIONS(struct osi_trace, osi_fields),
     .sink = true,
     .reads = SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS,

@@ -2,64 +2,38 @@
 /* needs: zlib */
 #include <zlib.h>
 
-enum opcode {
-    HEADER = 1,
-    FOOTER,
-    SCHEMA,
-    CHANNEL,
-    MESSAGE,
-    CHUNK,
-    MESSAGE_INDEX,
-    CHUNK_INDEX,
-    STATISTICS = 0x0B,
-    METADATA,
-    METADATA_INDEX,
-    SUMMARY_OFFSET,
-    DATA_END,
-};
-
+enum { HEADER = 1, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, CHUNK_INDEX };
+enum { STATISTICS = 11, METADATA, METADATA_INDEX, SUMMARY_OFFSET, DATA_END };
 enum { CHUNK_SIZE = 1 << 20 };
 
 static const char magic[] = "\x89MCAP0\r\n";
 
-/* ---- records ---- */
-
-/* A number of so many bytes; it is the length of bytes that follow it, unless they are NULL. */
+/* A number of so many bytes, lowest first; the length of the bytes behind it unless they are NULL.
+ */
 struct part {
     uint64_t number;
     size_t size;
     const char *bytes;
 };
 
-#define U16(number)                                                                                \
-    {                                                                                              \
-        (number), 2, NULL                                                                          \
-    }
-#define U32(number)                                                                                \
-    {                                                                                              \
-        (number), 4, NULL                                                                          \
-    }
-#define U64(number)                                                                                \
-    {                                                                                              \
-        (number), 8, NULL                                                                          \
-    }
-#define WORD(word)                                                                                 \
-    {                                                                                              \
-        strlen(word), 4, (word)                                                                    \
-    }
-#define ARRAY(text)                                                                                \
-    {                                                                                              \
-        (text).length, 4, (text).bytes                                                             \
-    }
-#define BYTES(size, bytes, length)                                                                 \
-    {                                                                                              \
-        (length), (size), (bytes)                                                                  \
-    }
+#define U8(number) ((struct part){(uint8_t)(number), 1, NULL})
+#define U16(number) ((struct part){(number), 2, NULL})
+#define U32(number) ((struct part){(number), 4, NULL})
+#define U64(number) ((struct part){(number), 8, NULL})
+#define WORD(word) ((struct part){strlen(word), 4, (word)})
+#define TEXT(size, text) ((struct part){(text).length, (size), (text).bytes})
+#define ADD(text, ...)                                                                             \
+    add_parts(text, (const struct part[]){__VA_ARGS__},                                            \
+              sizeof((struct part[]){__VA_ARGS__}) / sizeof(struct part))
+/* A record is its opcode, the length of its content, and the content. */
 #define RECORD(text, opcode, ...)                                                                  \
-    add_record(text, opcode, (const struct part[]){__VA_ARGS__},                                   \
-               sizeof((const struct part[]){__VA_ARGS__}) / sizeof(struct part))
+    do {                                                                                           \
+        ADD(text, U8(opcode), U64(0));                                                             \
+        size_t begin_ = (text)->length;                                                            \
+        ADD(text, __VA_ARGS__);                                                                    \
+        text_put_word((text)->bytes + begin_ - 8, (text)->length - begin_);                        \
+    } while (0)
 
-/* Numbers have their lowest byte first. */
 static void add_parts(struct text *text, const struct part *parts, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -71,13 +45,12 @@ static void add_parts(struct text *text, const struct part *parts, size_t count)
     }
 }
 
-static void add_record(struct text *text, enum opcode opcode, const struct part *parts,
-                       size_t count)
+static struct text map_of(const char *const *pairs)
 {
-    add_parts(text, (const struct part[]){{opcode, 1, NULL}, U64(0)}, 2);
-    size_t begin = text->length;
-    add_parts(text, parts, count);
-    text_put_word(text->bytes + begin - 8, text->length - begin);
+    struct text map = {0};
+    for (; *pairs != NULL; pairs++)
+        ADD(&map, WORD(*pairs));
+    return map;
 }
 
 static uint64_t place(const struct mcap *mcap)
@@ -90,107 +63,75 @@ static uint32_t crc_of(uint32_t crc, const char *bytes, size_t length)
     return (uint32_t)crc32_z(crc, (const unsigned char *)bytes, length);
 }
 
-/* ---- the data ---- */
-
-static struct text map_of(const char *const *pairs)
-{
-    struct text map = {0};
-    for (; *pairs != NULL; pairs++)
-        add_parts(&map, (const struct part[]){WORD(*pairs)}, 1);
-    return map;
-}
-
 void mcap_begin(struct mcap *mcap, const char *name, const char *const *pairs)
 {
-    struct text map = map_of(pairs);
-    text_add(&mcap->out, magic, sizeof magic - 1);
-    RECORD(&mcap->out, HEADER, WORD(""), WORD("glint"));
-    uint64_t from = place(mcap);
-    RECORD(&mcap->out, METADATA, WORD(name), ARRAY(map));
-    RECORD(&mcap->metadata.records, METADATA_INDEX, U64(from), U64(place(mcap) - from), WORD(name));
-    mcap->metadata.count++;
+    struct text map = map_of(pairs), *out = &mcap->out;
+    text_add(out, magic, sizeof magic - 1);
+    RECORD(out, HEADER, WORD(""), WORD("glint"));
+    uint64_t begin = out->length;
+    RECORD(out, METADATA, WORD(name), TEXT(4, map));
+    RECORD(&mcap->groups[MCAP_METADATA], METADATA_INDEX, U64(begin), U64(out->length - begin),
+           WORD(name));
     text_free(&map);
 }
 
-/* Copies the record that was added to the group at this place. */
-static uint16_t share(struct mcap *mcap, struct mcap_group *group, size_t from)
-{
-    text_add(&mcap->out, group->records.bytes + from, group->records.length - from);
-    return (uint16_t)++group->count;
-}
-
-uint16_t mcap_add_schema(struct mcap *mcap, const char *name, const char *encoding,
-                         const char *data, size_t length)
-{
-    struct mcap_group *schemas = &mcap->schemas;
-    size_t from = schemas->records.length;
-    RECORD(&schemas->records, SCHEMA, U16(schemas->count + 1), WORD(name), WORD(encoding),
-           BYTES(4, data, length));
-    return share(mcap, schemas, from);
-}
-
-uint16_t mcap_add_channel(struct mcap *mcap, uint16_t schema, const char *topic,
-                          const char *encoding, const char *const *pairs)
-{
-    struct mcap_group *channels = &mcap->channels;
-    struct text map = map_of(pairs);
-    size_t from = channels->records.length;
-    RECORD(&channels->records, CHANNEL, U16(channels->count + 1), U16(schema), WORD(topic),
-           WORD(encoding), ARRAY(map));
-    text_free(&map);
-    *list_add(&mcap->list, mcap->arena) = (struct mcap_channel){0};
-    return share(mcap, channels, from);
-}
-
-/* Writes the indexes of the chunk that begins there: its messages by channel, and one for the
+/* Each channel has a schema of its own, of the same id. Both records stand in the data and in the
  * summary. */
-static void index_chunk(struct mcap *mcap, uint64_t from)
+uint16_t mcap_add_channel(struct mcap *mcap, const char *topic, const struct mcap_schema *schema)
 {
-    uint64_t end = place(mcap);
-    struct text map = {0};
-    for (size_t i = 0; i < mcap->list.count; i++) {
-        struct text *index = &mcap->list.items[i].index;
-        if (index->length == 0)
-            continue;
-        add_parts(&map, (const struct part[]){U16(i + 1), U64(place(mcap))}, 2);
-        RECORD(&mcap->out, MESSAGE_INDEX, U16(i + 1), ARRAY(*index));
-        index->length = 0;
-    }
-    RECORD(&mcap->chunks.records, CHUNK_INDEX, U64(mcap->first_ns), U64(mcap->last_ns), U64(from),
-           U64(end - from), ARRAY(map), U64(place(mcap) - end), WORD(""), U64(mcap->chunk.length),
-           U64(mcap->chunk.length));
+    struct text *groups = mcap->groups, map = map_of(schema->pairs);
+    size_t from[] = {groups[MCAP_SCHEMAS].length, groups[MCAP_CHANNELS].length};
+    *list_add(&mcap->channels, mcap->arena) = (struct mcap_channel){0};
+    uint16_t id = (uint16_t)mcap->channels.count;
+    RECORD(&groups[MCAP_SCHEMAS], SCHEMA, U16(id), WORD(schema->name), WORD(schema->encoding),
+           {schema->size, 4, schema->data});
+    RECORD(&groups[MCAP_CHANNELS], CHANNEL, U16(id), U16(id), WORD(topic),
+           WORD(schema->message_encoding), TEXT(4, map));
+    for (int i = MCAP_SCHEMAS; i <= MCAP_CHANNELS; i++)
+        text_add(&mcap->out, groups[i].bytes + from[i], groups[i].length - from[i]);
     text_free(&map);
+    return id;
 }
 
+/* Writes the chunk, the places of each channel's messages in it, and its own for the summary. */
 static void end_chunk(struct mcap *mcap)
 {
-    const struct text *chunk = &mcap->chunk;
-    uint64_t from = place(mcap);
+    struct text *out = &mcap->out, *chunk = &mcap->chunk, indexes = {0};
+    uint64_t begin = place(mcap);
     if (chunk->length == 0)
         return;
-    RECORD(&mcap->out, CHUNK, U64(mcap->first_ns), U64(mcap->last_ns), U64(chunk->length),
-           U32(crc_of(0, chunk->bytes, chunk->length)), WORD(""),
-           BYTES(8, chunk->bytes, chunk->length));
-    index_chunk(mcap, from);
-    mcap->chunks.count++;
-    mcap->chunk.length = 0;
-    mcap->begun = false;
+    RECORD(out, CHUNK, U64(mcap->first_ns), U64(mcap->last_ns), U64(chunk->length),
+           U32(crc_of(0, chunk->bytes, chunk->length)), WORD(""), TEXT(8, *chunk));
+    uint64_t end = place(mcap);
+    for (size_t i = 0; i < mcap->channels.count; i++) {
+        struct text *index = &mcap->channels.items[i].index;
+        if (index->length == 0)
+            continue;
+        ADD(&indexes, U16(i + 1), U64(place(mcap)));
+        RECORD(out, MESSAGE_INDEX, U16(i + 1), TEXT(4, *index));
+        index->length = 0;
+    }
+    RECORD(&mcap->groups[MCAP_CHUNKS], CHUNK_INDEX, U64(mcap->first_ns), U64(mcap->last_ns),
+           U64(begin), U64(end - begin), TEXT(4, indexes), U64(place(mcap) - end), WORD(""),
+           U64(chunk->length), U64(chunk->length));
+    mcap->chunks++;
+    chunk->length = 0;
+    text_free(&indexes);
 }
 
-void mcap_add_message(struct mcap *mcap, uint16_t channel, uint64_t time_ns, const char *data,
-                      size_t length)
+void mcap_add_message(struct mcap *mcap, uint16_t channel, uint64_t time_ns,
+                      const struct text *message)
 {
-    struct mcap_channel *own = &mcap->list.items[channel - 1];
+    struct mcap_channel *own = &mcap->channels.items[channel - 1];
     if (mcap->messages++ == 0)
         mcap->begin_ns = time_ns;
-    if (!mcap->begun)
+    if (mcap->chunk.length == 0)
         mcap->first_ns = time_ns;
-    mcap->begun = true;
     mcap->last_ns = time_ns;
     own->messages++;
-    add_parts(&own->index, (const struct part[]){U64(time_ns), U64(mcap->chunk.length)}, 2);
+    ADD(&own->index, U64(time_ns), U64(mcap->chunk.length));
     RECORD(&mcap->chunk, MESSAGE, U16(channel), U32(0), U64(time_ns), U64(time_ns),
-           BYTES(0, data, length));
+           TEXT(0, *message));
     if (mcap->chunk.length >= CHUNK_SIZE)
         end_chunk(mcap);
 }
@@ -202,26 +143,16 @@ void mcap_sent(struct mcap *mcap)
     mcap->out.length = 0;
 }
 
-/* ---- the summary ---- */
-
-static struct text statistics(const struct mcap *mcap)
+static void add_statistics(struct mcap *mcap)
 {
-    struct text record = {0}, map = {0};
-    for (size_t i = 0; i < mcap->list.count; i++)
-        add_parts(&map, (const struct part[]){U16(i + 1), U64(mcap->list.items[i].messages)}, 2);
-    RECORD(&record, STATISTICS, U64(mcap->messages), U16(mcap->schemas.count),
-           U32(mcap->channels.count), U32(0), U32(mcap->metadata.count), U32(mcap->chunks.count),
-           U64(mcap->begin_ns), U64(mcap->last_ns), ARRAY(map));
-    text_free(&map);
-    return record;
-}
-
-static void add_group(struct mcap *mcap, const struct text *records, struct text *offsets)
-{
-    if (records->length > 0)
-        RECORD(offsets, SUMMARY_OFFSET, {(uint8_t)*records->bytes, 1, NULL}, U64(place(mcap)),
-               U64(records->length));
-    text_add(&mcap->out, records->bytes, records->length);
+    size_t channels = mcap->channels.count;
+    struct text counts = {0};
+    for (size_t i = 0; i < channels; i++)
+        ADD(&counts, U16(i + 1), U64(mcap->channels.items[i].messages));
+    RECORD(&mcap->groups[MCAP_STATISTICS], STATISTICS, U64(mcap->messages), U16(channels),
+           U32(channels), U32(0), U32(1), U32(mcap->chunks), U64(mcap->begin_ns),
+           U64(mcap->last_ns), TEXT(4, counts));
+    text_free(&counts);
 }
 
 void mcap_end(struct mcap *mcap)
@@ -229,31 +160,31 @@ void mcap_end(struct mcap *mcap)
     struct text *out = &mcap->out, offsets = {0};
     end_chunk(mcap);
     RECORD(out, DATA_END, U32(crc_of(mcap->crc, out->bytes, out->length)));
-    struct text counts = statistics(mcap);
-    const struct text *groups[] = {&mcap->schemas.records, &mcap->channels.records, &counts,
-                                   &mcap->chunks.records, &mcap->metadata.records};
     size_t begin = out->length;
     uint64_t summary = place(mcap);
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
-        add_group(mcap, groups[i], &offsets);
+    add_statistics(mcap);
+    for (int i = 0; i < MCAP_GROUPS; i++) {
+        const struct text *group = &mcap->groups[i];
+        if (group->length == 0)
+            continue;
+        RECORD(&offsets, SUMMARY_OFFSET, U8(*group->bytes), U64(place(mcap)), U64(group->length));
+        text_add(out, group->bytes, group->length);
+    }
     uint64_t places = place(mcap);
     text_add(out, offsets.bytes, offsets.length);
     RECORD(out, FOOTER, U64(summary), U64(places), U32(0));
-    out->length -= 4; /* the checksum of the summary, up to itself */
-    add_parts(out, (const struct part[]){U32(crc_of(0, out->bytes + begin, out->length - begin))},
-              1);
+    out->length -= 4; /* for the checksum of what stands before it */
+    ADD(out, U32(crc_of(0, out->bytes + begin, out->length - begin)));
     text_add(out, magic, sizeof magic - 1);
-    text_free(&counts);
     text_free(&offsets);
 }
 
 void mcap_free(struct mcap *mcap)
 {
-    struct text *texts[] = {&mcap->schemas.records, &mcap->channels.records,
-                            &mcap->chunks.records,  &mcap->metadata.records,
-                            &mcap->chunk,           &mcap->out};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        text_free(texts[i]);
-    for (size_t i = 0; i < mcap->list.count; i++)
-        text_free(&mcap->list.items[i].index);
+    for (int i = 0; i < MCAP_GROUPS; i++)
+        text_free(&mcap->groups[i]);
+    for (size_t i = 0; i < mcap->channels.count; i++)
+        text_free(&mcap->channels.items[i].index);
+    text_free(&mcap->chunk);
+    text_free(&mcap->out);
 }

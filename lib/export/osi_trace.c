@@ -125,13 +125,12 @@ static Osi3__Identifier *identifier(struct writing *writing, uint64_t number)
 static Osi3__Identifier *object_id(struct writing *writing, const char *id)
 {
     enum { MOST_DIGITS = 15 };
-    size_t length = strlen(id);
+    uint32_t place = intern_word(&writing->trace->objects, id, writing->trace->arena);
+    size_t digits = strspn(id, "0123456789");
     double number;
-    if (length <= MOST_DIGITS && strspn(id, "0123456789") == length &&
-        number_read(id, id + length, &number)) /* without leading zeros */
-        return identifier(writing, (uint64_t)number);
-    uint32_t name = intern_word(&writing->trace->objects, id, writing->trace->arena);
-    return identifier(writing, OSI_TRACE_NAMED + name);
+    if (id[digits] != '\0' || digits > MOST_DIGITS || !number_read(id, id + digits, &number))
+        return identifier(writing, OSI_TRACE_NAMED + place);
+    return identifier(writing, (uint64_t)number);
 }
 
 /* The height of a mount is not known. */
