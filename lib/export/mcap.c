@@ -159,7 +159,8 @@ void mcap_end(struct mcap *mcap)
 {
     struct text *out = &mcap->out, offsets = {0};
     end_chunk(mcap);
-    RECORD(out, DATA_END, U32(crc_of(mcap->crc, out->bytes, out->length)));
+    uint32_t crc = crc_of(mcap->crc, out->bytes, out->length);
+    RECORD(out, DATA_END, U32(crc));
     size_t begin = out->length;
     uint64_t summary = place(mcap);
     add_statistics(mcap);

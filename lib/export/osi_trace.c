@@ -127,9 +127,10 @@ static Osi3__Identifier *object_id(struct writing *writing, const char *id)
     enum { MOST_DIGITS = 15 };
     uint32_t place = intern_word(&writing->trace->objects, id, writing->trace->arena);
     size_t digits = strspn(id, "0123456789");
-    double number;
-    if (id[digits] != '\0' || digits > MOST_DIGITS || !number_read(id, id + digits, &number))
-        return identifier(writing, OSI_TRACE_NAMED + place);
+    bool zeros = id[0] == '0' && digits > 1;
+    double number = (double)(OSI_TRACE_NAMED + place);
+    if (id[digits] == '\0' && digits <= MOST_DIGITS && !zeros)
+        number_read(id, id + digits, &number);
     return identifier(writing, (uint64_t)number);
 }
 

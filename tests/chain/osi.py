@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import recorded  # noqa: E402
 from osi_messages import (  # noqa: E402
-    LANE, VERSION, box, message, moving, stamp, stationary, trace_of, vector, whole)
+    LANE, VERSION, box, decode, message, moving, stamp, stationary, trace_of, value_of, vector, whole)
 from recorded import BIN, DATA, PATIENCE_S, check, compare, run, slopes  # noqa: E402
 
 PROGRAM = "glint-traffic-osi"
@@ -243,45 +243,9 @@ def bad_input(folder):
 # ---- real traces, decoded with the full interface -------------------------------------------------------
 
 
-def parse(lines):
-    """A message of protoc's text: {field: [values]}, to its closing brace."""
-    fields = {}
-    for line in lines:
-        line = line.strip()
-        if line == "}":
-            break
-        if line.endswith("{"):
-            fields.setdefault(line[:-2], []).append(parse(lines))
-        else:
-            key, _, value = line.partition(": ")
-            fields.setdefault(key, []).append(value)
-    return fields
-
-
 def decoded(path, folder):
-    """The messages of a trace, by one run of protoc: lengths become fields of a message around all."""
     with open(path, "rb") as file:
-        content = file.read()
-    around, at = [], 0
-    while at < len(content):
-        length = struct.unpack_from("<I", content, at)[0]
-        around.append(message(1, content[at + 4:at + 4 + length]))
-        at += 4 + length
-    save(folder, "trace.proto", b'syntax = "proto2";\nimport "osi_groundtruth.proto";\n'
-                                b"message Trace { repeated osi3.GroundTruth truth = 1; }\n")
-    done = subprocess.run(["protoc", f"-I{folder}", f"-I{DATA}/osi/proto", "-I/usr/include", "--decode=Trace", "trace.proto"],
-                          input=b"".join(around), capture_output=True, check=False)
-    check(done.returncode == 0, f"protoc: {done.stderr.decode()}")
-    return parse(iter(done.stdout.decode().splitlines()))["truth"]
-
-
-def value_of(fields, *path):
-    """A number; 0 where it is absent, None where a message before it is."""
-    for name in path[:-1]:
-        if fields is None or name not in fields:
-            return None
-        fields = fields[name][-1]
-    return float(fields[path[-1]][-1]) if path[-1] in fields else 0.0
+        return decode(file.read(), "GroundTruth", folder, f"{DATA}/osi/proto", "osi_groundtruth.proto")
 
 
 def states_of(truths):
@@ -333,20 +297,22 @@ def centres_of_esmini_move_about_their_rear_axles(name, path, track):
 
 
 def the_interface_is_part_of_the_standard():
-    """Every field of our interface has number and type of the full one; body is base there."""
+    """Every field of our interface, as it is read and written, has number and type of the full one."""
     if DATA is None:
         return
-    full = ""
-    for name in ("osi_common", "osi_object", "osi_groundtruth", "osi_sensorview"):
+    full, ours = "", ""
+    for name in ("osi_version", "osi_common", "osi_object", "osi_groundtruth", "osi_sensorview", "osi_featuredata",
+                 "osi_sensordata"):
         with open(f"{DATA}/osi/proto/{name}.proto", encoding="utf-8") as file:
             full += re.sub(r"//.*", "", file.read())
-    with open(os.path.join(os.path.dirname(__file__), "..", "..", "lib", "recorded", "recorded_osi.proto"), encoding="utf-8") as file:
-        ours = re.sub(r"//.*", "", file.read())
-    fields = re.findall(r"(optional|repeated) (\w+) (\w+) = (\d+);", ours)
-    check(len(fields) > 30, f"{len(fields)} fields")
+    for name in ("recorded/recorded_osi", "export/osi_trace"):
+        with open(os.path.join(os.path.dirname(__file__), "..", "..", "lib", name + ".proto"), encoding="utf-8") as file:
+            ours += re.sub(r"//.*", "", file.read())
+    fields = re.findall(r"(?:(optional|repeated) (\w+) )?(\w+) = (\d+);", ours)
+    check(len(fields) > 80, f"{len(fields)} fields")
     for label, kind, name, number in fields:
-        name, kind = ("base" if name == "body" else name), {"int32": "Type", "Base": "Base(Moving|Stationary)"}.get(kind, kind)
-        check(re.search(rf"{label} {kind} {name} = {number};", full), f"{label} {kind} {name} = {number} is none of OSI")
+        kind = {"int32": "Type", "Base": "Base(Moving|Stationary)"}.get(kind, kind)
+        check(re.search(rf"{label} ?{kind} ?{name} = {number};", full), f"{label} {kind} {name} = {number} is none of OSI")
 
 
 with tempfile.TemporaryDirectory() as place:

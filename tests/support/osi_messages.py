@@ -1,8 +1,10 @@
-"""Messages of OSI, packed byte by byte as the wire format of protobuf says.
+"""Messages of OSI, packed byte by byte as the wire format of protobuf says, and decoded by protoc.
 
 The first argument of whole, real, message and vector is the number of the field.
 """
+import os
 import struct
+import subprocess
 
 
 def varint(number):
@@ -65,3 +67,45 @@ LANE = message(10, b"\x0a\x02\x08\x07", b"\x12\x20" + bytes(32))
 
 def trace_of(*messages):
     return b"".join(struct.pack("<I", len(one)) + one for one in messages)
+
+
+def parse(lines):
+    """A message of protoc's text: {field: [values]}, to its closing brace."""
+    fields = {}
+    for line in lines:
+        line = line.strip()
+        if line == "}":
+            break
+        if line.endswith("{"):
+            fields.setdefault(line[:-2], []).append(parse(lines))
+        else:
+            key, _, value = line.partition(": ")
+            fields.setdefault(key, []).append(value)
+    return fields
+
+
+def value_of(fields, *path):
+    """A number; 0 where it is absent, None where a message before it is."""
+    for name in path[:-1]:
+        if fields is None or name not in fields:
+            return None
+        fields = fields[name][-1]
+    return float(fields[path[-1]][-1]) if path[-1] in fields else 0.0
+
+
+def messages_in(trace):
+    at = 0
+    while at < len(trace):
+        length = struct.unpack_from("<I", trace, at)[0]
+        yield trace[at + 4:at + 4 + length]
+        at += 4 + length
+
+
+def decode(trace, kind, folder, place, *files):
+    """The messages of a trace, by one run of protoc: they become fields of a message around all."""
+    with open(os.path.join(folder, "trace.proto"), "w", encoding="ascii") as file:
+        imports = "".join(f'import "{name}";\n' for name in files)
+        file.write(f'syntax = "proto2";\n{imports}message Trace {{ repeated osi3.{kind} one = 1; }}\n')
+    done = subprocess.run(["protoc", f"-I{folder}", f"-I{place}", "-I/usr/include", "--decode=Trace", "trace.proto"],
+                          input=b"".join(message(1, one) for one in messages_in(trace)), capture_output=True, check=True)
+    return parse(iter(done.stdout.decode().splitlines()))["one"]
