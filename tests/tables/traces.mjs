@@ -1,0 +1,147 @@
+// Reads what glint-mcap and glint-osi write with other people's libraries: MCAP by its index and as a stream, messages
+// of Foxglove by their published schemas, messages of OSI by the descriptors in the file. Usage: tests/tables/run BIN_DIR
+import fs from 'node:fs';
+import {execFileSync} from 'node:child_process';
+import Ajv from 'ajv';
+import Ajv2020 from 'ajv/dist/2020.js';
+import protobuf from 'protobufjs';
+import 'protobufjs/ext/descriptor/index.js';
+import * as published from '@foxglove/schemas/jsonschema.js';
+import {McapIndexedReader, McapStreamReader} from '@mcap/core';
+
+const work = process.argv[2];
+const CHAIN = 'glint-extract | glint-ideal --sensors radarscenes77-full --effects all | glint-sensor | glint-noise';
+let faults = 0;
+
+function check(good, text) {
+    if (good)
+        return;
+    console.log(`FAILED   ${text}`);
+    if (++faults === 10)
+        process.exit(1);
+}
+
+function make() {
+    const commands = `glint-traffic walled-road --sections quality,objects | ${CHAIN} -o ${work}/lines.jsonl`;
+    execFileSync('glint', ['-c', commands]);
+    for (const format of ['mcap', 'osi'])
+        execFileSync(`glint-${format}`, ['--shift-s', '1', `${work}/lines.jsonl`, '-o', `${work}/trace.${format}`]);
+    return fs.readFileSync(`${work}/lines.jsonl`, 'utf8').trimEnd().split('\n').map(JSON.parse);
+}
+
+// The messages of each topic, and the schemas, by the index.
+async function byIndex(bytes) {
+    const readable = {size: async () => BigInt(bytes.length),
+        read: async (offset, size) => new Uint8Array(bytes.subarray(Number(offset), Number(offset + size)))};
+    const reader = await McapIndexedReader.Initialize({readable});
+    const topics = {}, schemas = {};
+    for (const channel of reader.channelsById.values()) {
+        topics[channel.topic] = [];
+        schemas[channel.topic] = reader.schemasById.get(channel.schemaId);
+    }
+    for await (const message of reader.readMessages())
+        topics[reader.channelsById.get(message.channelId).topic].push(message);
+    check(reader.chunkIndexes.length > 1, 'the file has several chunks');
+    for (const [id, count] of reader.statistics.channelMessageCounts)
+        check(topics[reader.channelsById.get(id).topic].length === Number(count), `statistics of channel ${id}`);
+    return {topics, schemas};
+}
+
+function byStream(bytes) {
+    const reader = new McapStreamReader({validateCrcs: true}), messages = [];
+    for (let at = 0; at < bytes.length; at += 10000) {
+        reader.append(bytes.subarray(at, at + 10000));
+        for (let record = reader.nextRecord(); record; record = reader.nextRecord())
+            if (record.type === 'Message')
+                messages.push(record);
+    }
+    check(reader.done(), 'the stream has an end');
+    return messages;
+}
+
+function checkStream(bytes, topics) {
+    const streamed = byStream(bytes).map(one => Buffer.from(one.data).toString('base64')).sort();
+    const indexed = Object.values(topics).flat().map(one => Buffer.from(one.data).toString('base64')).sort();
+    check(JSON.stringify(streamed) === JSON.stringify(indexed), 'the stream has the messages of the index');
+    const damaged = new Uint8Array(bytes);
+    damaged[bytes.length >> 1] ^= 1;
+    let found = false;
+    try {
+        byStream(damaged);
+    } catch {
+        found = true;
+    }
+    check(found, 'a damaged byte is found by its checksum');
+}
+
+function checkJson({topics, schemas}, frames) {
+    const ajv = new Ajv({strict: false}), ajv2020 = new Ajv2020({strict: false});
+    for (const [topic, schema] of Object.entries(schemas)) {
+        if (schema.encoding !== 'jsonschema')
+            continue;
+        const own = JSON.parse(Buffer.from(schema.data).toString());
+        const validators = [own.$schema ? ajv2020.compile(own) : ajv.compile(own)];
+        if (schema.name.startsWith('foxglove.'))
+            validators.push(ajv.compile(published[schema.name.slice('foxglove.'.length)]));
+        for (const message of topics[topic])
+            for (const valid of validators)
+                check(valid(JSON.parse(Buffer.from(message.data).toString())), `${topic}: ${JSON.stringify(valid.errors)}`);
+    }
+    check(topics['/frames'].every((one, i) => JSON.stringify(JSON.parse(Buffer.from(one.data).toString())) ===
+        JSON.stringify(frames[i])), 'frames are the lines');
+}
+
+function strongest(target) {
+    return target.contributors.reduce((a, b) => b.weight > a.weight ? b : a);
+}
+
+function checkMessage(data, frame) {
+    const names = new Map();
+    for (const list of ['movingObject', 'stationaryObject'])
+        for (const one of data.sensorView[0].globalGroundTruth[list] ?? []) {
+            const object = frame.objects.find(other => other.id === one.sourceReference[0].identifier[0]);
+            names.set(one.id.value, object.id);
+            check(one.base.position.x === object.x_m && one.base.position.y === object.y_m &&
+                one.base.orientation.yaw === object.yaw_rad && one.base.dimension.height === object.height_m,
+            `the pose of ${object.id}`);
+        }
+    check(names.size === frame.objects.length, 'all objects are there');
+    const detections = (data.featureData.radarSensor ?? []).flatMap(radar => radar.detection ?? []);
+    check(detections.length === frame.targets.length, 'all targets are there');
+    detections.forEach((one, i) => {
+        const target = frame.targets[i];
+        check(one.position.distance === target.range_m && one.position.azimuth === target.azimuth_rad &&
+            one.radialVelocity === 0 - target.range_rate_mps && one.snr === target.quality.snr_db, `detection ${i}`);
+        const {object, path} = strongest(target);
+        check(names.get(one.objectId.value) === object ||
+            (one.objectId.value === '18446744073709551615' && ['clutter', 'false_alarm'].includes(path)), `object of ${i}`);
+    });
+}
+
+function checkOsi({topics, schemas}, frames) {
+    const schema = schemas['/osi/SensorData'];
+    check(schema.name === 'osi3.SensorData' && schema.encoding === 'protobuf', 'the schema of OSI');
+    const type = protobuf.Root.fromDescriptor(schema.data).lookupType(schema.name);
+    const decoded = bytes => type.toObject(type.decode(bytes), {longs: String});
+    const trace = fs.readFileSync(`${work}/trace.osi`);
+    let at = 0;
+    topics['/osi/SensorData'].forEach((message, i) => {
+        const data = decoded(message.data);
+        const length = trace.readUInt32LE(at);
+        check(JSON.stringify(decoded(trace.subarray(at + 4, at + 4 + length))) === JSON.stringify(data), 'the trace has the same');
+        at += 4 + length;
+        check(message.logTime === BigInt(data.timestamp.seconds) * 1000000000n + BigInt(data.timestamp.nanos ?? 0), 'its time');
+        checkMessage(data, frames[i]);
+    });
+    check(at === trace.length && topics['/osi/SensorData'].length === frames.length, 'all messages are there');
+}
+
+const frames = make();
+const bytes = new Uint8Array(fs.readFileSync(`${work}/trace.mcap`));
+const file = await byIndex(bytes);
+checkStream(bytes, file.topics);
+checkJson(file, frames);
+checkOsi(file, frames);
+console.log(`@mcap/core, @foxglove/schemas and protobufjs read ${frames.length} frames in ${
+    Object.entries(file.topics).map(([topic, messages]) => `${messages.length} of ${topic}`).join(', ')}`);
+process.exit(faults > 0 ? 1 : 0);
