@@ -1,4 +1,4 @@
-/* Messages of Foxglove's viewers: point clouds of targets, boxes of objects.
+/* Messages of Foxglove's viewers: points and boxes.
  *
  * They are JSON by the schemas foxglove_*_schema.json. Places are those of frames, in "world";
  * times are those of the trace. An object's number is 1 for the first of the trace. foxglove.c is

@@ -1,4 +1,4 @@
-/* MCAP files: channels of messages in chunks, with checksums and an index.
+/* MCAP files: messages in chunks, checksums and an index.
  *
  * Bytes of the file gather in out; the caller writes them and tells so by mcap_sent. Chunks are not
  * compressed. mcap.c needs zlib for checksums; it is linked with glint-mcap alone. */
