@@ -28,24 +28,24 @@ def joined(files, path):
                 out.write(file.read())
 
 
-def ensemble(truth, listed):
+def ensemble(radar, truth, listed):
     """What glint-score --ensemble says of files of lists with the same scenes and other seeds."""
     with tempfile.TemporaryDirectory() as folder:
         paths = [os.path.join(folder, name) for name in ("truth.jsonl.gz", "listed.jsonl.gz")]
         joined(truth, paths[0])
         joined(listed, paths[1])
-        done = subprocess.run([os.path.join(chains.BIN, "glint-score"), "--ensemble", "--truth", *paths],
+        done = subprocess.run([os.path.join(chains.BIN, "glint-score"), "--ensemble", *radar.score, "--truth", *paths],
                               check=True, stdout=subprocess.PIPE, text=True)
     return json.loads(done.stdout)
 
 
-def energies(cache, truth, listed):
+def energies(radar, truth, listed):
     """By scene: its energy distance and the standard error that the seeds leave."""
     def write(path):
         with open(path, "w") as out:
-            out.write(json.dumps(ensemble(truth, listed)["scenes"]))
+            out.write(json.dumps(ensemble(radar, truth, listed)["scenes"]))
     lists = map(os.path.basename, [*truth, "against", *listed])
-    scored = cache.file(".energies", [chains.program_digest("glint-score"), *lists], write)
+    scored = radar.cache.file(".energies", [chains.program_digest("glint-score"), *radar.score, *lists], write)
     return {of["scene"]: (of["energy"], of["energy_error"]) for of in json.loads(chains.content(scored))}
 
 

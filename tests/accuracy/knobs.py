@@ -112,9 +112,9 @@ def plumbing(radar, folder):
             Staged("plumbing", "files, .gz", radar, folder, ending=".jsonl.gz")]
 
 
-def gospa(truth, listed):
+def gospa(radar, truth, listed):
     """Mean of the scans in cells; both lists have the same seeds, so 0 is equal."""
-    done = subprocess.run([os.path.join(chains.BIN, "glint-score"), "--truth", truth, listed], check=True,
+    done = subprocess.run([os.path.join(chains.BIN, "glint-score"), *radar.score, "--truth", truth, listed], check=True,
                           stdout=subprocess.PIPE)
     return statistics.fmean(sensor["gospa"] for line in done.stdout.splitlines()
                             for sensor in json.loads(line)["sensors"])
@@ -130,7 +130,7 @@ def measured(radar, folder, frames, count):
     for knob in found[len(DIGITS) + 1:]:
         if chains.content(knob.lists) != chains.content(found[len(DIGITS) + 1].lists):
             sys.exit(f"accuracy-cost: {knob.name}: plumbing changes bytes")
-    return [(knob, gospa(exact, knob.lists) if knob.group == "digits" else None) for knob in found]
+    return [(knob, gospa(radar, exact, knob.lists) if knob.group == "digits" else None) for knob in found]
 
 
 def angles(rounds):

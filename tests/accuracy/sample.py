@@ -54,21 +54,21 @@ def order(checks, radar, cache):
     truth = chains.Chain("sample", "signal, small", radar, chains.SIGNAL, size="small")
     of = {chain.name: chain for chain in chains.models(radar)}
     blocks = [truth.lists(cache, radar.block(block)) for block in range(2)]
-    found = {name: errors.energies(cache, blocks, [of[name].lists(cache, radar.block(0, scenes.OF_CHAINS))])
+    found = {name: errors.energies(radar, blocks, [of[name].lists(cache, radar.block(0, scenes.OF_CHAINS))])
              for name in ("perfect", "paper", "all effects")}
     scale = errors.Errors(found["perfect"])
     checks.hold(scale.told, f"{radar.name} range: ideal echoes are not told from the signal")
     for less, more in (("paper", "perfect"), ("all effects", "paper")):
         low = scale.difference(found[more], found[less])[1]
         checks.hold(low > 0, f"{radar.name} range: {more} is not farther off than {less}: {low:.3g}")
-    _, low, high = scale.error(errors.energies(cache, blocks[:1], blocks[1:]))
+    _, low, high = scale.error(errors.energies(radar, blocks[:1], blocks[1:]))
     checks.hold(low < 22, f"{radar.name} range: the signal is {low:.3g} to {high:.3g} % from itself")
     same_mean(checks, radar, blocks, of["paper"].lists(cache, radar.block(0, scenes.OF_CHAINS)), scale, found)
 
 
 def same_mean(checks, radar, blocks, listed, scale, found):
     """The mean over scenes and its bootstrapped interval are those of glint-score."""
-    said = errors.ensemble(blocks, [listed])
+    said = errors.ensemble(radar, blocks, [listed])
     values = scale.values(found["paper"])
     low, high = (end / len(values) for end in errors.interval(scale.resamples.totals(values)))
     near = 0.1 * (said["high"] - said["low"])

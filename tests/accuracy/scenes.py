@@ -22,14 +22,15 @@ EACH = 2  # frames of a scripted scene, and of a drive of the recorded table
 DRY = {"road": "asphalt", "clutter_per_m2": 1e-3, "clutter_ercs": 0.05}
 RAIN = DRY | {"rain_mmph": 10, "fog_gpm3": 0.1}
 SIZES = ["small", "medium", "large"]
+AZIMUTH_CELL_RAD = {"long": math.radians(1.6), "short": math.radians(9)}  # units of scores, finer than the beam
 
 # What lrr77-full says of itself; all else that it has and a suite lacks is taken from it, so that every
-# effect exists. Steps and the azimuth cell are those of the radar of long range.
+# effect exists. Steps are those of the radar of long range.
 OF_ITS_OWN = ["sources", "antenna_table", "unambiguous_range_m", "unambiguous_rate_mps", "false_alarms",
               "false_alarm_range_rate_mps", "level_constant_db", "level_slow_db", "level_slow_m", "level_fast_db",
               "level_keeps"]
 FLUCTUATION = {"fluctuation": "log_normal", "fluctuation_sigma_db": 3.41}  # one draw a scan, in place of levels
-OF_LONG_RANGE = ["azimuth_cell_rad", "range_step_m", "range_rate_step_mps", "azimuth_step_rad"]
+OF_LONG_RANGE = ["range_step_m", "range_rate_step_mps", "azimuth_step_rad"]
 
 
 def sensors(name):
@@ -58,7 +59,6 @@ def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=
 def long_range(size):
     """A chirp every 20 us: 256 of them part rates by 0.383 m/s."""
     suite = sensors(f"lrr77-signal-{size}")
-    suite["sensors"][0]["azimuth_cell_rad"] = math.radians(1.6)  # of scores
     return described(suite, suite["sensors"][0]["waveform"]["repetitions"], 256, 97.971392 / 256)
 
 
@@ -92,6 +92,7 @@ class Radar:
     def __init__(self, name, cache, few=False, again=False):
         suites, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT)}[name]
         self.name, self.cache, self.few, self.again = name, cache, few, again
+        self.score = ["--azimuth-cell-rad", repr(AZIMUTH_CELL_RAD[name])]  # options of glint-score
         self.suites = {size: self.suite_file(suites(size)) for size in SIZES}
         with open(self.suites["large"]) as suite:
             self.cell_range_m = json.load(suite)["sensors"][0]["cell_range_m"]
