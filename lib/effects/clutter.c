@@ -114,7 +114,7 @@ static void add_echoes(const struct effect_scan *scan, struct effect_echoes *ech
 }
 
 const struct effect effect_clutter = {
-    .summary = "the ground and what stands on it echo",
+    .summary = "the ground and what stands on it make echoes",
     .cause = "clutter_per_m2 and clutter_ercs of the conditions",
     .left_out_when = "clutter_per_m2 or clutter_ercs is 0, or the frame has no objects",
     .cost = "a draw per point on the ground that is not too weak",

@@ -120,7 +120,8 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 }
 
 const struct effect effect_level = {
-    .summary = "a body's echoes are stronger or weaker than its class's, alike from scan to scan",
+    .summary =
+        "all echoes of a body are stronger or weaker together, and stay so from scan to scan",
     .cause = "level_constant_db, level_slow_db and level_fast_db of a sensor, or level of a class",
     .left_out_when = "no such member is above 0, or the frame has no objects",
     .cost = "up to seven draws per body",

@@ -2,8 +2,7 @@
 #include "effects/effect.h"
 
 const struct effect effect_roadside = {
-    .summary =
-        "posts of rails, poles, kerbs and vegetation beside the road echo, and stay in place",
+    .summary = "rails, poles, kerbs and vegetation beside the road make echoes that stay in place",
     .cause = "roadside of a scene",
     .left_out_when = "no cell of a strip is in the sensor's range and view",
     .cost = "a draw per cell in view, and a sight line per scatterer",
