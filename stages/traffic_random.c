@@ -11,7 +11,7 @@
 #define RADIUS_M 250.0
 
 struct traffic_random {
-    enum random_traffic_density density;
+    int density;
     int64_t frames, first; /* -1: not given */
     double rate_hz, seconds;
     const char *scene, *scenes;
@@ -21,7 +21,6 @@ struct traffic_random {
     struct scenario_scenes moving; /* with --seconds */
 };
 
-/* One more density is for the tests alone (tests/soundness). */
 static const char *const densities[] = {"sparse", "medium", "dense", NULL};
 
 /* Moving scenes are scenes of a scenario with roads whose values are all drawn. */
@@ -53,7 +52,7 @@ static int traffic_random_start(void *state, struct runner *runner)
     struct traffic_random *traffic = state;
     const char *name =
         arena_format(runner_arena(runner), "%s-%s", traffic->seconds > 0 ? "moving" : "random",
-                     random_traffic_densities[traffic->density]);
+                     densities[traffic->density]);
     traffic->scene = traffic->scene != NULL ? traffic->scene : name;
     if (traffic->seconds > 0)
         return start_moving(traffic, name, runner);
@@ -64,7 +63,7 @@ static int traffic_random_start(void *state, struct runner *runner)
     traffic->frames = traffic->frames >= 0 ? traffic->frames : 100;
     traffic->first = traffic->first >= 0 ? traffic->first : 0;
     struct random_traffic *snapshot = &traffic->snapshot;
-    snapshot->density = traffic->density;
+    snapshot->density = &random_traffic_densities[traffic->density];
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
             runner_vehicle(runner, NULL, random_traffic_class_name(class));

@@ -11,24 +11,10 @@
 #define TRIES 32
 #define STRIP_M 300 /* half of a strip's length */
 
-const char *const random_traffic_densities[] = {
-    [TRAFFIC_SPARSE] = "sparse",
-    [TRAFFIC_MEDIUM] = "medium",
-    [TRAFFIC_DENSE] = "dense",
-    [TRAFFIC_ADVERSARIAL] = "adversarial",
-    NULL,
-};
-
-struct density {
-    int64_t least, most; /* objects beside the ego */
-    double radius_m, ego_mps;
-};
-
-static const struct density densities[] = {
-    [TRAFFIC_SPARSE] = {0, 3, 120, 40},
-    [TRAFFIC_MEDIUM] = {0, 8, 60, 20},
-    [TRAFFIC_DENSE] = {4, 15, 25, 10},
-    [TRAFFIC_ADVERSARIAL] = {0, 3, 60, 20},
+const struct random_traffic_density random_traffic_densities[] = {
+    [TRAFFIC_SPARSE] = {"sparse", 0, 3, 120, 40, false},
+    [TRAFFIC_MEDIUM] = {"medium", 0, 8, 60, 20, false},
+    [TRAFFIC_DENSE] = {"dense", 4, 15, 25, 10, false},
 };
 
 struct class_profile {
@@ -158,7 +144,7 @@ static int worst_overlap(const struct random_traffic *traffic, const struct fram
     return worst;
 }
 
-static void place(struct random_sequence *sequence, const struct density *density,
+static void place(struct random_sequence *sequence, const struct random_traffic_density *density,
                   const struct class_profile *profile, const struct object *ego,
                   struct object *object)
 {
@@ -187,8 +173,7 @@ static void add_object(const struct random_traffic *traffic, int64_t index,
     bool may_overlap = random_sequence_chance(&sequence, 0.03);
     int found = 2;
     for (int i = 0; i < TRIES && found > (may_overlap || i >= TRIES / 2 ? 1 : 0); i++) {
-        place(&sequence, &densities[traffic->density], &profiles[class], &frame->objects.items[0],
-              &object);
+        place(&sequence, traffic->density, &profiles[class], &frame->objects.items[0], &object);
         found = worst_overlap(traffic, frame, &object);
     }
     if (found == 2)
@@ -205,8 +190,7 @@ struct random_address random_traffic_address(const struct random_traffic *traffi
 {
     return (struct random_address){
         .seed = seed,
-        .scene =
-            hash_text(hash_text(HASH_START, "random"), random_traffic_densities[traffic->density]),
+        .scene = hash_text(hash_text(HASH_START, "random"), traffic->density->name),
         .frame = (uint64_t)number,
     };
 }
@@ -232,11 +216,10 @@ static struct object draw_ego(struct random_sequence *sequence, double top_mps, 
 
 void random_traffic_fill(const struct random_traffic *traffic, int64_t number, struct frame *frame)
 {
-    const struct density *density = &densities[traffic->density];
+    const struct random_traffic_density *density = traffic->density;
     struct random_address address = random_traffic_address(traffic, frame->seed, number);
     struct random_sequence sequence = random_sequence_at(address, RANDOM_TRAFFIC);
-    bool at_origin =
-        traffic->density == TRAFFIC_ADVERSARIAL && random_sequence_chance(&sequence, 0.5);
+    bool at_origin = density->centred && random_sequence_chance(&sequence, 0.5);
     *list_add(&frame->objects, frame->arena) = draw_ego(&sequence, density->ego_mps, at_origin);
     frame->ego = frame->objects.items[0].id;
     int64_t count = random_sequence_whole(&sequence, density->least, density->most);

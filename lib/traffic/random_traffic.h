@@ -10,11 +10,17 @@
 #include "base/random.h"
 #include "frame/frame.h"
 
-/* Objects beside the ego and the radius around it: 0 to 3 in 120 m, 0 to 8 in 60 m, 4 to 15 in 25
- * m; 0 to 3 in 60 m around the cases of tests/soundness/adversarial_traffic.h. */
-enum random_traffic_density { TRAFFIC_SPARSE, TRAFFIC_MEDIUM, TRAFFIC_DENSE, TRAFFIC_ADVERSARIAL };
+/* How many objects there are, and where. */
+struct random_traffic_density {
+    const char *name;
+    int64_t least, most;      /* objects beside the ego */
+    double radius_m, ego_mps; /* around the ego; greatest speed of the ego */
+    bool centred; /* in every other snapshot the ego stands at the origin, so places can be exact */
+};
 
-extern const char *const random_traffic_densities[]; /* names; the last is NULL */
+/* 0 to 3 objects in 120 m, 0 to 8 in 60 m, 4 to 15 in 25 m. */
+enum { TRAFFIC_SPARSE, TRAFFIC_MEDIUM, TRAFFIC_DENSE, TRAFFIC_DENSITIES };
+extern const struct random_traffic_density random_traffic_densities[TRAFFIC_DENSITIES];
 
 /* The classes of objects: all of data/vehicles/. */
 enum random_traffic_class {
@@ -41,7 +47,7 @@ struct random_traffic_model {
 };
 
 struct random_traffic {
-    enum random_traffic_density density;
+    const struct random_traffic_density *density;
     struct random_traffic_model models[TRAFFIC_CLASSES];
 };
 
@@ -50,8 +56,7 @@ struct random_address random_traffic_address(const struct random_traffic *traffi
                                              int64_t number);
 
 /* Fills ego and objects of the frame, whose seed is set, with snapshot number >= 0. The ego's id is
- * "ego", the others' "o1", "o2" and so on. In every other adversarial snapshot the ego stands at
- * the origin along x, so that places can be exact. */
+ * "ego", the others' "o1", "o2" and so on. */
 void random_traffic_fill(const struct random_traffic *traffic, int64_t number, struct frame *frame);
 
 /* Draws what stands beside the road, at the address of a snapshot: on each

@@ -539,7 +539,7 @@ static void compare_fates_of(struct bench *bench, const struct fates *before,
             print_message(
                 "%s of %s, %s scene %d: the %s list changed, %g from its nearest border\n",
                 bench->suite->sensors.items[sensor].name, bench->suite->name,
-                random_traffic_densities[bench->scene.density], (int)number, what, least[sensor]);
+                bench->scene.density->name, (int)number, what, least[sensor]);
     }
 }
 
@@ -570,10 +570,10 @@ static void run_scene(struct bench *bench, int64_t number)
     bool sensors = number % 4 == 3;
     uint64_t coin =
         hash_text(hash_text(hash_bytes(HASH_START, &number, sizeof number), bench->suite->name),
-                  random_traffic_densities[bench->scene.density]);
+                  bench->scene.density->name);
     begin(before, number);
     random_traffic_fill(&bench->scene, number, &before->frame);
-    if (bench->scene.density == TRAFFIC_ADVERSARIAL)
+    if (bench->scene.density == &adversarial_traffic_density)
         adversarial_traffic_add(&bench->scene, bench->suite, number, &before->frame);
     begin(after, number);
     after->frame.ego = before->frame.ego;
@@ -616,7 +616,7 @@ static void choose_suite(struct bench *bench, int which)
     }
 }
 
-static void run_density(struct bench *bench, enum random_traffic_density density)
+static void run_density(struct bench *bench, const struct random_traffic_density *density)
 {
     bench->scene.density = density;
     for (int suite = 0; suite < SUITES; suite++) {
@@ -631,10 +631,10 @@ static void run_density(struct bench *bench, enum random_traffic_density density
 static void lists_change_only_where_a_margin_said_so(void **state)
 {
     struct bench *bench = *state;
-    for (enum random_traffic_density density = 0; density < TRAFFIC_ADVERSARIAL; density++)
-        run_density(bench, density);
+    for (int density = 0; density < TRAFFIC_DENSITIES; density++)
+        run_density(bench, &random_traffic_densities[density]);
     assert_true(bench->near <= 1e-5 * bench->entries);
-    run_density(bench, TRAFFIC_ADVERSARIAL);
+    run_density(bench, &adversarial_traffic_density);
     print_message("%g lists, %g changed; %g echoes, %g near a border; %g signs undecided\n",
                   bench->lists, bench->changed, bench->entries, bench->near, bench->undecided);
     assert_true(bench->changed > 0 && bench->undecided > 0);

@@ -10,6 +10,9 @@
 #define AMPLITUDE_MARGIN 1e-3
 #define SPACING_MARGIN 1e-6
 
+const struct random_traffic_density adversarial_traffic_density = {"adversarial", 0, 3, 60, 20,
+                                                                   true};
+
 /* A case that is being built, and the sensor for which it is built. */
 struct builder {
     struct frame *frame;

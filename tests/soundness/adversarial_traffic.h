@@ -23,6 +23,9 @@
 #include "documents/suite.h"
 #include "traffic/random_traffic.h"
 
+/* The other objects, and the ego, of a snapshot. */
+extern const struct random_traffic_density adversarial_traffic_density;
+
 /* The purpose of these draws, besides those of enum random_purpose. */
 #define ADVERSARIAL_TRAFFIC_DRAWS ((enum random_purpose)6)
 

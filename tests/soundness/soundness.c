@@ -45,7 +45,7 @@ enum planners { PLANNERS_AUTO, PLANNERS_DROPS };
 static const char *const planner_choices[] = {"auto", "drops", NULL};
 
 struct soundness {
-    enum random_traffic_density density;
+    int density;
     const char *sensors;
     int64_t first, frames;
     enum planners planners;
@@ -63,9 +63,11 @@ struct bench {
     size_t count;
 };
 
+enum { ADVERSARIAL = TRAFFIC_DENSITIES };
+static const char *const densities[] = {"sparse", "medium", "dense", "adversarial", NULL};
+
 static const struct field soundness_options[] = {
-    {FIELD_CHOICE_OF(struct soundness, density, random_traffic_densities, "of the scenes"),
-     FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct soundness, density, densities, "of the scenes"), FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct soundness, sensors, "the suite")},
     {FIELD_INTEGER_IN(struct soundness, first, 0, 1e9, "number of the first scene"),
      FIELD_OPTIONAL},
@@ -137,8 +139,8 @@ static int start_scenes(struct bench *bench)
     char first[24], frames[24];
     snprintf(first, sizeof first, "%" PRId64, wanted->first);
     snprintf(frames, sizeof frames, "%" PRId64, wanted->frames);
-    bool adversarial = wanted->density == TRAFFIC_ADVERSARIAL;
-    const char *around = adversarial ? wanted->sensors : random_traffic_densities[wanted->density];
+    bool adversarial = wanted->density == ADVERSARIAL;
+    const char *around = adversarial ? wanted->sensors : densities[wanted->density];
     bench->scene.arena = &bench->arena;
     return start_stage(&bench->source, adversarial ? "traffic-adversarial" : "traffic-random",
                        (const char *const[]){adversarial ? "--sensors" : "--density", around,
@@ -348,8 +350,7 @@ static void tell(const struct bench *bench)
 {
     const struct soundness *wanted = bench->wanted;
     struct text text = {0};
-    text_format(&text,
-                "{\"density\":\"%s\",\"sensors\":", random_traffic_densities[wanted->density]);
+    text_format(&text, "{\"density\":\"%s\",\"sensors\":", densities[wanted->density]);
     text_add_json(&text, wanted->sensors, strlen(wanted->sensors));
     text_format(&text, ",\"first\":%" PRId64 ",\"frames\":%" PRId64 ",\"planners\":[",
                 wanted->first, bench->planners[0].frames);

@@ -22,7 +22,7 @@ struct traffic_adversarial {
 static int traffic_adversarial_start(void *state, struct runner *runner)
 {
     struct traffic_adversarial *traffic = state;
-    traffic->scene.density = TRAFFIC_ADVERSARIAL;
+    traffic->scene.density = &adversarial_traffic_density;
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
             runner_vehicle(runner, NULL, random_traffic_class_name(class));

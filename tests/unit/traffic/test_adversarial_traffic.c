@@ -28,7 +28,7 @@ static int make_bench(void **state)
     struct diag diag = {0};
     bench->frame.arena = &bench->scratch;
     bench->frame.seed = 1;
-    bench->scene.density = TRAFFIC_ADVERSARIAL;
+    bench->scene.density = &adversarial_traffic_density;
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
             vehicle_load(random_traffic_class_name(class), NULL, &bench->documents, &diag);
