@@ -161,7 +161,8 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
     }
     cell->range_m = resolution_mean(range, weight, count);
     cell->range_rate_mps = resolution_mean(rate, weight, count);
-    struct received_echo merged = superpose ? echoes[0] : merge(echoes, count, weight, azimuth);
+    struct received_echo merged =
+        superpose || count == 1 ? echoes[0] : merge(echoes, count, weight, azimuth);
     if (sensor->beams.count > 0)
         return resolution_cell_see(sensor, superpose ? echoes : &merged, superpose ? count : 1,
                                    arena, cell);

@@ -127,6 +127,23 @@ static void a_single_echo_is_its_cell(void **state)
     arena_free(&arena);
 }
 
+/* To the bit: auto leaves superposition out where no cell has two echoes. */
+static void a_single_echo_of_an_array_has_one_cell_with_and_without_superposition(void **state)
+{
+    (void)state;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    sensor.beams.count = 1;
+    struct arena arena = {0};
+    struct echo echo = echo_at(12.3, -0.0, 3.4, 0.7);
+    struct received_echo received = received_echo_in_free_space(&sensor, &echo, 0);
+    for (int superpose = 0; superpose < 2; superpose++) {
+        struct cell cell;
+        assert_true(resolution_cell_of(&sensor, &received, 1, superpose, &arena, &cell));
+        assert_true(cell.azimuth_rad == 0 && signbit(cell.azimuth_rad));
+    }
+    arena_free(&arena);
+}
+
 /* Equations (4) and (5): amplitudes 6 and 2, so weights 3/4 and 1/4. */
 static void two_echoes_are_weighted_by_amplitude(void **state)
 {
@@ -343,6 +360,7 @@ int main(void)
         cmocka_unit_test(without_superposition_a_cell_is_one_echo_of_the_summed_strength),
         cmocka_unit_test(a_ghost_has_the_root_of_the_pattern_each_way),
         cmocka_unit_test(a_single_echo_is_its_cell),
+        cmocka_unit_test(a_single_echo_of_an_array_has_one_cell_with_and_without_superposition),
         cmocka_unit_test(two_echoes_are_weighted_by_amplitude),
         cmocka_unit_test(pointers_add_up_as_in_equation_8),
         cmocka_unit_test(phases_turn_the_pointers),
