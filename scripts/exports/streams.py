@@ -21,8 +21,9 @@ QUALITY = ("rcs_dbsm", "range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad", "exi
            "x_rear_axle_m")
 NEEDED = {**dict.fromkeys(("scene", "seed", "frame", "time_s", "ego"), (lambda value: value is not None, "a value")),
           "objects": [{"class": glint.NAME, "length_m": LENGTH, "width_m": LENGTH, "height_m": LENGTH}],
-          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(0, math.tau)}]},
-          "targets": [{"quality": dict.fromkeys(QUALITY, VALUE)}]}
+          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau)}]},
+          "targets": [{"quality": dict.fromkeys(QUALITY, VALUE), "contributors": [{"path": glint.NAME}]}],
+          "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
 GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave out --sections -objects",
             "targets:": "expected lists, as glint-noise writes them", "_m:": "glint-extract gives objects the sizes of their class"}
 
@@ -92,7 +93,7 @@ def mounts(suite, folder, name):
 
 def complete(frame, suite, folder):
     """Refuses a frame that lacks what formats need; gives its sensors their heights."""
-    if fault := glint.fault(frame, NEEDED, ()):
+    if fault := glint.fault(frame, NEEDED, ("visibility",)):
         raise Fault(BAD_DATA, "; ".join([f"{frame.place}: {fault[1:]}", *(hint for name, hint in GIVEN_BY.items() if name in fault)]))
     path, sensors = mounts(suite, folder, frame["sensors"]["suite"])
     for one in frame["sensors"]["list"]:

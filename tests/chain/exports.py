@@ -10,6 +10,8 @@ import gzip
 import json
 import math
 import os
+import re
+import runpy
 import shutil
 import signal
 import struct
@@ -17,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import traceback
 
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -610,6 +613,85 @@ def what_formats_cannot_hold_is_refused(folder):
     assert not [name for name in os.listdir(folder) if name.startswith("out")], os.listdir(folder)
 
 
+def members(value, path=()):
+    """Paths of all members, of a list those of its first item."""
+    for key in value if isinstance(value, dict) else range(min(len(value), 1)) if isinstance(value, list) else ():
+        yield (*path, key)
+        yield from members(value[key], (*path, key))
+
+
+def any_member_may_be_wrong(folder):
+    """Each member of the second frame is left out or replaced: what is not written is refused in one line, with 65."""
+    good = [frame_of([body("ego", vx=20), body("other", x=12)], [target(), target()], i, visibility=[
+        {"sensor": "front", "object": "other", "reflectors": 2, "in_range": 1, "in_view": 1, "visibility": "v0-40"}]) for i in range(2)]
+    suite_of(folder, good[0])
+    os.environ.update(ENVIRONMENT)
+    os.chdir(folder)
+    refused = 0
+    for path in list(members(good[1])):
+        for value in ("left out", None, "x", [1], 1e308):
+            frames = json.loads(json.dumps(good))
+            record = frames[1]
+            for key in path[:-1]:
+                record = record[key]
+            if value == "left out":
+                del record[path[-1]]
+            else:
+                record[path[-1]] = value
+            save(folder, "wrong.jsonl", frames)
+            for form in ("nuscenes", "kitti"):
+                status, said = in_a_fork([form, "--out", "out", "--suite", "suite.json", "wrong.jsonl"])
+                assert status == 0 or status == 65 and re.fullmatch(r"export: wrong\.jsonl:[12]: .*\n", said), (path, value, form, status, said)
+                assert (status == 0) == os.path.exists("out")
+                shutil.rmtree("out", ignore_errors=True)
+                refused += status != 0
+    os.chdir(ROOT)
+    assert refused > 250, refused
+
+
+def in_a_fork(words):
+    """Status and message of scripts/export, in a process without a start of its own."""
+    with tempfile.TemporaryFile() as told:
+        child = os.fork()
+        if child == 0:
+            try:
+                os.dup2(told.fileno(), 2)
+                sys.argv = ["export", *words]
+                runpy.run_path(os.path.join(SCRIPTS, "export"), run_name="__main__")
+                os._exit(0)
+            except SystemExit as end:
+                sys.stderr.flush()
+                os._exit(end.code)
+            except BaseException:
+                traceback.print_exc()
+                sys.stderr.flush()
+            os._exit(70)
+        status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        told.seek(0)
+        return status, told.read().decode()
+
+
+def tables_that_are_no_tables(folder):
+    """Cut, without a column, with words for numbers, or not there."""
+    shell("glint-traffic two-vehicles | glint-extract | glint-ideal --sensors srr24-pair --sections quality,visibility | glint-sensor | glint-noise"
+          " | glint-tables --plain good", folder)
+    for name in ("frames", "objects", "scans", "detections", "contributors", "sightings"):
+        path = os.path.join(folder, "good", name + ".csv")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        half = text[:len(text) // 2]
+        for wrong in (half.rpartition(",")[0], half.replace("_key", "_kex", 1), text.replace("\n0", "\nzero", 1), "", text.split("\n")[0] + "\n", None):
+            os.remove(path)
+            if wrong is not None:
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(wrong)
+            done = subprocess.run([SCRIPTS + "/export", "vod", "--out", "out", "good"], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+            assert done.returncode in (0, 65, 66) and "Traceback" not in done.stderr and done.stderr.count("\n") == (done.returncode != 0), (name, wrong and wrong[-90:], done)
+            shutil.rmtree(os.path.join(folder, "out"), ignore_errors=True)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+
+
 def killed_runs_leave_no_folder_of_the_name(folder):
     """Killed at any time; the next run removes what is left of them."""
     shell("glint-traffic cut-in | glint-extract | glint-ideal --sensors radarscenes77-full --sections quality | glint-sensor | glint-noise > list.jsonl", folder)
@@ -652,6 +734,7 @@ def main():
     for test in (an_approaching_car, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
                  every_token_resolves, points_in_boxes_are_counted, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
                  lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_formats_cannot_hold_is_refused,
+                 any_member_may_be_wrong, tables_that_are_no_tables,
                  killed_runs_leave_no_folder_of_the_name, pcl_reads_the_radar_files):
         if chosen and test.__name__ not in chosen:
             continue
