@@ -61,7 +61,10 @@ static int mcap_start(void *state, struct runner *runner)
     add_json(&own->file, "/frames", "glint.frame", own->message.bytes);
     add_json(&own->file, "/scene", "foxglove.SceneUpdate", foxglove_scene_schema);
     own->message.length = 0;
-    return 0;
+    return !runner_output_is_terminal(runner)
+               ? 0
+               : diag_fail(runner_diag(runner), DIAG_USAGE,
+                           "standard output is a terminal; write the file: -o FILE");
 }
 
 static void add_message(struct mcap_stage *own, uint16_t channel)

@@ -7,7 +7,10 @@ static int osi_start(void *state, struct runner *runner)
 {
     struct osi_trace *trace = state;
     trace->arena = runner_arena(runner);
-    return 0;
+    return !runner_output_is_terminal(runner)
+               ? 0
+               : diag_fail(runner_diag(runner), DIAG_USAGE,
+                           "standard output is a terminal; write the trace to a file: -o FILE");
 }
 
 /* A message stands behind its length in four bytes. */

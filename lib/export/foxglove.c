@@ -3,7 +3,7 @@
 #include "base/number.h"
 #include "geometry/kinematics.h"
 
-#define TIME(time_ns) (double)((time_ns) / 1000000000), (double)((time_ns) % 1000000000)
+#define TIME(ns) (double)(uint64_t)((ns) / 1000000000), (double)((ns) % 1000000000)
 #define TURN(yaw_rad) elementary_sin((yaw_rad) / 2), elementary_cos((yaw_rad) / 2)
 
 /* Appends a pattern with these numbers and words. */

@@ -73,7 +73,8 @@ struct writing {
 #define NEW(writing, message) new_message(writing, &osi3__##message##__descriptor)
 #define LIST(writing, list, count) ((list) = arena_get((writing)->arena, (count) * sizeof *(list)))
 #define NUMBERS(writing, message, ...)                                                             \
-    numbers(writing, &osi3__##message##__descriptor, (const double[]){__VA_ARGS__})
+    numbers(writing, &osi3__##message##__descriptor, (const double[]){__VA_ARGS__},                \
+            sizeof((double[]){__VA_ARGS__}) / sizeof(double))
 
 static void *new_message(struct writing *writing, const ProtobufCMessageDescriptor *descriptor)
 {
@@ -82,16 +83,14 @@ static void *new_message(struct writing *writing, const ProtobufCMessageDescript
     return message;
 }
 
-/* A message of numbers, in the order of its fields; NAN leaves one out. */
+/* A message with these values of its first fields, which are numbers. */
 static void *numbers(struct writing *writing, const ProtobufCMessageDescriptor *descriptor,
-                     const double *values)
+                     const double *values, size_t count)
 {
     char *message = new_message(writing, descriptor);
-    for (unsigned i = 0; i < descriptor->n_fields; i++) {
+    for (size_t i = 0; i < count; i++) {
         const ProtobufCFieldDescriptor *field = &descriptor->fields[i];
         char *at = message + field->offset;
-        if (isnan(values[i]))
-            continue;
         memcpy(message + field->quantifier_offset, &(protobuf_c_boolean){1}, sizeof(int));
         if (field->type == PROTOBUF_C_TYPE_DOUBLE)
             memcpy(at, &values[i], sizeof(double));
@@ -110,9 +109,8 @@ static Osi3__InterfaceVersion *version(struct writing *writing)
 
 static Osi3__Timestamp *stamp(struct writing *writing, double time_s)
 {
-    uint64_t time_ns = osi_trace_ns(writing->trace, time_s);
-    return NUMBERS(writing, timestamp, (double)(time_ns / second_ns),
-                   (double)(time_ns % second_ns));
+    uint64_t time_ns = osi_trace_ns(writing->trace, time_s), whole_s = time_ns / second_ns;
+    return NUMBERS(writing, timestamp, (double)whole_s, (double)(time_ns % second_ns));
 }
 
 static Osi3__Identifier *identifier(struct writing *writing, uint64_t number)
@@ -138,7 +136,7 @@ static Osi3__Identifier *object_id(struct writing *writing, const char *id)
 static Osi3__MountingPosition *mounting(struct writing *writing, double x, double y, double yaw)
 {
     Osi3__MountingPosition *mounting = NEW(writing, mounting_position);
-    mounting->position = NUMBERS(writing, vector3d, x, y, NAN);
+    mounting->position = NUMBERS(writing, vector3d, x, y);
     mounting->orientation = NUMBERS(writing, orientation3d, 0, 0, yaw);
     return mounting;
 }
@@ -332,7 +330,7 @@ static Osi3__RadarDetectionData *radar_of(struct writing *writing, const struct 
 static Osi3__SensorData *sensor_data(struct writing *writing)
 {
     const struct frame *frame = writing->frame;
-    double youngest_s = INFINITY;
+    double youngest_s = (double)INFINITY;
     Osi3__SensorData *own = NEW(writing, sensor_data);
     Osi3__FeatureData *features = own->feature_data = NEW(writing, feature_data);
     own->version = features->version = version(writing);

@@ -7,6 +7,7 @@ axes and units are compared with numbers that were worked out by hand, all else 
 tests/tables/run reads the same files with other people's libraries.
 """
 import base64
+import csv
 import json
 import math
 import os
@@ -466,6 +467,24 @@ def refusals(folder):
             check(file.read() == pipe(program, good), "same bytes for the same stream, into a file or a pipe")
 
 
+def labels_join_by_tables(folder):
+    """A detection is the row of the tables with its frame, the name of its sensor and its place in the list."""
+    lines = pipe("glint-traffic two-vehicles --sections quality,objects | glint-extract | glint-ideal --sensors srr24-pair"
+                 " | glint-sensor | glint-noise")
+    pipe(f"glint-tables --plain {folder}/tables", lines)
+    with open(os.path.join(folder, "tables", "detections.csv"), newline="", encoding="utf-8") as file:
+        rows = {(int(row["frame"]), row["sensor"], int(row["detection"])): row for row in csv.DictReader(file)}
+    names = [one["name"] for one in frames_in(lines)[0]["sensors"]["list"]]
+    for data in osi_of(lines):
+        for radar in data["feature_data"][0].get("radar_sensor", []):
+            header = radar["header"][0]
+            sensor = names[int(value_of(header, "sensor_id", "value")) - 1]
+            for i, one in enumerate(radar.get("detection", [])):
+                row = rows.pop((int(value_of(header, "cycle_counter")), sensor, i))
+                check(float(row["range_m"]) == value_of(one, "position", "distance"), f"the row of a detection: {row}")
+    check(not rows, f"{len(rows)} rows without a detection")
+
+
 # ---- from OSI to OSI --------------------------------------------------------------------------------------------
 
 
@@ -508,5 +527,6 @@ with tempfile.TemporaryDirectory() as place_of_files:
         metadata_of_osi()
         ids_and_times(place_of_files)
         refusals(place_of_files)
+        labels_join_by_tables(place_of_files)
         poses_stay(place_of_files)
 print(f"traces: {recorded.checks} checks hold")
