@@ -7,6 +7,8 @@
 
 static const uint64_t second_ns = 1000000000;
 
+static const double no_object = 0x1p64; /* in OSI the greatest number */
+
 /* ---- frames that a trace takes ---- */
 
 uint64_t osi_trace_ns(const struct osi_trace *trace, double time_s)
@@ -63,81 +65,69 @@ int osi_trace_take(struct osi_trace *trace, struct frame *frame, struct diag *di
 
 /* ---- messages ---- */
 
-struct writing {
-    struct osi_trace *trace;
-    const struct frame *frame;
-    struct arena *arena; /* of the frame */
-};
-
 #define SET(message, member, value) ((message)->has_##member = 1, (message)->member = (value))
-#define NEW(writing, message) new_message(writing, &osi3__##message##__descriptor)
-#define LIST(writing, list, count) ((list) = arena_get((writing)->arena, (count) * sizeof *(list)))
-#define NUMBERS(writing, message, ...)                                                             \
-    numbers(writing, &osi3__##message##__descriptor, (const double[]){__VA_ARGS__},                \
+#define NEW(trace, message) new_message(trace, &osi3__##message##__descriptor)
+#define LIST(trace, list, count)                                                                   \
+    ((list) = arena_get((trace)->frame->arena, (count) * sizeof *(list)))
+#define NUMBERS(trace, message, ...)                                                               \
+    numbers(trace, &osi3__##message##__descriptor, (const double[]){__VA_ARGS__},                  \
             sizeof((double[]){__VA_ARGS__}) / sizeof(double))
 
-static void *new_message(struct writing *writing, const ProtobufCMessageDescriptor *descriptor)
+static void *new_message(struct osi_trace *trace, const ProtobufCMessageDescriptor *descriptor)
 {
-    void *message = arena_get(writing->arena, descriptor->sizeof_message);
+    void *message = arena_get(trace->frame->arena, descriptor->sizeof_message);
     protobuf_c_message_init(descriptor, message);
     return message;
 }
 
 /* A message with these values of its first fields, which are numbers. */
-static void *numbers(struct writing *writing, const ProtobufCMessageDescriptor *descriptor,
+static void *numbers(struct osi_trace *trace, const ProtobufCMessageDescriptor *descriptor,
                      const double *values, size_t count)
 {
-    char *message = new_message(writing, descriptor);
+    char *message = new_message(trace, descriptor);
     for (size_t i = 0; i < count; i++) {
         const ProtobufCFieldDescriptor *field = &descriptor->fields[i];
         char *at = message + field->offset;
         memcpy(message + field->quantifier_offset, &(protobuf_c_boolean){1}, sizeof(int));
         if (field->type == PROTOBUF_C_TYPE_DOUBLE)
             memcpy(at, &values[i], sizeof(double));
-        else if (field->type == PROTOBUF_C_TYPE_INT64)
-            memcpy(at, &(int64_t){(int64_t)values[i]}, sizeof(int64_t));
+        else if (field->type == PROTOBUF_C_TYPE_UINT64 || field->type == PROTOBUF_C_TYPE_INT64)
+            memcpy(at, &(uint64_t){values[i] < 0x1p64 ? (uint64_t)values[i] : UINT64_MAX}, 8);
         else
             memcpy(at, &(uint32_t){(uint32_t)values[i]}, sizeof(uint32_t));
     }
     return message;
 }
 
-static Osi3__InterfaceVersion *version(struct writing *writing)
+static Osi3__InterfaceVersion *version(struct osi_trace *trace)
 {
-    return NUMBERS(writing, interface_version, 3, 8, 0);
+    return NUMBERS(trace, interface_version, 3, 8, 0);
 }
 
-static Osi3__Timestamp *stamp(struct writing *writing, double time_s)
+static Osi3__Timestamp *stamp(struct osi_trace *trace, double time_s)
 {
-    uint64_t time_ns = osi_trace_ns(writing->trace, time_s), whole_s = time_ns / second_ns;
-    return NUMBERS(writing, timestamp, (double)whole_s, (double)(time_ns % second_ns));
+    uint64_t time_ns = osi_trace_ns(trace, time_s), whole_s = time_ns / second_ns;
+    return NUMBERS(trace, timestamp, (double)whole_s, (double)(time_ns % second_ns));
 }
 
-static Osi3__Identifier *identifier(struct writing *writing, uint64_t number)
-{
-    Osi3__Identifier *identifier = NEW(writing, identifier);
-    SET(identifier, value, number);
-    return identifier;
-}
-
-static Osi3__Identifier *object_id(struct writing *writing, const char *id)
+static Osi3__Identifier *object_id(struct osi_trace *trace, const char *id)
 {
     enum { MOST_DIGITS = 15 };
-    uint32_t place = intern_word(&writing->trace->objects, id, writing->trace->arena);
+    uint32_t place = intern_word(&trace->objects, id, trace->arena);
     size_t digits = strspn(id, "0123456789");
     bool zeros = id[0] == '0' && digits > 1;
     double number = (double)(OSI_TRACE_NAMED + place);
     if (id[digits] == '\0' && digits <= MOST_DIGITS && !zeros)
         number_read(id, id + digits, &number);
-    return identifier(writing, (uint64_t)number);
+    return NUMBERS(trace, identifier, number);
 }
 
 /* The height of a mount is not known. */
-static Osi3__MountingPosition *mounting(struct writing *writing, double x, double y, double yaw)
+static Osi3__MountingPosition *mounting(struct osi_trace *trace, double x, double y, double yaw)
 {
-    Osi3__MountingPosition *mounting = NEW(writing, mounting_position);
-    mounting->position = NUMBERS(writing, vector3d, x, y);
-    mounting->orientation = NUMBERS(writing, orientation3d, 0, 0, yaw);
+    Osi3__MountingPosition *mounting = NEW(trace, mounting_position);
+    mounting->position = NUMBERS(trace, vector3d, x, y);
+    mounting->orientation = NUMBERS(trace, orientation3d, 0, 0, yaw);
     return mounting;
 }
 
@@ -168,93 +158,93 @@ static struct type type_of(const struct object *object)
 }
 
 /* The id and the class as texts, for which OSI has no other field. */
-static Osi3__ExternalReference *source(struct writing *writing, const struct object *object)
+static Osi3__ExternalReference *source(struct osi_trace *trace, const struct object *object)
 {
-    Osi3__ExternalReference *source = NEW(writing, external_reference);
+    Osi3__ExternalReference *source = NEW(trace, external_reference);
     source->type = (char *)"glint.object";
     source->n_identifier = 2;
-    LIST(writing, source->identifier, 2);
+    LIST(trace, source->identifier, 2);
     source->identifier[0] = (char *)object->id;
     source->identifier[1] = (char *)object->class;
     return source;
 }
 
 /* The box stands on the plane z = 0. */
-static Osi3__Base *body(struct writing *writing, const struct object *object)
+static Osi3__Base *body(struct osi_trace *trace, const struct object *object)
 {
-    const struct frame *frame = writing->frame;
-    Osi3__Base *base = NEW(writing, base);
+    const struct frame *frame = trace->frame;
+    Osi3__Base *base = NEW(trace, base);
     base->dimension =
-        NUMBERS(writing, dimension3d, object->length_m, object->width_m, object->height_m);
-    base->position = NUMBERS(writing, vector3d, frame->origin_x_m + object->x_m,
+        NUMBERS(trace, dimension3d, object->length_m, object->width_m, object->height_m);
+    base->position = NUMBERS(trace, vector3d, frame->origin_x_m + object->x_m,
                              frame->origin_y_m + object->y_m, object->height_m / 2);
-    base->orientation = NUMBERS(writing, orientation3d, 0, 0, object->yaw_rad);
+    base->orientation = NUMBERS(trace, orientation3d, 0, 0, object->yaw_rad);
     return base;
 }
 
-static void add_stationary(struct writing *writing, const struct object *object, int32_t type,
+static void add_stationary(struct osi_trace *trace, const struct object *object, int32_t type,
                            Osi3__GroundTruth *truth)
 {
-    Osi3__StationaryObject *own = NEW(writing, stationary_object);
-    own->id = object_id(writing, object->id);
-    own->body = body(writing, object);
-    own->classification = NUMBERS(writing, stationary_object__classification, type);
+    Osi3__StationaryObject *own = NEW(trace, stationary_object);
+    own->id = object_id(trace, object->id);
+    own->body = body(trace, object);
+    own->classification = NUMBERS(trace, stationary_object__classification, type);
     own->n_source_reference = 1;
-    *LIST(writing, own->source_reference, 1) = source(writing, object);
+    *LIST(trace, own->source_reference, 1) = source(trace, object);
     truth->stationary_object[truth->n_stationary_object++] = own;
 }
 
-static void add_moving(struct writing *writing, const struct object *object, struct type type,
+static void add_moving(struct osi_trace *trace, const struct object *object, struct type type,
                        Osi3__GroundTruth *truth)
 {
-    Osi3__MovingObject *own = NEW(writing, moving_object);
-    own->id = object_id(writing, object->id);
-    own->body = body(writing, object);
-    own->body->velocity = NUMBERS(writing, vector3d, object->vx_mps, object->vy_mps, 0);
-    own->body->orientation_rate = NUMBERS(writing, orientation3d, 0, 0, object->yaw_rate_radps);
+    Osi3__MovingObject *own = NEW(trace, moving_object);
+    own->id = object_id(trace, object->id);
+    own->body = body(trace, object);
+    own->body->velocity = NUMBERS(trace, vector3d, object->vx_mps, object->vy_mps, 0);
+    own->body->orientation_rate = NUMBERS(trace, orientation3d, 0, 0, object->yaw_rate_radps);
     own->n_source_reference = 1;
-    *LIST(writing, own->source_reference, 1) = source(writing, object);
+    *LIST(trace, own->source_reference, 1) = source(trace, object);
     SET(own, type, type.kind == VEHICLE ? TYPE_VEHICLE : type.number);
     if (type.kind == VEHICLE) {
-        double axle_x_m = frame_rear_axle_x_m(writing->frame, object);
+        double axle_x_m = frame_rear_axle_x_m(trace->frame, object);
         own->vehicle_classification =
-            NUMBERS(writing, moving_object__vehicle_classification, type.number);
-        own->vehicle_attributes = NEW(writing, moving_object__vehicle_attributes);
+            NUMBERS(trace, moving_object__vehicle_classification, type.number);
+        own->vehicle_attributes = NEW(trace, moving_object__vehicle_attributes);
         own->vehicle_attributes->bbcenter_to_rear =
-            NUMBERS(writing, vector3d, axle_x_m, 0, -object->height_m / 2);
+            NUMBERS(trace, vector3d, axle_x_m, 0, -object->height_m / 2);
     }
     truth->moving_object[truth->n_moving_object++] = own;
 }
 
-static Osi3__GroundTruth *ground_truth(struct writing *writing)
+static Osi3__GroundTruth *ground_truth(struct osi_trace *trace)
 {
-    const struct frame *frame = writing->frame;
-    Osi3__GroundTruth *truth = NEW(writing, ground_truth);
-    truth->version = version(writing);
-    truth->timestamp = stamp(writing, frame->time_s);
-    truth->host_vehicle_id = object_id(writing, frame->ego);
-    LIST(writing, truth->moving_object, frame->objects.count);
-    LIST(writing, truth->stationary_object, frame->objects.count);
+    const struct frame *frame = trace->frame;
+    Osi3__GroundTruth *truth = NEW(trace, ground_truth);
+    truth->version = version(trace);
+    truth->timestamp = stamp(trace, frame->time_s);
+    truth->host_vehicle_id = object_id(trace, frame->ego);
+    LIST(trace, truth->moving_object, frame->objects.count);
+    LIST(trace, truth->stationary_object, frame->objects.count);
     for (size_t i = 0; i < frame->objects.count; i++) {
         struct type type = type_of(&frame->objects.items[i]);
         if (type.kind == STATIONARY)
-            add_stationary(writing, &frame->objects.items[i], type.number, truth);
+            add_stationary(trace, &frame->objects.items[i], type.number, truth);
         else
-            add_moving(writing, &frame->objects.items[i], type, truth);
+            add_moving(trace, &frame->objects.items[i], type, truth);
     }
     return truth;
 }
 
 /* The view of all sensors together, whose frame is that of the vehicle. */
-static Osi3__SensorView *sensor_view(struct writing *writing)
+static Osi3__SensorView *sensor_view(struct osi_trace *trace)
 {
-    Osi3__SensorView *view = NEW(writing, sensor_view);
-    view->global_ground_truth = ground_truth(writing);
+    Osi3__SensorView *view = NEW(trace, sensor_view);
+    view->global_ground_truth = ground_truth(trace);
     view->version = view->global_ground_truth->version;
     view->timestamp = view->global_ground_truth->timestamp;
     view->host_vehicle_id = view->global_ground_truth->host_vehicle_id;
-    view->sensor_id = identifier(writing, 0);
-    view->mounting_position = mounting(writing, 0, 0, 0);
+    view->sensor_id = NUMBERS(trace, identifier, 0);
+    view->mounting_position = mounting(trace, 0, 0, 0);
     return view;
 }
 
@@ -274,17 +264,19 @@ static Osi3__DetectionClassification class_of(const struct contributor *from)
 
 /* The radial velocity of OSI is positive towards the sensor. A range rate that may be folded has an
  * ambiguity of its own, as its alternatives are in no list. */
-static Osi3__RadarDetection *detection_of(struct writing *writing, const struct target *target,
-                                          size_t number)
+static Osi3__RadarDetection *detection_of(struct osi_trace *trace, const struct target *target,
+                                          double number)
 {
     const struct quality *quality = &target->quality;
     const struct contributor *from = frame_strongest(target);
-    bool known = from != NULL && frame_object(writing->frame, from->id.object) != NULL;
-    Osi3__RadarDetection *own = NEW(writing, radar_detection);
-    own->object_id = known ? object_id(writing, from->id.object) : identifier(writing, UINT64_MAX);
-    own->position = NUMBERS(writing, spherical3d, target->range_m, target->azimuth_rad);
+    bool known = from != NULL && frame_object(trace->frame, from->id.object) != NULL;
+    Osi3__RadarDetection *own = NEW(trace, radar_detection);
+    own->object_id =
+        known ? object_id(trace, from->id.object) : NUMBERS(trace, identifier, no_object);
+    own->position = NUMBERS(trace, spherical3d, target->range_m, target->azimuth_rad);
     SET(own, radial_velocity, 0 - target->range_rate_mps);
-    own->ambiguity_id = identifier(writing, (quality->present & QUALITY_FOLDS) != 0 ? number : 0);
+    own->ambiguity_id =
+        NUMBERS(trace, identifier, (quality->present & QUALITY_FOLDS) != 0 ? number : 0);
     SET(own, classification, class_of(from));
     if ((quality->present & QUALITY_NOISE) != 0) {
         SET(own, existence_probability, quality->existence);
@@ -294,61 +286,63 @@ static Osi3__RadarDetection *detection_of(struct writing *writing, const struct 
         SET(own, rcs, quality->rcs_dbsm);
     if ((quality->present & QUALITY_ERRORS) != 0) {
         own->position_rmse =
-            NUMBERS(writing, spherical3d, quality->range_sd_m, quality->azimuth_sd_rad);
+            NUMBERS(trace, spherical3d, quality->range_sd_m, quality->azimuth_sd_rad);
         SET(own, radial_velocity_rmse, quality->range_rate_sd_mps);
     }
     return own;
 }
 
 /* A frame's line has room for fewer targets than a count of 32 bits. */
-static Osi3__RadarDetectionData *radar_of(struct writing *writing, const struct sensor_view *sensor)
+static Osi3__RadarDetectionData *radar_of(struct osi_trace *trace, const struct sensor_view *sensor)
 {
-    const struct frame *frame = writing->frame;
+    const struct frame *frame = trace->frame;
     double axle_x_m = frame_rear_axle_x_m(frame, frame_object(frame, frame->ego));
-    Osi3__RadarDetectionData *own = NEW(writing, radar_detection_data);
-    Osi3__SensorDetectionHeader *header = own->header = NEW(writing, sensor_detection_header);
-    header->measurement_time = stamp(writing, frame->time_s - sensor->age_s);
+    Osi3__RadarDetectionData *own = NEW(trace, radar_detection_data);
+    Osi3__SensorDetectionHeader *header = own->header = NEW(trace, sensor_detection_header);
+    header->measurement_time = stamp(trace, frame->time_s - sensor->age_s);
     SET(header, cycle_counter, (uint64_t)frame->frame);
     header->mounting_position =
-        mounting(writing, sensor->mount_x_m - axle_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+        mounting(trace, sensor->mount_x_m - axle_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
     SET(header, data_qualifier,
         OSI3__SENSOR_DETECTION_HEADER__DATA_QUALIFIER__DATA_QUALIFIER_AVAILABLE);
     SET(header, number_of_valid_detections, 0);
-    header->sensor_id = identifier(writing, (uint64_t)(sensor - frame->sensors.list.items) + 1);
-    LIST(writing, own->detection, frame->targets.count);
+    header->sensor_id =
+        NUMBERS(trace, identifier, (double)(sensor - frame->sensors.list.items) + 1);
+    LIST(trace, own->detection, frame->targets.count);
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
         if (!frame_same_name(target->sensor, sensor->name))
             continue;
-        own->detection[own->n_detection] = detection_of(writing, target, own->n_detection + 1);
+        own->detection[own->n_detection] =
+            detection_of(trace, target, (double)own->n_detection + 1);
         header->number_of_valid_detections +=
             own->detection[own->n_detection++]->classification != CLASS(INVALID);
     }
     return own;
 }
 
-static Osi3__SensorData *sensor_data(struct writing *writing)
+static Osi3__SensorData *sensor_data(struct osi_trace *trace)
 {
-    const struct frame *frame = writing->frame;
+    const struct frame *frame = trace->frame;
     double youngest_s = (double)INFINITY;
-    Osi3__SensorData *own = NEW(writing, sensor_data);
-    Osi3__FeatureData *features = own->feature_data = NEW(writing, feature_data);
-    own->version = features->version = version(writing);
-    own->timestamp = stamp(writing, frame->time_s);
-    own->sensor_id = identifier(writing, 0);
-    own->mounting_position = mounting(writing, 0, 0, 0);
+    Osi3__SensorData *own = NEW(trace, sensor_data);
+    Osi3__FeatureData *features = own->feature_data = NEW(trace, feature_data);
+    own->version = features->version = version(trace);
+    own->timestamp = stamp(trace, frame->time_s);
+    own->sensor_id = NUMBERS(trace, identifier, 0);
+    own->mounting_position = mounting(trace, 0, 0, 0);
     own->n_sensor_view = 1;
-    *LIST(writing, own->sensor_view, 1) = sensor_view(writing);
-    LIST(writing, features->radar_sensor, frame->sensors.list.count);
+    *LIST(trace, own->sensor_view, 1) = sensor_view(trace);
+    LIST(trace, features->radar_sensor, frame->sensors.list.count);
     for (size_t i = 0; i < frame->sensors.list.count; i++) {
         const struct sensor_view *sensor = &frame->sensors.list.items[i];
         if (!sensor->measured)
             continue;
-        features->radar_sensor[features->n_radar_sensor++] = radar_of(writing, sensor);
+        features->radar_sensor[features->n_radar_sensor++] = radar_of(trace, sensor);
         youngest_s = elementary_min(youngest_s, sensor->age_s);
     }
     if (features->n_radar_sensor > 0)
-        own->last_measurement_time = stamp(writing, frame->time_s - youngest_s);
+        own->last_measurement_time = stamp(trace, frame->time_s - youngest_s);
     return own;
 }
 
@@ -359,8 +353,8 @@ int osi_trace_add(struct osi_trace *trace, const struct frame *frame, struct tex
         return diag_fail(diag, DIAG_DATA,
                          "quality: missing; expected --sections quality at glint-noise or before, "
                          "for OSI's errors, rcs, snr and existence");
-    struct writing writing = {trace, frame, frame->arena};
-    const Osi3__SensorData *data = sensor_data(&writing);
+    trace->frame = frame;
+    const Osi3__SensorData *data = sensor_data(trace);
     char *room = text_room(text, osi3__sensor_data__get_packed_size(data));
     text->length += osi3__sensor_data__pack(data, (uint8_t *)room);
     return 0;

@@ -17,8 +17,9 @@ struct osi_trace {
     double shift_s; /* added to all times */
     struct arena *arena;
     const char *scene;
-    uint64_t seed, time_ns; /* of the latest frame */
-    struct intern objects;  /* ids in the order in which they first appear */
+    uint64_t seed, time_ns;    /* of the latest frame */
+    struct intern objects;     /* ids in the order in which they first appear */
+    const struct frame *frame; /* of which a message is built */
 };
 
 /* The option of stages whose state begins with a struct osi_trace. */
