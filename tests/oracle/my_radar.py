@@ -276,7 +276,15 @@ REFUSED = [
 def refused(bench):
     for change, message in REFUSED:
         done, _ = made(bench, PLAIN | change)
-        bench.check(done.returncode == 1 and message in done.stderr, f"{change}: {done.returncode}, {done.stderr}")
+        code = 66 if change.get("extends") == "no-radar" else 65
+        bench.check(done.returncode == code and message in done.stderr, f"{change}: {done.returncode}, {done.stderr}")
+    path = bench.scratch / "sheet.json"
+    for text, out, code, message in (('{"range_max_m": 1, "range_max_m": 2}', "made.json", 65, "range_max_m stands twice"),
+                                     ('{"range_max_m": 1,}', "made.json", 65, "line 1 column"), (json.dumps(PLAIN), "no/made.json", 73, "no/made-front.csv"),
+                                     (json.dumps(PLAIN), "sheet.json", 64, "unknown command line")):
+        path.write_text(text)
+        done = subprocess.run([SCRIPT, path, "-o", bench.scratch / out], capture_output=True, check=False, text=True)
+        bench.check(done.returncode == code and message in done.stderr, f"{text}: {done.returncode}, {done.stderr}")
 
 
 def scans(bench):
