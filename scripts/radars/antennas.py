@@ -1,7 +1,7 @@
-"""Tables of antennas: sums by the gain over azimuth, deltas by the accuracy of the azimuth.
+"""Antennas by the figures of a sheet: rows of elements, or sum and delta; their gain, and the noise of azimuths beside theirs.
 
 With r = delta/sum the standard deviation of the azimuth at a ratio of powers S is sqrt(1 + r^2)/(r' sqrt(2 S)) (MODEL 7.3), so
-asinh r is the integral of 1/(sigma sqrt(2 S)) over the azimuth.
+asinh r ascends evenly with the azimuth where the deviation sigma is the same: by 1/(sigma sqrt(2 S)).
 """
 import math
 
@@ -11,7 +11,7 @@ ROWS = 100  # on either side
 MOST = 8.0  # of asinh r: the delta channel is then 1,500 times as strong as the sum
 LEAST_DB = -80.0
 STATED = ("gains", "beam_two_way_full_width_deg", "azimuth_accuracy_deg", "azimuth_accuracies",
-          "receive_positions_wavelengths", "transmit_positions_wavelengths", "view_full_width_deg")
+          "azimuth_resolution_deg", "receive_positions_wavelengths", "transmit_positions_wavelengths", "view_full_width_deg")
 
 
 def between(rows, at):
@@ -40,40 +40,46 @@ def beam(scan, half_rad):
     return lambda at: max(-3 * (2 * at / width_rad) ** 2, LEAST_DB)
 
 
-def elements_sigma(scan, snr):
-    """Of a row of elements, the standard deviation of the azimuth on boresight; None without elements."""
-    places = [scan.figures.places(name) for name in ("transmit_positions_wavelengths", "receive_positions_wavelengths")]
-    if not places[1]:
-        if places[0]:
-            raise Refused(f"{scan.name}: transmit_positions_wavelengths need receive_positions_wavelengths")
+def array(scan, half_rad):
+    """Puts the array that the sheet states, or that resolves as it states. The deviation of a sine at a ratio of powers of 1, or None."""
+    figures, resolution_rad, most = scan.figures, scan.figures.take("azimuth_resolution_deg"), 0.5 / math.sin(half_rad)
+    transmit, receive = (figures.places(f"{way}_positions_wavelengths") or [one["place"] for one in scan.members.get("array", {}).get(way, [])]
+                         for way in ("transmit", "receive"))
+    if resolution_rad and "receive_positions_wavelengths" not in figures:
+        count = next((n for n in range(8, 65) if beam_sines(n) <= resolution_rad * most), None)
+        if not count:
+            raise Refused(f"{scan.name}: {figures.told('azimuth_resolution_deg')} takes more than 64 elements {most:.4g} wavelengths apart, the "
+                          f"farthest in a view of {2 * half_rad / DEGREE:.4g} degrees")
+        transmit, receive = [0], [n * beam_sines(count) / resolution_rad for n in range(count)]
+        scan.assumed.append(f"{count} receivers {receive[1]:.4g} wavelengths apart have {figures.told('azimuth_resolution_deg')}")
+    virtual = sorted(a + b for a in transmit or [0] for b in receive)
+    steps = [b - a for a, b in zip(virtual, virtual[1:])]
+    if not virtual and not transmit:
         return None
-    virtual = sorted({a + b for a in places[0] or [0] for b in places[1]})
-    if len(virtual) < 2:
-        raise Refused(f"{scan.name}: receive_positions_wavelengths has {len(virtual)} place; expected two or more")
-    aperture = virtual[-1] - virtual[0] + min(b - a for a, b in zip(virtual, virtual[1:]))
-    scan.assumed.append(f"{len(virtual)} virtual elements over {aperture:.4g} wavelengths set the accuracy of azimuths and do not separate echoes")
-    return 0.39 / (aperture * math.sqrt(snr))
+    if not 2 <= len(virtual) <= 64 or max(steps) > most * (1 + 1e-9) or max(steps) - min(steps) > 1e-6 or min(steps) <= 0:
+        raise Refused(f"{scan.name}: {len(virtual)} sums of transmit and receive positions, {min(steps, default=0):g} to {max(steps, default=0):g} "
+                      f"wavelengths apart; expected 2 to 64 in even steps of at most {most:.4g}, beyond which two directions in a view of "
+                      f"{2 * half_rad / DEGREE:.4g} degrees look alike")
+    shown_rad = beam_sines(len(virtual)) / steps[0]
+    if resolution_rad and not 0.7 < shown_rad / resolution_rad < 1.3:
+        raise Refused(f"{scan.name}: {len(virtual)} elements {steps[0]:g} wavelengths apart resolve {shown_rad / DEGREE:.3g} degrees, "
+                      f"not {figures.told('azimuth_resolution_deg')}")
+    scan.put("array", {"transmit": [{"place": place} for place in transmit or [0]], "receive": [{"place": place} for place in receive]},
+             "transmit_positions_wavelengths", "receive_positions_wavelengths", "azimuth_resolution_deg")
+    return math.sqrt(6 / (len(virtual) ** 2 - 1)) / (math.tau * steps[0])
 
 
-def accuracies(scan, half_rad, snr):
-    """The standard deviation of the azimuth over azimuth, in rad: a function."""
-    rows, bound = scan.figures.rows("azimuth_accuracies", "accuracy_deg"), elements_sigma(scan, snr)
-    figure, stated = scan.figures.agreed(("azimuth_accuracies", between(rows, 0) if rows else None),
-                                         ("azimuth_accuracy_deg", scan.figures.take("azimuth_accuracy_deg")))
-    if bound and stated and stated < 0.9 * bound:
-        raise Refused(f"{scan.name}: an azimuth accuracy of {stated / DEGREE:.3g} degrees is finer than {bound / DEGREE:.3g}, what the "
-                      f"elements have at {10 * math.log10(snr):.3g} dB")
-    if stated or bound:
-        scan.put("azimuth_sigma_rad", stated or bound, figure or "receive_positions_wavelengths")
-    else:
-        scan.assume("azimuth_sigma_rad", half_rad / 50, "a hundredth of the field of view")
-    sigma, step = scan.members["azimuth_sigma_rad"], scan.members.get("azimuth_step_rad", 0)
-    if scan.members.pop("azimuth_floor_rad", None):
-        scan.assumed.append("azimuths have no floor of their noise beside the accuracy")
-    if rows:
-        return lambda at: scan.unrounded(between(rows, at), step, "azimuth_accuracies")
-    sigma = scan.unrounded(sigma, step, "azimuth_accuracy_deg")
-    return lambda at: sigma / (1 if stated or not bound else max(math.cos(at), 0.02))
+def beam_sines(count):
+    """The width of a row's beam in sines, down by 3 dB, for steps of a wavelength: within 0.1 % from 4 elements on."""
+    return 0.8859 * (1 + 0.46 / count ** 2) / count
+
+
+def accuracy(scan):
+    """The standard deviation of the azimuth over azimuth, in rad, before rounding: a function; None if the sheet has none."""
+    rows, step = scan.figures.rows("azimuth_accuracies", "accuracy_deg"), scan.members.get("azimuth_step_rad", 0)
+    figure = scan.choose("azimuth_sigma_rad", ("azimuth_accuracies", between(rows, 0) if rows else None),
+                         ("azimuth_accuracy_deg", scan.figures.take("azimuth_accuracy_deg")))
+    return figure and (lambda at: scan.unrounded(between(rows, at) if rows else scan.members["azimuth_sigma_rad"], step, figure))
 
 
 def reference_snr(scan):
@@ -85,36 +91,57 @@ def reference_snr(scan):
     return 10 ** (snr_db / 10)
 
 
-def rows_of(level, sigma, half_rad, snr, scan):
-    """Rows from one side to the other, beyond the field of view by five deviations. Mirrored rows are mirrored exactly."""
-    reach_rad = min(1.02 * half_rad + 5 * sigma(half_rad), math.pi / 2)
-    psi, step, sides = 0, reach_rad / ROWS, {1: [(0, 10 ** (level(0) / 20), 0)], -1: []}
-    for side, rows in sides.items():
-        psi = 0
-        for i in range(1, ROWS + 1):
-            at, between_rad = side * i * step, [side * step * (i - 1 + (k + 0.5) / 8) for k in range(8)]
-            psi += sum(step / 8 / sigma(place) for place in between_rad) / math.sqrt(2 * snr)
-            rows.append((at, 10 ** (level(at) / 20), side * math.sinh(min(psi, MOST))))
-        if psi > MOST:
-            raise Refused(f"{scan.name}: the azimuth accuracy of {sigma(0) / DEGREE:.3g} degrees over {2 * half_rad / DEGREE:.3g} degrees of view "
-                          f"is finer than one pair of beams has at {10 * math.log10(snr):.3g} dB; expected "
-                          f"{sigma(0) / DEGREE * psi / MOST:.3g} or more, or a higher accuracy_snr_db")
-    return [(at, total, total * ratio) for at, total, ratio in sides[-1][::-1] + sides[1]]
+def pair(scan, level, sigma, half_rad, snr):
+    """Sum and delta, a little beyond the field of view, by which azimuths have the deviation sigma everywhere."""
+    reach_rad = min(1.02 * half_rad + 5 * sigma, math.pi / 2)
+    finest_deg = reach_rad / MOST / math.sqrt(2 * snr) / DEGREE
+    if sigma < finest_deg * DEGREE:
+        raise Refused(f"{scan.name}: the azimuth accuracy of {sigma / DEGREE:.3g} degrees over {2 * half_rad / DEGREE:.3g} degrees of view is finer "
+                      f"than one pair of beams has at {10 * math.log10(snr):.3g} dB; expected {finest_deg:.3g} or more, a higher accuracy_snr_db, "
+                      "or azimuth_resolution_deg")
+    places = [(reach_rad * i / ROWS, 10 ** (level(reach_rad * i / ROWS) / 20)) for i in range(-ROWS, ROWS + 1)]
+    return [(at, gain, gain * math.sinh(at / sigma / math.sqrt(2 * snr))) for at, gain in places]
 
 
-def table(scan):
-    """Rows (azimuth, sum, delta) of the antenna; None if the sheet states nothing of it and extends a suite."""
+def tables(scan):
+    """Tables of the antenna by the members that name them; none if the sheet states nothing of it and extends a suite."""
     if "antenna_pattern" in scan.members and not any(name in scan.figures for name in STATED):
-        return None
-    half_rad, snr = scan.members["field_of_view_rad"] / 2, reference_snr(scan)
-    sigma = accuracies(scan, half_rad, snr)
-    level = beam(scan, half_rad)
-    scan.members.pop("azimuth_curve", None)
-    scan.members["antenna_pattern"] = "table"
-    return rows_of(level, sigma, half_rad, snr, scan)
+        return {}
+    members, half_rad, snr = scan.members, scan.members["field_of_view_rad"] / 2, reference_snr(scan)
+    stated, row, level = accuracy(scan), array(scan, half_rad), beam(scan, half_rad)
+    places = [min(1.001 * half_rad, math.pi / 2) * i / ROWS for i in range(-ROWS, ROWS + 1)]
+    for member in ("azimuth_curve", "antenna_table", "azimuth_floor_curve", "azimuth_floor_rad"):
+        members.pop(member, None)
+    if row:
+        antenna = [row / math.sqrt(snr) / max(math.cos(at), 0.02) for at in places]
+        scan.assume("azimuth_sigma_rad", antenna[ROWS], "that of the elements")
+        scan.assume("cell_phase", "by_path", "echoes of a cell have the phases of their paths, without which azimuths cannot separate them")
+        members |= {"antenna_pattern": "array", "angle_estimator": "beams"}
+        made = {"azimuth_curve": [(at, level(at)) for at in places]}
+    else:
+        scan.assume("azimuth_sigma_rad", half_rad / 50, "a hundredth of the field of view")
+        antenna = [min(map(stated, places)) if stated else members["azimuth_sigma_rad"]] * len(places)
+        members |= {"antenna_pattern": "table", "angle_estimator": "ratio"}
+        made = {"antenna_table": pair(scan, level, antenna[0], half_rad, snr)}
+    return made | floors(scan, [(at, stated(at), sigma) for at, sigma in zip(places, antenna)] if stated else [], snr)
+
+
+def floors(scan, rows, snr):
+    """Puts what the stated deviations have beside those of the antenna, of rows (azimuth, stated, antenna's): its level over azimuth."""
+    for at, stated, antenna in rows:
+        if stated < 0.98 * antenna and (at == 0 or "azimuth_accuracies" in scan.figures):
+            raise Refused(f"{scan.name}: an azimuth accuracy of {stated / DEGREE:.3g} degrees at {at / DEGREE:.3g} degrees is finer than "
+                          f"{antenna / DEGREE:.3g}, what the elements have at {10 * math.log10(snr):.3g} dB")
+    if any(stated < 0.98 * antenna for _, stated, antenna in rows):
+        scan.assumed.append(f"azimuths at the border are as accurate as the elements allow, {rows[-1][2] / DEGREE:.3g} degrees")
+    if all(stated < 1.01 * antenna for _, stated, antenna in rows):
+        return {}
+    curve = [(at, 10 * math.log10(max(stated ** 2 - antenna ** 2, 1e-4 * antenna ** 2))) for at, stated, antenna in rows]
+    scan.members["azimuth_floor_rad"] = 10 ** (curve[ROWS][1] / 20)
+    return {"azimuth_floor_curve": curve}
 
 
 def write(rows, path):
     with open(path, "w", encoding="ascii") as out:
-        out.write("azimuth_rad,sum,delta\n")
+        out.write("azimuth_rad,sum,delta\n" if len(rows[0]) == 3 else "azimuth_rad,level_db\n")
         out.writelines(",".join(f"{value:.12g}" for value in row) + "\n" for row in rows)

@@ -23,7 +23,7 @@ ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C"
                "PKG_CONFIG_PATH": os.path.join(PREFIX, "lib/pkgconfig")}
 REACH_M = 40
 # What tests and measures glint stays in the source tree. Of the stages only examples are installed.
-OF_THE_TREE = {"accuracy-cost", "bench", "check-house", "demo", "deps", "figures", "golden", "make-antennas", "make-vehicles",
+OF_THE_TREE = {"accuracy-cost", "bench", "check-house", "demo", "deps", "figures", "golden", "make-vehicles",
                "numerics", "realism", "soundness", "test", "summary.c", "noise_mine.c"}
 OWN_STAGES = {"glint-spray", "glint-noise-mine", "glint-traffic-adversarial"}  # of readers and of the tests
 
