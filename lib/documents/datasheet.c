@@ -30,7 +30,7 @@ static struct datasheet_accuracy accuracy_at(const struct sensor *sensor, double
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++) {
         double sigma_rad = suite_azimuth_sigma_rad(sensor, azimuth_rad[i], ratio * ratio);
         bool seen = antenna_gain(&sensor->antenna, azimuth_rad[i]) > LEAST_GAIN;
-        sigma_rad = elementary_hypot(sigma_rad, sensor->azimuth_floor_rad);
+        sigma_rad = elementary_hypot(sigma_rad, suite_azimuth_floor_rad(sensor, azimuth_rad[i]));
         accuracy.azimuth_sigma_rad[i] =
             seen ? with_rounding(sigma_rad, sensor->azimuth_step_rad) : (double)INFINITY;
     }
@@ -293,17 +293,14 @@ static void add_mount(const struct sensor *sensor, struct text *text)
     text_format(text, "looking to %.4g degrees\n", DEGREES * sensor->mount_yaw_rad);
 }
 
-static bool same(const struct text *a, const struct text *b)
-{
-    return a->length == b->length && memcmp(a->bytes, b->bytes, a->length) == 0;
-}
-
 void datasheet_add(const struct suite *suite, struct text *text)
 {
     struct text before = {0};
     for (size_t i = 0; i < suite->sensors.count; i++) {
         struct text sheet = sheet_of(&suite->sensors.items[i]);
-        if (i > 0 && !same(&before, &sheet)) {
+        bool same = before.length == sheet.length &&
+                    memcmp(before.bytes, sheet.bytes, sheet.length) == 0;
+        if (i > 0 && !same) {
             text_add(text, before.bytes, before.length);
             text_add_word(text, "\n");
         }

@@ -197,6 +197,9 @@ static const struct field sensor_fields[] = {
     {NEEDS(azimuth_sigma_rad, 0, PI, "noise on azimuth, for glint-noise-gauss")},
     {MAY_HAVE(azimuth_floor_rad, 0, PI,
               "adds to the angle's noise in quadrature, for glint-noise")},
+    {OPTIONAL_NAME(struct sensor, azimuth_floor_curve,
+                   "CSV file with azimuth_rad, level_db: 20 log10 of the floor, from that at 0, "
+                   "which is azimuth_floor_rad")},
     {MAY_CHOOSE(
         sigma_law, laws,
         "noise on range and range rate: constant, proportional to threshold/amplitude, or by "
@@ -271,18 +274,14 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
 
 double suite_range_max_m(const struct sensor *sensor, double azimuth_rad)
 {
-    const struct range_limit *limits = sensor->range_limits.items;
-    size_t count = sensor->range_limits.count, i = 0;
-    double aside_rad = fabs(azimuth_rad);
-    while (i < count && limits[i].azimuth_rad < aside_rad)
-        i++;
-    if (count == 0)
+    const struct range_limit *to = sensor->range_limits.items, *from = to;
+    if (sensor->range_limits.count == 0)
         return sensor->range_max_m;
-    if (i == 0 || i == count)
-        return limits[i == 0 ? 0 : count - 1].range_max_m;
-    const struct range_limit *from = &limits[i - 1], *to = &limits[i];
-    double part = (aside_rad - from->azimuth_rad) / (to->azimuth_rad - from->azimuth_rad);
-    return from->range_max_m + part * (to->range_max_m - from->range_max_m);
+    for (size_t i = 1; i < sensor->range_limits.count && to->azimuth_rad < fabs(azimuth_rad); i++)
+        from = to++;
+    double width_rad = to->azimuth_rad - from->azimuth_rad;
+    double part = width_rad > 0 ? (fabs(azimuth_rad) - from->azimuth_rad) / width_rad : 0;
+    return from->range_max_m + elementary_min(part, 1) * (to->range_max_m - from->range_max_m);
 }
 
 double suite_azimuth_sigma_rad(const struct sensor *sensor, double azimuth_rad, double snr)
@@ -290,6 +289,13 @@ double suite_azimuth_sigma_rad(const struct sensor *sensor, double azimuth_rad, 
     if (sensor->beams.count > 0)
         return array_sigma(&sensor->beams, snr) / elementary_cos(azimuth_rad);
     return monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator, azimuth_rad, snr);
+}
+
+double suite_azimuth_floor_rad(const struct sensor *sensor, double azimuth_rad)
+{
+    const struct receiver_curve *levels = &sensor->floor_levels;
+    double times = levels->rows == NULL ? 1 : receiver_curve_gain(levels, azimuth_rad);
+    return times * sensor->azimuth_floor_rad;
 }
 
 /* With a waveform the stated cells are bins, and half a cell is the resolution (MODEL 6). */
@@ -370,14 +376,6 @@ static int check_chirp(const struct sensor *sensor, struct diag *diag)
                      "waveform sweeps %g Hz and has %g s",
                      sensor->chirp_slope_hzps, bandwidth_hz / repetition_s, bandwidth_hz,
                      repetition_s);
-}
-
-/* Does range_migration name another window than the waveform? */
-static bool other_window(const struct sensor *sensor)
-{
-    enum range_migration other =
-        sensor->waveform.window == POINT_RESPONSE_HANN ? MIGRATION_RECTANGULAR : MIGRATION_HANN;
-    return sensor->range_migration == other;
 }
 
 /* Refuses two statements about the level over range or over elevation, and none over range. */
@@ -497,7 +495,9 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
                          sensor->antenna_table);
     if (sensor->radome_bias_rad > 0 && sensor->radome_period_rad == 0)
         return diag_fail(diag, DIAG_CONFIG, "radome_period_rad: missing; radome_bias_rad needs it");
-    if (sensor->waveform.samples > 0 && other_window(sensor))
+    enum range_migration other =
+        sensor->waveform.window == POINT_RESPONSE_HANN ? MIGRATION_RECTANGULAR : MIGRATION_HANN;
+    if (sensor->waveform.samples > 0 && sensor->range_migration == other)
         return diag_fail(diag, DIAG_CONFIG,
                          "range_migration: \"%s\"; expected waveform.window, or compensated",
                          migrations[sensor->range_migration]);

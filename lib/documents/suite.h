@@ -67,7 +67,7 @@ struct sensor {
     double calibration_ercs, calibration_range_m;
     double exponent;
     double range_floor_m;
-    const char *range_curve, *azimuth_curve, *elevation_curve;
+    const char *range_curve, *azimuth_curve, *elevation_curve, *azimuth_floor_curve;
 
     double cell_range_m, cell_range_rate_mps;
     double azimuth_cell_rad; /* 0: not given */
@@ -96,7 +96,7 @@ struct sensor {
     struct radar_equation amplitude_law;
     struct antenna antenna;
     struct array beams; /* of the array; count 0: none */
-    struct receiver_curve elevation_levels;
+    struct receiver_curve elevation_levels, floor_levels;
     struct measurement_sigma range_error, range_rate_error;
     double threshold;                         /* linear, on the amplitude */
     double bin_range_m, bin_range_rate_mps;   /* full width of the stated cell */
@@ -132,6 +132,9 @@ double suite_range_max_m(const struct sensor *sensor, double azimuth_rad);
 /* The standard deviation of the azimuth of a single echo, at the linear ratio of powers snr,
  * without the floor: by the elements of an array, or by the sum and delta channels. */
 double suite_azimuth_sigma_rad(const struct sensor *sensor, double azimuth_rad, double snr);
+
+/* The floor, which no signal lessens, of the standard deviation of an azimuth. */
+double suite_azimuth_floor_rad(const struct sensor *sensor, double azimuth_rad);
 
 /* Refuses members that contradict each other (DIAG_CONFIG). */
 int suite_check(const struct sensor *sensor, struct diag *diag);

@@ -56,6 +56,15 @@ static struct receiver_curve_row *read_levels(const struct text *bytes, const ch
     return NULL;
 }
 
+/* A table that a suite names: a curve over an angle, which must reach this far to either side, or
+ * what `read` reads. */
+struct table {
+    const char *member, *name, *over;
+    double reach_rad;
+    struct receiver_curve *curve;
+    int (*read)(const struct text *, struct sensor *, struct arena *, struct diag *);
+};
+
 static int read_range_curve(const struct text *bytes, struct sensor *sensor, struct arena *arena,
                             struct diag *diag)
 {
@@ -73,32 +82,19 @@ static int read_range_curve(const struct text *bytes, struct sensor *sensor, str
     return 0;
 }
 
-/* Reads a curve over an angle, which must reach this far to either side. */
-static int read_angle_curve(const struct text *bytes, const char *over, double reach_rad,
-                            struct receiver_curve *curve, struct arena *arena, struct diag *diag)
+static int read_angle_curve(const struct text *bytes, const struct table *table,
+                            struct arena *arena, struct diag *diag)
 {
-    curve->rows = read_levels(bytes, over, -PI / 2, PI / 2, &curve->count, arena, diag);
+    struct receiver_curve *curve = table->curve;
+    curve->rows = read_levels(bytes, table->over, -PI / 2, PI / 2, &curve->count, arena, diag);
     if (curve->rows == NULL)
         return -1;
     double first = curve->rows[0].at, last = curve->rows[curve->count - 1].at;
-    if (first <= -reach_rad && last >= reach_rad)
+    if (first <= -table->reach_rad && last >= table->reach_rad)
         return 0;
     return diag_fail(diag, DIAG_CONFIG, "%s: from %g to %g; expected at least from %g to %g%s",
-                     over, first, last, 0 - reach_rad, reach_rad,
-                     reach_rad > 0 ? ", the field of view" : "");
-}
-
-static int read_azimuth_curve(const struct text *bytes, struct sensor *sensor, struct arena *arena,
-                              struct diag *diag)
-{
-    double border_rad = antenna_border_rad(sensor->field_of_view_rad);
-    return read_angle_curve(bytes, "azimuth_rad", border_rad, &sensor->antenna.curve, arena, diag);
-}
-
-static int read_elevation_curve(const struct text *bytes, struct sensor *sensor,
-                                struct arena *arena, struct diag *diag)
-{
-    return read_angle_curve(bytes, "elevation_rad", 0, &sensor->elevation_levels, arena, diag);
+                     table->over, first, last, 0 - table->reach_rad, table->reach_rad,
+                     table->reach_rad > 0 ? ", the field of view" : "");
 }
 
 static int read_pattern(const struct text *bytes, struct sensor *sensor, struct arena *arena,
@@ -126,63 +122,68 @@ static int read_pattern(const struct text *bytes, struct sensor *sensor, struct 
     return 0;
 }
 
-/* Reads one table that the suite names. */
-static int
-add_table(const char *member, const char *suite_path, const char *name, struct sensor *sensor,
-          int (*read_table)(const struct text *, struct sensor *, struct arena *, struct diag *),
-          struct arena *arena, struct diag *diag)
+static int add_table(const struct table *table, const char *suite_path, struct sensor *sensor,
+                     struct arena *arena, struct diag *diag)
 {
-    if (name == NULL)
+    if (table->name == NULL)
         return 0;
-    const char *path = path_beside(suite_path, name, arena);
+    const char *path = path_beside(suite_path, table->name, arena);
     struct text bytes = {0};
     int result = document_bytes(path, &bytes, diag);
     if (result == 0) {
-        result = read_table(&bytes, sensor, arena, diag);
+        result = table->read != NULL ? table->read(&bytes, sensor, arena, diag)
+                                     : read_angle_curve(&bytes, table, arena, diag);
         if (result != 0)
             diag_prefix(diag, "%s: ", path);
     }
     text_free(&bytes);
-    return result == 0 ? 0 : diag_prefix(diag, "%s: ", member);
+    return result == 0 ? 0 : diag_prefix(diag, "%s: ", table->member);
 }
 
 static int add_tables(const char *suite_path, struct sensor *sensor, struct arena *arena,
                       struct diag *diag)
 {
-    const struct {
-        const char *member, *name;
-        int (*read)(const struct text *, struct sensor *, struct arena *, struct diag *);
-    } tables[] = {
-        {"range_curve", sensor->range_curve, read_range_curve},
-        {"azimuth_curve", sensor->azimuth_curve, read_azimuth_curve},
-        {"elevation_curve", sensor->elevation_curve, read_elevation_curve},
-        {"antenna_table", sensor->antenna_table, read_pattern},
+    double border_rad = antenna_border_rad(sensor->field_of_view_rad);
+    const struct table tables[] = {
+        {"range_curve", sensor->range_curve, .read = read_range_curve},
+        {"azimuth_curve", sensor->azimuth_curve, "azimuth_rad", border_rad, &sensor->antenna.curve,
+         NULL},
+        {"elevation_curve", sensor->elevation_curve, "elevation_rad", 0, &sensor->elevation_levels,
+         NULL},
+        {"azimuth_floor_curve", sensor->azimuth_floor_curve, "azimuth_rad", 0,
+         &sensor->floor_levels, NULL},
+        {"antenna_table", sensor->antenna_table, .read = read_pattern},
     };
     int result = 0;
     for (size_t i = 0; result == 0 && i < sizeof tables / sizeof tables[0]; i++)
-        result = add_table(tables[i].member, suite_path, tables[i].name, sensor, tables[i].read,
-                           arena, diag);
+        result = add_table(&tables[i], suite_path, sensor, arena, diag);
     return result;
 }
 
-static void add_levels(const struct receiver_curve_row *rows, size_t count, struct text *values)
+static void add_levels(const struct receiver_curve *curve, struct text *values)
 {
-    for (size_t i = 0; i < count; i++)
-        text_format(values, "%.17g,%.17g\n", rows[i].at, rows[i].level_db);
+    for (size_t i = 0; i < curve->count; i++)
+        text_format(values, "%.17g,%.17g\n", curve->rows[i].at, curve->rows[i].level_db);
+    text_add_word(values, "\n");
 }
 
-/* Rows of all tables of a sensor, as text. */
-static void add_rows(const struct sensor *sensor, struct text *values)
+/* The members of a sensor, and the rows of its tables instead of their names. */
+static void add_sensor(const struct sensor *sensor, struct text *values)
 {
-    const struct radar_equation *law = &sensor->amplitude_law;
-    const struct antenna *antenna = &sensor->antenna;
-    for (size_t i = 0; i < law->row_count; i++)
-        text_format(values, "%.17g,%.17g\n", law->rows[i].range_m, law->rows[i].amplitude);
-    for (size_t i = 0; i < antenna->row_count; i++)
-        text_format(values, "%.17g,%.17g,%.17g\n", antenna->rows[i].azimuth_rad,
-                    antenna->rows[i].sum, antenna->rows[i].delta);
-    add_levels(antenna->curve.rows, antenna->curve.count, values);
-    add_levels(sensor->elevation_levels.rows, sensor->elevation_levels.count, values);
+    struct sensor plain = *sensor;
+    const struct radar_row *range = sensor->amplitude_law.rows;
+    const struct antenna_row *antenna = sensor->antenna.rows;
+    plain.range_curve = plain.azimuth_curve = plain.elevation_curve = NULL;
+    plain.azimuth_floor_curve = plain.antenna_table = NULL;
+    record_write(&sensor_record, &plain, NULL, values);
+    for (size_t i = 0; i < sensor->amplitude_law.row_count; i++)
+        text_format(values, "%.17g,%.17g\n", range[i].range_m, range[i].amplitude);
+    for (size_t i = 0; i < sensor->antenna.row_count; i++)
+        text_format(values, "%.17g,%.17g,%.17g\n", antenna[i].azimuth_rad, antenna[i].sum,
+                    antenna[i].delta);
+    add_levels(&sensor->antenna.curve, values);
+    add_levels(&sensor->elevation_levels, values);
+    add_levels(&sensor->floor_levels, values);
 }
 
 /* A hash of the values, so that neither spelling nor texts for people change it. */
@@ -191,10 +192,10 @@ static void set_digest(struct suite *suite)
     struct text values = {0};
     struct suite nameless = *suite;
     nameless.origin = "";
-    nameless.assumed.count = 0;
+    nameless.assumed.count = nameless.sensors.count = 0;
     record_write(&suite_record, &nameless, NULL, &values);
     for (size_t i = 0; i < suite->sensors.count; i++)
-        add_rows(&suite->sensors.items[i], &values);
+        add_sensor(&suite->sensors.items[i], &values);
     uint64_t digest = hash_bytes(HASH_START, values.bytes, values.length);
     snprintf(suite->digest, sizeof suite->digest, "%016llx", (unsigned long long)digest);
     text_free(&values);

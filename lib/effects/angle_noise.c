@@ -47,8 +47,8 @@ static bool add_noise_to_azimuth(const struct effect_scan *scan,
     random_gaussian_pair(&measurement->address, RANDOM_AZIMUTH, 0, draw);
     if (single && sensor->pointer_sigma > 0)
         add_array_noise(scan, measurement, draw[1]);
-    measurement->azimuth_rad =
-        units_wrap_rad(measurement->azimuth_rad + sensor->azimuth_floor_rad * draw[0]);
+    double floor_rad = suite_azimuth_floor_rad(sensor, measurement->azimuth_rad);
+    measurement->azimuth_rad = units_wrap_rad(measurement->azimuth_rad + floor_rad * draw[0]);
     return true;
 }
 

@@ -93,10 +93,10 @@ static void estimate_azimuth(const struct detection_source *source,
         sigma_rad = suite_azimuth_sigma_rad(sensor, measurement->azimuth_rad, ratio * ratio);
     if (source->channels)
         sigma_rad *= detection_quality_widening(measurement, noise);
+    double floor_rad = suite_azimuth_floor_rad(sensor, measurement->azimuth_rad);
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
-        measurement->azimuth_sigma_rad =
-            elementary_min(elementary_hypot(sigma_rad, sensor->azimuth_floor_rad),
-                           sensor->field_of_view_rad / sqrt(12));
+        measurement->azimuth_sigma_rad = elementary_min(elementary_hypot(sigma_rad, floor_rad),
+                                                        sensor->field_of_view_rad / sqrt(12));
 }
 
 void detection_quality_estimate(struct detection_source *source, bool first_threshold,

@@ -208,6 +208,10 @@ static void the_digest_covers_every_value_of_document_and_tables(void **state)
         {SUITE(SENSOR("a", RANGES, MORE)),
          "range_m,level_db,azimuth_rad\r\n1e1,8.0,-1.55\r\n20,2.5,1.550\n",
          "azimuth_rad,sum,delta\n-1,0.50,-1\n0,1,0\n1e0,5e-1,1\n", 0},
+        {SUITE(SENSOR("a", RANGES, TABLES "\"azimuth_curve\":\"./levels.csv\",")), CURVE, pattern,
+         0},
+        {SUITE(SENSOR("a", RANGES, TABLES "\"azimuth_floor_curve\":\"levels.csv\",")), CURVE,
+         pattern, 9},
     };
     char digests[COUNT(variants)][17];
     for (size_t i = 0; i < COUNT(variants); i++) {
@@ -241,6 +245,29 @@ static void range_limits_are_straight_between_their_azimuths(void **state)
     for (size_t i = 0; i < COUNT(cases); i++) {
         assert_close(suite_range_max_m(&suite->sensors.items[0], cases[i][0]), cases[i][1], 1e-13);
         assert_close(suite_range_max_m(&suite->sensors.items[1], cases[i][0]), 30, 0);
+    }
+}
+
+static void the_floor_of_azimuths_follows_its_curve_from_boresight(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag;
+    static const char rows[] = "range_m,azimuth_rad,level_db\n1,-1,-30\n10,0,-40\n20,0.5,-20\n";
+    const struct suite *suite =
+        suite_of(scratch,
+                 SUITE(SENSOR("a", RANGES,
+                              TABLES "\"azimuth_floor_rad\":0.01,\"azimuth_floor_curve\":\"levels."
+                                     "csv\",") "," SENSOR("b", RANGES,
+                                                          TABLES "\"azimuth_floor_rad\":0.01,")),
+                 rows, pattern, &diag);
+    if (suite == NULL)
+        fail_msg("%s", diag.text);
+    static const double cases[][2] = {
+        {0, 0.01}, {0.5, 0.1}, {0.25, 0.0316227766016838}, {1.2, 0.1}, {-1, 0.0316227766016838}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        const struct sensor *sensors = suite->sensors.items;
+        assert_close(suite_azimuth_floor_rad(&sensors[0], cases[i][0]), cases[i][1], 1e-15);
+        assert_close(suite_azimuth_floor_rad(&sensors[1], cases[i][0]), 0.01, 0);
     }
 }
 
@@ -394,6 +421,7 @@ int main(void)
         cmocka_unit_test(tables_are_found_beside_the_document_and_read),
         cmocka_unit_test(the_digest_covers_every_value_of_document_and_tables),
         cmocka_unit_test(range_limits_are_straight_between_their_azimuths),
+        cmocka_unit_test(the_floor_of_azimuths_follows_its_curve_from_boresight),
         cmocka_unit_test(suites_with_contradictory_members_are_refused),
         cmocka_unit_test(vehicles_with_contradictory_members_are_refused),
         cmocka_unit_test(scenarios_are_checked_and_named),
