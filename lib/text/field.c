@@ -217,13 +217,6 @@ int field_read_number(const char *text, size_t length, double *value)
     return plausible && number_read(text, text + length, value) ? 0 : -1;
 }
 
-/* True if a value differs from the absent one; minus zero differs from zero, because readers
- * distinguish them. */
-static inline bool differs(double value, double absent)
-{
-    return value != absent || signbit(value) != signbit(absent);
-}
-
 static bool any_present(const struct record *record, const void *base);
 
 bool field_present(const struct record *record, const struct field *field, const void *base)
@@ -233,8 +226,8 @@ bool field_present(const struct record *record, const struct field *field, const
     if (!field->optional)
         return true;
     switch (field->kind) {
-    case FIELD_REAL:
-        return differs(FIELD_LOAD(double, field, base), field->absent);
+    case FIELD_REAL: /* bit by bit, because readers distinguish minus zero from zero */
+        return memcmp((const char *)base + field->offset, &field->absent, sizeof(double)) != 0;
     case FIELD_INTEGER:
         return FIELD_LOAD(int64_t, field, base) != (int64_t)field->absent;
     case FIELD_SEED:
