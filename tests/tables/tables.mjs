@@ -1,5 +1,6 @@
 // Reads the tables of a stream with DuckDB, and what the statements of schemas/README.md make of them with hyparquet:
-// every row must be what the stream's lines say. Usage: tests/tables/run BIN_DIR [DETECTIONS]
+// every row must be what the stream's lines say, and so must the labels of an export, joined as its page says.
+// Usage: tests/tables/run BIN_DIR [DETECTIONS]
 import fs from 'node:fs';
 import readline from 'node:readline';
 import {execFileSync, spawn} from 'node:child_process';
@@ -239,6 +240,24 @@ async function runNamed(folder, name) {
     await compare(commands, folder, await make(commands, folder));
 }
 
+// The statement of data/exports/README.md joins each label of an exported point with what the sensor measured.
+async function checkExport(place) {
+    const page = fs.readFileSync('data/exports/README.md', 'utf8'), out = `${place}/cut-in-nuscenes`;
+    fs.mkdirSync(place);
+    execFileSync('glint', ['-c', `glint-traffic cut-in | ${CHAIN.replace('ACCOUNT', '--sections quality')} -o ${place}/list.jsonl`]);
+    execFileSync('scripts/export', ['nuscenes', '--out', out, `${place}/list.jsonl`]);
+    execFileSync('glint-tables', [`${place}/tables`, `${place}/list.jsonl`]);
+    const lines = fs.readFileSync(`${place}/list.jsonl`, 'utf8').trim().split('\n').map(JSON.parse);
+    const expected = lines.flatMap(frame => frame.targets.flatMap(target => target.contributors.map(part =>
+        `${part.object} ${part.path} ${part.weight} ${target.range_m}`))).sort();
+    const statement = page.match(/```sql\n(SELECT [^]*?)```/)[1].replaceAll("'cut-in-nuscenes", `'${out}`).replace("'tables'", `'${place}/tables'`);
+    const found = [];
+    for await (const row of rowsOf(await open(`${place}/tables`), statement.trim().replace(/;$/, '')))
+        found.push(`${row.object} ${row.echo} ${row.weight} ${row.range_m}`);
+    check(found.length > 1000 && JSON.stringify(found.sort()) === JSON.stringify(expected), 'labels and measurements are joined in another way');
+}
+
+await checkExport(`${work}/export`);
 await runNamed(`${work}/apostrophe`, "'");
 await run('accounted', stream(2000, '--sections account,visibility', 1));
 const rows = await run('plain', stream(Math.ceil(most / DETECTIONS_A_FRAME), '', 2));
