@@ -1,4 +1,4 @@
-"""Frames of glint in Python: read them, place detections, write tracks, be a stage of the chain.
+"""Frames of glint in Python: read them, place detections, write tracks, be a stage of the chain or the simulator before it.
 
 One file without dependencies, for Python 3.8 and later: import it, or copy it into your own project. Frames
 are the dictionaries that `json` makes of a line (schemas/frame.json), and all units are those of their names:

@@ -119,6 +119,8 @@ def frames_of(streams, suite):
             seen.add(now[0])
             before = now
             yield {None: "train", "validation": "val"}.get(split, split), frame
+    if not seen:
+        raise Fault(BAD_DATA, "the inputs have no frame")
 
 
 def scans_of(frame):

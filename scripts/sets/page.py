@@ -57,4 +57,5 @@ def page_of(layout, records):
         leak=texts["splits"][splits.get("by", "none")].format(gap_s=splits.get("gap_s")),
         lines=texts["lines"][form] + texts["bare"] * (plan.get("lines") == "without_objects"), shell=shlex.join(shell_of(plan)),
         tables=texts["tables"].format(form="Parquet" if parquet else "CSV, gzip") if plan.get("tables") else "",
+        exports=texts["exports"].format(names=", ".join(plan["exports"])) if "exports" in plan else "",
         loading=loading.format(first=first["lines"] or first["tables"][0], split=first["split"], reader="parquet" if parquet else "csv").rstrip())

@@ -607,6 +607,8 @@ def what_formats_cannot_hold_is_refused(folder):
                                  (["nuscenes", "--out", "out", "nowhere.jsonl"], 66, "nowhere.jsonl"), (["mine", "--out", "out", "hand.jsonl"], 66, "mine.json"),
                                  (["kitti", "hand.jsonl"], 64, "--out"), (["kitti", "--out", "out"], 64, "inputs"), (["--sim"], 64, "expected FORMAT")):
         assert wrong in export(folder, *words, status=status), (words, wrong)
+    save(folder, "nothing.jsonl", [])
+    assert "the inputs have no frame" in export(folder, "vod", "--out", "out", "nothing.jsonl", status=65)
     with open(os.path.join(folder, "cut.jsonl.gz"), "wb") as file:
         file.write(gzip.compress(json.dumps(good).encode() + b"\n")[:-20])
     export(folder, "kitti", "--out", "out", "--suite", suite, "cut.jsonl.gz", status=65)
