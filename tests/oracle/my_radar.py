@@ -253,6 +253,13 @@ def extended(bench):
     accuracy, _ = last_accuracy(parts["rear_right"])
     for value, expected in zip(accuracy, (0.05, 0.004, 2, 2, 2, 2)):
         hold(bench, "accuracy beside that of the extended suite", value, expected, 0.06)
+    refused = subprocess.run([bench.bin / "glint", "--datasheet", made(bench, {"extends": "lrr77-full", "range_resolution_m": 0.3})[1]],
+                             capture_output=True, check=False, text=True)
+    bench.check("chirp_slope_hzps" in refused.stderr, f"the chirp of another cell: {refused.stderr}")
+    chirp = dict.fromkeys(("chirp_slope_hzps", "chirp_s", "receiver_bandwidth_hz"))
+    part = printed(bench, {"extends": "lrr77-full", "range_resolution_m": 0.3, "members": chirp})[0]["front"]
+    hold(bench, "resolution without the other chirp", numbers(part, "resolution")[0], 0.3)
+    made(bench, {"extends": "corner77-four", "azimuth_accuracy_deg": 2, "range_accuracy_m": 0.05})
     (bench.scratch / "inner").mkdir()
     subprocess.run([SCRIPT, bench.scratch / "sheet.json", "-o", bench.scratch / "inner" / "base.json"], check=True)
     part = printed(bench, {"extends": "inner/base.json", "range_max_m": 99})[0]
