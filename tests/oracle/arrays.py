@@ -33,7 +33,7 @@ SEED = 29
 
 
 def taper_of(name, count):
-    """Weights of a taper, from its definition: Taylor's (1955) and Chebyshev's (Dolph 1946) have side lobes of -30 dB."""
+    """Weights of a taper by its definition: Taylor's (1955) and Chebyshev's (Dolph 1946) have side lobes of -30 dB."""
     place, ratio = (np.arange(count) + 0.5) / count - 0.5, 10 ** 1.5
     if name == "rectangular":
         return np.ones(count)
@@ -128,7 +128,8 @@ class Array:
         level, slope, bend = (((-1j * self.turn) ** k * parts).sum(-1) for k in range(3))
         spread = (self.weights * self.turn) ** 2
         curvature = 2 * (np.abs(slope) ** 2 + (level * bend.conj()).real)
-        return np.sqrt(2 * (np.abs(slope) ** 2 + np.abs(level) ** 2 * spread.sum() * self.noise ** 2)) / np.abs(curvature)
+        noise = np.abs(slope) ** 2 + np.abs(level) ** 2 * spread.sum() * self.noise ** 2
+        return np.sqrt(2 * noise) / np.abs(curvature)
 
     def lone_deviation(self):
         """Times lambda/D over the root of the SNR."""
@@ -153,7 +154,7 @@ def shares(array, draw, count, apart, levels, threshold_db=THRESHOLD_DB):
 # ---- the program ------------------------------------------------------------------------------
 
 
-def sensor_of(array, **changes):
+def sensor_of(array, /, **changes):
     """A radar with that array, two transmitters of which take turns, and an SNR of 1 for an amplitude of 1."""
     half = array.count // 2
     layout = {"transmit": [{"place": 0}, {"place": half * array.spacing}],
@@ -170,8 +171,9 @@ class Chain(Program):
     """glint-sensor with a stage of noise, on echoes that this file makes."""
 
     def frames(self, sensor, cells, stages="glint-sensor | glint-noise", effects="all", sections="account,quality",
-               a_frame=25):
-        """What the stages write. A cell is a list of points (sine, amplitude); cells do not touch."""
+               a_frame=25, where=None):
+        """What the stages write. A cell is a list of points (sine, amplitude); the cells of a frame do not touch, or
+        are where each has a range and a range rate."""
         suite = self.scratch / "suite.json"
         suite.write_text(json.dumps({"origin": "Made by tests/oracle/arrays.py.", "sensors": [sensor]}))
         ego = {"id": "ego", "class": "car", "length_m": 4, "width_m": 2, "height_m": 1,
@@ -185,9 +187,9 @@ class Chain(Program):
         for begin in range(0, len(cells), a_frame):
             echoes = []
             for n, cell in enumerate(cells[begin:begin + a_frame]):
-                place = 10 + 3 * n
+                place, rate = where[begin + n] if where else (10 + 3 * n, 0)
                 echoes += [f'{{"sensor":"{sensor["name"]}","object":"{begin + n}","reflector":"{k}","path":"direct",'
-                           f'"range_m":{place},"azimuth_rad":{math.asin(sine)!r},"range_rate_mps":0,'
+                           f'"range_m":{place},"azimuth_rad":{math.asin(sine)!r},"range_rate_mps":{rate},'
                            f'"ercs":{amplitude / strength(sensor, place)!r},"time_s":1}}'
                            for k, (sine, amplitude) in enumerate(cell)]
             for count in empty.get("counts", []):
@@ -228,7 +230,8 @@ def closed_forms(chain, _):
     for taper, threshold_db, expected in (("rectangular", 12, (0.26, 0.58, 1, 1, 1)),
                                           ("hann", 9.54, (0.14, 0.31, 0.55, 0.95, 1))):
         found = [shares(Array(16, taper), draw, 4000, [apart], (20, 20), threshold_db)[2] for apart in APART]
-        print(f"  16 elements, {taper}, pairs of 20 dB, threshold {threshold_db} dB: {np.round(found, 3).tolist()} are two")
+        told = ", ".join(f"{share:.3f}" for share in found)
+        print(f"  16 elements, {taper}, pairs of 20 dB, threshold {threshold_db} dB: {told} are two")
         chain.check(np.abs(np.subtract(found, expected)).max() < 0.035, f"{taper}: published {expected}")
 
 
@@ -416,7 +419,8 @@ def without_noise(chain, long):
                 check_elements(chain, array, cell, signal)
             lists = chain.lists(sensor, cells, stages="glint-sensor | glint-noise-none")
             for cell, own, targets in zip(cells, own_maxima(array, signals), lists):
-                mine, found = sorted(own[0]), sorted((sine_of(one), 10 ** (one["amplitude_db"] / 20)) for one in targets)
+                mine = sorted(own[0])
+                found = sorted((sine_of(one), 10 ** (one["amplitude_db"] / 20)) for one in targets)
                 cells_seen += 1
                 odd += len(mine) != len(found)
                 if len(mine) == len(found):
@@ -485,17 +489,17 @@ def lone_echoes(chain, long):
                 sines = draw.uniform(-0.5, 0.5, count)
                 cells = [[(sine, 10 ** (level / 20))] for sine in sines.tolist()]
                 lists = chain.lists(sensor_of(array), cells, sections="quality")
-                chain.check(all(len(one) == 1 for one in lists), f"{taper}, {elements}, {level} dB: not one target each")
+                where = f"{taper}, {elements}, {level} dB"
+                chain.check(all(len(one) == 1 for one in lists), f"{where}: not one target each")
                 targets = [one[0] for one in lists if one]
                 true = np.arcsin(sines[[bool(one) for one in lists]])
                 cell = np.array([one["cell_azimuth_rad"] for one in targets])
-                chain.check(np.abs(cell - true).max() < 1e-9, f"{taper}, {elements}: azimuths of cells are not the echoes'")
+                chain.check(np.abs(cell - true).max() < 1e-9, f"{where}: azimuths of cells are not the echoes'")
                 off = np.array([one["azimuth_rad"] for one in targets]) - true
                 scaled = np.mean((off / [one["quality"]["azimuth_sd_rad"] for one in targets]) ** 2)
                 factor = np.std(np.sin(true + off) - np.sin(true)) * 10 ** (level / 20) / array.beam
                 bias, allowed = np.degrees(off.mean()), np.degrees(4 * off.std() / math.sqrt(count))
                 told.append(f"{scaled:.3f}")
-                where = f"{taper}, {elements}, {level} dB"
                 chain.check(0.9 < scaled < 1.1, f"{where}: normalised squared errors of {scaled}")
                 chain.check(level < 20 or abs(bias) < max(0.05, allowed), f"{where}: a bias of {bias} degrees")
                 expected, bound = array.lone_deviation(), 4 / math.sqrt(2 * count)
