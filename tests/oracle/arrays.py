@@ -122,15 +122,6 @@ class Array:
         off = (low - high) / (2 * bend)
         return self.sine(steps + off), np.sqrt(middle + (low - high) * off / 4)
 
-    def deviation(self, signals, sines):
-        """Of a maximum's sine, from the slopes of the beam pattern there; noise has the RMS 1 in a beam."""
-        parts = signals * self.weights * np.exp(-1j * self.turn * sines[..., None])
-        level, slope, bend = (((-1j * self.turn) ** k * parts).sum(-1) for k in range(3))
-        spread = (self.weights * self.turn) ** 2
-        curvature = 2 * (np.abs(slope) ** 2 + (level * bend.conj()).real)
-        noise = np.abs(slope) ** 2 + np.abs(level) ** 2 * spread.sum() * self.noise ** 2
-        return np.sqrt(2 * noise) / np.abs(curvature)
-
     def lone_deviation(self):
         """Times lambda/D over the root of the SNR."""
         spread, mean = ((self.weights * self.turn) ** 2).sum() * self.noise ** 2, (self.weights * self.turn ** 2).sum()
