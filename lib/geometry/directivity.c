@@ -33,36 +33,20 @@ double directivity_visibility(enum visibility_shape shape, double full_rad, doub
     return shape == VISIBILITY_COSINE ? cosine : cosine * cosine;
 }
 
-/* Bounds of cos(angle) from above and below: its power series, cut after a positive and after a
- * negative term. */
-static double cosine_upper_bound(double angle_rad)
-{
-    double square = angle_rad * angle_rad;
-    return 1 + square * (-1.0 / 2 + square / 24);
-}
-
-static double cosine_lower_bound(double angle_rad)
-{
-    double square = angle_rad * angle_rad;
-    return 1 + square * (-1.0 / 2 + square * (1.0 / 24 - square / 720));
-}
-
+/* The power series of the cosine, cut after a negative term, bounds it from below. */
 double directivity_dark_cosine(double zero_rad)
 {
-    return cosine_lower_bound(zero_rad) - SLACK;
+    double square = zero_rad * zero_rad;
+    return 1 + square * (-1.0 / 2 + square * (1.0 / 24 - square / 720)) - SLACK;
 }
 
 double directivity_visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
                                     struct vec2 facing, struct vec2 to_viewer)
 {
-    double start_rad = shape == VISIBILITY_HARD ? zero_rad : full_rad;
-    double length = vec2_length(to_viewer), along = vec2_dot(facing, to_viewer);
-    bool plain = length > SHORTEST;
-    if (plain && along < directivity_dark_cosine(zero_rad) * length)
+    double length = vec2_length(to_viewer);
+    if (length > SHORTEST &&
+        vec2_dot(facing, to_viewer) < directivity_dark_cosine(zero_rad) * length)
         return 0;
-    if (plain && shape != VISIBILITY_COSINE &&
-        along > (cosine_upper_bound(start_rad) + SLACK) * length)
-        return 1;
     return directivity_visibility(shape, full_rad, zero_rad,
                                   directivity_angle_rad(facing, to_viewer));
 }

@@ -25,7 +25,7 @@ double directivity_visibility(enum visibility_shape shape, double full_rad, doub
 
 /* V of a point that faces along a unit vector, seen along to_viewer, the vector from the point to
  * the sensor (or to the bounce of a ghost). The same double as directivity_visibility at the angle
- * between both, which is computed only where V is not clearly 0 or 1. */
+ * between both, which is computed only where V is not clearly 0. */
 double directivity_visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
                                     struct vec2 facing, struct vec2 to_viewer);
 
