@@ -264,6 +264,10 @@ def extended(bench):
     subprocess.run([SCRIPT, bench.scratch / "sheet.json", "-o", bench.scratch / "inner" / "base.json"], check=True)
     part = printed(bench, {"extends": "inner/base.json", "range_max_m": 99})[0]
     hold(bench, "range beside a suite of one's own", numbers(part["rear_right"], "range")[1], 99)
+    made(bench, PLAIN)
+    subprocess.run([SCRIPT, bench.scratch / "sheet.json", "-o", bench.scratch / "inner" / "base.json"], check=True)
+    part = printed(bench, {"extends": "inner/base.json", "range_max_m": 299.8})[0]
+    hold(bench, "false alarms in twice as many cells", numbers(part["front"], "false alarms")[0], 2 * 1e-6 * 149.8 / 2 * 140 / 0.4)
 
 
 REFUSED = [
