@@ -43,13 +43,13 @@ static void find_beams(const struct effect_scan *scan, struct parting *parting)
     const struct cell *cell = parting->cell;
     const struct array *array = &sensor->beams;
     struct phasor samples[ARRAY_MOST_ELEMENTS];
-    double noise = 0, threshold = interferer_threshold(sensor->threshold, cell->interference);
+    double noise = sensor->pointer_sigma * interferer_noise_factor(cell->interference);
+    double threshold = interferer_threshold(sensor->threshold, cell->interference);
     memcpy(samples, cell->elements.items, array->count * sizeof *samples);
     parting->clean_count = array_maxima(array, samples, parting->clean);
     if (scan != NULL && effect_simulates(scan, EFFECT_ANGLE_NOISE)) {
         struct random_address address =
             frame_draw_address_in(scan->address, cell->members.items[0].id);
-        noise = sensor->pointer_sigma * interferer_noise_factor(cell->interference);
         add_noise(array, &address, noise, samples);
     }
     parting->count = array_maxima(array, samples, parting->noisy);

@@ -12,6 +12,6 @@
 /* The cells of the sensor, for noise of a stage: those of single echoes as they are, of the others
  * one for each beam, with the shares of its echoes as weights. Range and range rate are the means
  * over these, and the azimuth is that of the beam without noise. With a scan, the member beam has
- * the place in noise; without one (NULL) there is no noise. */
+ * the place in noise; without one (NULL) no noise is added. */
 struct cell_span beam_cells_of(struct frame *frame, const char *stage, const struct sensor *sensor,
                                const struct effect_scan *scan);

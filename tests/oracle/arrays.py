@@ -363,7 +363,7 @@ def summits(array, signals, sines):
 def own_maxima(array, signals):
     """For each cell, sines and levels of what is kept without noise, and the sines of all maxima."""
     steps, levels = array.maxima(array.beams(signals))
-    kept = array.kept(steps, levels, 10 ** (THRESHOLD_DB / 20), 0)
+    kept = array.kept(steps, levels, 10 ** (THRESHOLD_DB / 20), 1)
     rows, columns = np.nonzero(levels > 0)
     sines, heights = summits(array, signals[rows], array.sine(steps[rows, columns]))
     result = [([], []) for _ in signals]

@@ -36,7 +36,7 @@ def described():
     """The members of a sensor, with a value for each that causes an effect."""
     return {"mount_z_m": 0.6, "elevation_half_width_rad": 0.12, "diffraction": True, "curved_sides": True,
             "latency_s": 0.04, "bounces": 3, "unambiguous_range_m": 61.7, "unambiguous_rate_mps": 17.3,
-            "receiver_bandwidth_hz": 1e7, "noise_figure_db": 12, "antenna_gain_dbi": 12, "chirp_slope_hzps": 7.5e12,
+            "receiver_bandwidth_hz": 4e7, "noise_figure_db": 12, "antenna_gain_dbi": 12, "chirp_slope_hzps": 5e13,
             "chirp_s": 2e-5, "misalignment_rad": -0.02, "radome_bias_rad": 0.015, "radome_period_rad": 0.6,
             "radome_phase_rad": 0.3, "range_migration": "rectangular", "range_step_m": 0.1, "range_rate_step_mps": 0.05, "azimuth_step_rad": 0.002,
             "list_order": "nearest", "list_limit": 25}

@@ -282,7 +282,7 @@ def folded_together(bench):
 
 # ---- interference -----------------------------------------------------------------------------
 
-RECEIVER = {"carrier_hz": 76.5e9, "range_max_m": 199, "receiver_bandwidth_hz": 1e7, "noise_figure_db": 12,
+RECEIVER = {"carrier_hz": 76.5e9, "range_max_m": 199, "cell_range_m": 1, "receiver_bandwidth_hz": 1e7, "noise_figure_db": 12,
             "antenna_gain_dbi": 20, "chirp_slope_hzps": 7.5e12, "chirp_s": 2e-5}
 
 
