@@ -28,7 +28,7 @@ static void one_echo_has_one_maximum_of_its_amplitude_at_its_sine(void **state)
     for (int taper = TAPER_HANN; taper <= TAPER_CHEBYSHEV; taper++)
         for (size_t count = 4; count <= 64; count += 15)
             for (double sine = -0.93; sine < 0.95; sine += 0.31) {
-                struct array array = row(count, taper);
+                struct array array = row(count, (enum array_taper)taper);
                 struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
                 struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
                 array_receive(&array, sine, (struct phasor){-1.8, 2.4}, samples);
@@ -47,7 +47,7 @@ static void beams_have_the_published_widths_and_side_lobes(void **state)
     static const double width[] = {0.886, 1.44, 1.12, 1.05}, level_db[] = {-13.26, -31.5, -30, -30};
     static const double null[] = {1, 2.1, 1.6, 1.6}, within[] = {0.01, 0.01, 0.05, 0.08};
     for (int taper = 0; taper <= TAPER_CHEBYSHEV; taper++) {
-        struct array array = row(64, taper);
+        struct array array = row(64, (enum array_taper)taper);
         double most = 0;
         for (double lobes = null[taper]; lobes < 31; lobes += 0.01)
             most = elementary_max(most, array_response(&array, lobes / 32));
@@ -74,7 +74,7 @@ static void noise_moves_the_maximum_as_far_as_its_sigma(void **state)
     (void)state;
     struct random_address address = {.seed = 1};
     for (int taper = 0; taper <= TAPER_CHEBYSHEV; taper++) {
-        struct array array = row(16, taper);
+        struct array array = row(16, (enum array_taper)taper);
         double squares = 0, power = 0, draw[4], noise = 0.1;
         for (address.item = 0; address.item < 4000; address.item++) {
             struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
