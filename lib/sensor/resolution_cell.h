@@ -36,7 +36,8 @@ bool resolution_cell_see(const struct sensor *sensor, const struct received_echo
  *                        these cancel to no less than 1e-15 of their sizes (hard case 13)
  *
  * Without superpose the pointers are those of one echo of the summed strength at the echoes' mean
- * azimuth; for a single echo they are the same bit for bit. An array has beams instead. False as resolution_cell_measure. */
+ * azimuth; for a single echo they are the same bit for bit. An array has beams instead. False as
+ * resolution_cell_measure. */
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell);
 

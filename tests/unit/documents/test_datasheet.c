@@ -216,9 +216,9 @@ static void a_row_of_elements_has_the_beam_of_the_antenna_table(void **state)
     assert_int_equal(consistency_check(&sensor, 1, &diag), 0);
     sensor.waveform.elements = 12;
     assert_int_equal(consistency_check(&sensor, 1, &diag), -1);
-    assert_string_equal(
-        diag.text, "sensors[1].waveform.elements: beam of the row, 0.886/(elements spacing), "
-                   "0.147667 rad; expected about antenna_table's beam, 0.222619 rad");
+    assert_string_equal(diag.text,
+                        "sensors[1].waveform.elements: beam of the row, 0.886/(elements spacing), "
+                        "0.147667 rad; expected about antenna_table's beam, 0.222619 rad");
 }
 
 /* MODEL 4.1: ranges go with the root of an ERCS, which is 1 at 10 dBsm. */
