@@ -298,8 +298,8 @@ void datasheet_add(const struct suite *suite, struct text *text)
     struct text before = {0};
     for (size_t i = 0; i < suite->sensors.count; i++) {
         struct text sheet = sheet_of(&suite->sensors.items[i]);
-        bool same =
-            before.length == sheet.length && memcmp(before.bytes, sheet.bytes, sheet.length) == 0;
+        bool same = before.bytes != NULL && before.length == sheet.length &&
+                    memcmp(before.bytes, sheet.bytes, sheet.length) == 0;
         if (i > 0 && !same) {
             text_add(text, before.bytes, before.length);
             text_add_word(text, "\n");

@@ -173,7 +173,7 @@ static int check_clutter(const struct frame *frame, const struct sensor *sensor,
 int suite_choice_step(void *state, struct frame *frame, struct runner *runner)
 {
     const struct suite_choice *choice = state;
-    struct selection selection;
+    struct selection selection = {0};
     const struct suite *suite = suite_choice_suite(choice, frame, runner);
     if (suite == NULL || suite_choice_effects(choice, frame, runner, &selection) != 0)
         return -1;

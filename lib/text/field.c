@@ -219,6 +219,13 @@ int field_read_number(const char *text, size_t length, double *value)
 
 static bool any_present(const struct record *record, const void *base);
 
+static uint64_t bits_of(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
 bool field_present(const struct record *record, const struct field *field, const void *base)
 {
     if (field->section != 0)
@@ -227,7 +234,7 @@ bool field_present(const struct record *record, const struct field *field, const
         return true;
     switch (field->kind) {
     case FIELD_REAL: /* bit by bit, because readers distinguish minus zero from zero */
-        return memcmp((const char *)base + field->offset, &field->absent, sizeof(double)) != 0;
+        return FIELD_LOAD(uint64_t, field, base) != bits_of(field->absent);
     case FIELD_INTEGER:
         return FIELD_LOAD(int64_t, field, base) != (int64_t)field->absent;
     case FIELD_SEED:
