@@ -4,6 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
+#include "documents/antenna_array.h"
 #include "radar/scan_timing.h"
 
 static const char *const extents[] = {
@@ -28,11 +29,6 @@ static const char *const patterns[] = {[ANTENNA_DIPOLE_PAIR] = "dipole_pair",
                                        [ANTENNA_TABLE] = "table",
                                        [ANTENNA_ARRAY] = "array",
                                        NULL};
-static const char *const tapers[] = {[TAPER_RECTANGULAR] = "rectangular",
-                                     [TAPER_HANN] = "hann",
-                                     [TAPER_TAYLOR] = "taylor",
-                                     [TAPER_CHEBYSHEV] = "chebyshev",
-                                     NULL};
 static const char *const references[] = {
     [PHASE_CENTRE] = "centre", [PHASE_ELEMENT] = "element", NULL};
 static const char *const estimators[] = {[MONOPULSE_MAGNITUDE] = "magnitude",
@@ -68,28 +64,6 @@ static const struct field limit_fields[] = {
 static const struct record limit_record = {
     FIELD_TABLE(struct range_limit, limit_fields, "range_limit",
                 "Greatest range at an azimuth; straight between two azimuths.")};
-
-static const struct field element_fields[] = {
-    {FIELD_REAL_IN(struct array_element, place, -1e4, 1e4, "in wavelengths, positive to the left")},
-    {0},
-};
-
-static const struct record element_record = {
-    FIELD_TABLE(struct array_element, element_fields, "array_element", "An antenna element.")};
-
-static const struct field array_fields[] = {
-    {OPTIONAL_LIST(struct array_layout, transmit, &element_record, "in the order of their turns")},
-    {OPTIONAL_LIST(struct array_layout, receive, &element_record,
-                   "sums of a place of transmit and one of receive are evenly spaced")},
-    {OPTIONAL_CHOICE(struct array_layout, taper, tapers,
-                     "weights of the elements; taylor and chebyshev: side lobes of -30 dB; absent: "
-                     "rectangular")},
-    {0},
-};
-
-static const struct record array_record = {
-    FIELD_TABLE(struct array_layout, array_fields, "array",
-                "Transmitters and receivers, which act like one line of elements.")};
 
 static const struct field sensor_fields[] = {
     {FIELD_NAME_OF(struct sensor, name, "unique in the suite")},
@@ -187,7 +161,7 @@ static const struct field sensor_fields[] = {
     {CHOOSES(antenna_pattern, patterns,
              "the paper's two dipoles, a table, or an array, by default alike in all directions")},
     {OPTIONAL_NAME(struct sensor, antenna_table, "CSV file with azimuth_rad, sum, delta")},
-    {OPTIONAL_RECORD(struct sensor, array, &array_record, "of antenna_pattern array")},
+    {OPTIONAL_RECORD(struct sensor, array, &antenna_array_record, "of antenna_pattern array")},
     {CHOOSES(phase_reference, references, "where phases count from; equation (6) has the element")},
     {CHOOSES(angle_estimator, estimators,
              "the paper's magnitude and sign, the real ratio, or the beams of an array")},
@@ -434,44 +408,23 @@ static int check_limits(const struct sensor *sensor, struct diag *diag)
     return 0;
 }
 
-/* Refuses an array without beams: of too few or too many elements, uneven ones, or ones so far
- * apart that two directions in the field of view look alike. */
+/* Refuses an array without its pattern and estimator, these without it, and what its transmitters
+ * do in a waveform's place. */
 static int check_array(const struct sensor *sensor, struct diag *diag)
 {
     const struct array_layout *layout = &sensor->array;
-    size_t elements = layout->transmit.count * layout->receive.count;
+    bool stated = layout->transmit.count * layout->receive.count > 0;
     bool array = sensor->antenna_pattern == ANTENNA_ARRAY;
-    if (array != (elements > 0) || array != (sensor->angle_estimator == MONOPULSE_BEAMS))
+    if (array != stated || array != (sensor->angle_estimator == MONOPULSE_BEAMS))
         return diag_fail(diag, DIAG_CONFIG,
                          "array: expected with antenna_pattern \"array\" and angle_estimator "
                          "\"beams\", and only with both");
-    if (!array)
-        return 0;
-    if (sensor->waveform.elements > 0 || sensor->waveform.stagger > 0)
+    if (array && (sensor->waveform.elements > 0 || sensor->waveform.stagger > 0))
         return diag_fail(diag, DIAG_CONFIG,
                          "waveform: elements %lld and stagger %lld; expected none beside an array, "
                          "whose transmitters tell folded range rates apart",
                          (long long)sensor->waveform.elements, (long long)sensor->waveform.stagger);
-    if (elements < 2 || elements > ARRAY_MOST_ELEMENTS)
-        return diag_fail(diag, DIAG_CONFIG,
-                         "array: %zu transmitters times %zu receivers; expected 2 to %d virtual "
-                         "elements",
-                         layout->transmit.count, layout->receive.count, ARRAY_MOST_ELEMENTS);
-    struct array beams = array_of(layout);
-    double sine = elementary_sin(sensor->field_of_view_rad / 2), most = 0.5 / sine;
-    if (sensor->field_of_view_rad > PI - 1e-9)
-        most = 0.5;
-    if (beams.most_step - beams.least_step > 1e-6 * beams.spacing)
-        return diag_fail(diag, DIAG_CONFIG,
-                         "array: virtual elements are %g to %g wavelengths apart; expected even "
-                         "steps of transmit plus receive",
-                         beams.least_step, beams.most_step);
-    if (beams.spacing > most * (1 + 1e-9))
-        return diag_fail(diag, DIAG_CONFIG,
-                         "array: virtual elements are %g wavelengths apart; expected at most %g, "
-                         "as two directions in a field_of_view_rad of %g look alike otherwise",
-                         beams.spacing, most, sensor->field_of_view_rad);
-    return 0;
+    return array ? antenna_array_check(layout, sensor->field_of_view_rad, diag) : 0;
 }
 
 int suite_check(const struct sensor *sensor, struct diag *diag)
