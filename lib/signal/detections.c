@@ -53,8 +53,7 @@ void detections_estimate(const struct signal_cube *signal, double peak, double n
                        : signal->array.elements > 0
                            ? element_sigma_rad(&signal->array, azimuth_rad, beam_snr)
                            : detection_quality_widening(measurement, noise) *
-                                 monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,
-                                                     azimuth_rad, beam_snr);
+                                 suite_azimuth_sigma_rad(sensor, azimuth_rad, beam_snr);
     measurement->range_sigma_m =
         elementary_hypot(measurement_sigma_at_snr(&range, peak_snr), coupled_m);
     measurement->range_rate_sigma_mps = rate_mps;
