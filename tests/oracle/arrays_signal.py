@@ -12,12 +12,10 @@ ten times as many scans.
 
 import math
 import sys
-import tempfile
-from pathlib import Path
 
 sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
-from arrays import Array, Chain, TAPERS, sensor_of, sine_of  # noqa: E402
+from arrays import Array, TAPERS, main, sensor_of, sine_of  # noqa: E402
 from signal_alone import C, QUIET, three_sigma, vertex  # noqa: E402
 
 SEED = 30
@@ -312,19 +310,5 @@ CHECKS = [
 ]
 
 
-def main():
-    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--long"]):
-        sys.exit(__doc__.split("\n\n")[1])
-    if not (Path(sys.argv[1]) / "glint-sensor-signal").exists():
-        print("skipped  the signal of arrays: there is no glint-sensor-signal")
-        return
-    with tempfile.TemporaryDirectory() as scratch:
-        chain = Chain(sys.argv[1], scratch)
-        for title, group in CHECKS:
-            group(chain, bool(sys.argv[2:]))
-            chain.end(title)
-        sys.exit(1 if chain.failures else 0)
-
-
 if __name__ == "__main__":
-    main()
+    main(__doc__, CHECKS, needs="glint-sensor-signal")
