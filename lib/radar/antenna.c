@@ -154,10 +154,12 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad)
 
 double antenna_beam_rad(const struct antenna *antenna)
 {
-    double edge = sqrt(0.5) * antenna_gain(antenna, 0), step_rad = PI / 2 / 65536, azimuth_rad = 0;
-    while (azimuth_rad < PI / 2 && antenna_gain(antenna, azimuth_rad) > edge)
-        azimuth_rad += step_rad;
-    return 2 * azimuth_rad;
+    const double fine_rad = PI / 2 / 65536;
+    double edge = sqrt(0.5) * antenna_gain(antenna, 0), above_rad = 0;
+    for (double step_rad = 16 * fine_rad; step_rad >= fine_rad; step_rad /= 16)
+        while (above_rad < PI / 2 && antenna_gain(antenna, above_rad + step_rad) > edge)
+            above_rad += step_rad;
+    return elementary_min(2 * (above_rad + fine_rad), PI);
 }
 
 double antenna_border_rad(double field_of_view_rad)

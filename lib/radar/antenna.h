@@ -54,7 +54,8 @@ struct antenna_pointers antenna_pointers(const struct antenna *antenna, double a
 double antenna_gain(const struct antenna *antenna, double azimuth_rad);
 
 /* The width of the main beam where A_phi is down to 1/sqrt 2, 3 dB both ways together: twice the
- * least such azimuth to the left, within 5e-5 rad; PI if there is none. */
+ * least such azimuth to the left, within 5e-5 rad, but for dips narrower than 4e-4 rad; PI if there
+ * is none. */
 double antenna_beam_rad(const struct antenna *antenna);
 
 /* The azimuth from which on, to either side, echoes are outside a field of view of that full width:

@@ -16,9 +16,10 @@ Annotation = namedtuple("Annotation", "lag_s inset_m")
 # roadside: strips of a scene.
 Fit = namedtuple("Fit", "annotation curve azimuth_noise sensor roadside", defaults=([],))
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+SLOWEST = 24  # dB a decade, the lesser of two 77 GHz radars on roads: few near detections are as weak as the threshold
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
 STEEPEST = 8  # extent of the view in noise of azimuth: delta is at most 140 times sum
-WITHIN_3 = 0.9733  # variance of normal numbers within three standard deviations
+WITHIN_2, WITHIN_3 = 0.7737, 0.9733  # variances of normal numbers within two and three standard deviations
 # Members that lists do not show, and figures for which a half may have too few detections: those of lrr77-full.
 SHIPPED = ("range_min_m range_floor_m diffraction curved_sides micro_motion bounces antenna_pattern phase_reference "
            "angle_estimator final_threshold list_order list_limit azimuth_sigma_rad cell_range_m cell_range_rate_mps "
@@ -50,8 +51,11 @@ def quantile(values, share):
 
 
 def spread(values):
-    """Standard deviation by the median of magnitudes, so that a few wrong pairs do not count."""
-    return 1.4826 * statistics.median(map(abs, values))
+    """Standard deviation by the values within two of it, so that wrong pairs and merged targets hardly count."""
+    sigma = 1.4826 * statistics.median(map(abs, values))
+    for _ in range(12):
+        sigma = math.sqrt(statistics.fmean(one * one for one in values if abs(one) <= 2 * sigma) / WITHIN_2)
+    return sigma
 
 
 def least_squares(rows, values):
@@ -87,7 +91,8 @@ def annotation(recording):
 
 def curve(detections, threshold_db):
     """By least squares where lists have both figures. With cross sections alone, the weakest tenth of each sixth of the
-    ranges meets the threshold. Without cross sections 40 dB a decade are assumed."""
+    ranges meets the threshold, or is above it where levels would fall by less than SLOWEST. Without cross sections 40 dB a
+    decade are assumed."""
     ordered, aside = sorted(detections), 1.01 * max(0.01, *(abs(one.azimuth_rad) for one in detections))
     azimuths = [aside * i / 4 for i in range(-4, 5)]
     flat = [(azimuth, 0) for azimuth in azimuths]
@@ -95,8 +100,9 @@ def curve(detections, threshold_db):
         return Curve([(1, threshold_db + 40 * math.log10(ordered[-1].range_m)), (ordered[-1].range_m, threshold_db)], flat)
     if any(one.snr_db is None for one in detections):
         sixths = [ordered[len(ordered) * i // 6:len(ordered) * (i + 1) // 6] for i in range(6)]
-        return Curve([(one[len(one) // 2].range_m, threshold_db - quantile([one.rcs_dbsm for one in one], 0.1))
-                      for one in sixths], flat)
+        rows = [(one[len(one) // 2].range_m, threshold_db - quantile([one.rcs_dbsm for one in one], 0.1)) for one in sixths]
+        return Curve([(near_m, max(level + SLOWEST * math.log10(far_m / near_m) for far_m, level in rows[i:]))
+                      for i, (near_m, _) in enumerate(rows)], flat)
     logs = [math.log10(ordered[(len(ordered) - 1) * i // 3].range_m) + 1e-3 * i for i in range(4)]
     rows = [parts(math.log10(one.range_m), logs) + parts(one.azimuth_rad, azimuths) for one in ordered]
     rows = [row[:8] + row[9:] for row in rows]  # nothing is lost on boresight

@@ -134,6 +134,11 @@ BASES = {"gauss": "perfect", "paper": "perfect", "all effects": "paper", "all ef
          "signal, medium": "signal, small"}
 
 
+# Of the radar whose levels and roadside last, these are measured; it has no fluctuation, and no frame has snow.
+FEW_MODELS = ("perfect", "paper", "all effects", "smear", "signal, small")
+FEW_EFFECTS = ("roadside", "level", "clutter", "fluctuation", "snow")
+
+
 def models(radar):
     paper = ",".join(PAPER)
     made = [("perfect", {"sensor": "glint-sensor-perfect | glint-noise-none", "effects": paper}),
@@ -145,16 +150,21 @@ def models(radar):
             ("smear", {"sensor": "glint-sensor-smear | glint-noise"}),
             ("signal, small", {"sensor": SIGNAL, "size": "small"}),
             ("signal, medium", {"sensor": SIGNAL, "size": "medium"})]
-    return [Chain("models", name, radar, base=BASES.get(name), **how) for name, how in made]
+    return [Chain("models", name, radar, base=BASES.get(name), **how) for name, how in made
+            if name in FEW_MODELS or not radar.lasting]
+
+
+def measured_effects(radar):
+    return [effect for effect in effects_known() if effect in FEW_EFFECTS or not radar.lasting]
 
 
 def added(radar):
     """Each effect added to the paper's."""
     return [Chain("added", effect, radar, effects=",".join([*PAPER, effect]), base="paper")
-            for effect in effects_known() if effect not in PAPER]
+            for effect in measured_effects(radar) if effect not in PAPER]
 
 
 def left_out(radar):
     """Each effect left out of all."""
     return [Chain("left out", effect, radar, effects=f"all,-{effect}", base="all effects")
-            for effect in effects_known()]
+            for effect in measured_effects(radar)]

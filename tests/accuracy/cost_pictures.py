@@ -222,7 +222,7 @@ def models_panel(rows, radar, size, frame):
            if row["group"] in ("models", "reference") and "us" in row and "root" in row]
     panel = Panel(size, frame, Logarithmic([row["us"] for row in own]),
                   Logarithmic([row[key] for row in own for key in ("root", "root_low", "root_high")], 1),
-                  (f"What accuracy costs: radar of {radar} range", "CPU time of a frame, µs",
+                  (f"What accuracy costs: {RADARS[radar]}", "CPU time of a frame, µs",
                    "error: distance from the signal, 100 % is that of ideal echoes"), ("", " %%"))
     best = front(own)
     steps = [point for one, after in zip(best, best[1:]) for point in
@@ -288,7 +288,7 @@ def knob_panel(rows, group, x, y, least, size, frame, texts):
         of = pick(own, radar=radar)
         names += [(row[x], row[y], row["setting"], colour) for row in of]
         bars += panel.bars([(row[x], row[y], row["root_low"], row["root_high"]) for row in of if "root" in row], colour, True)
-        panel.series([(row[x], row[y]) for row in of], colour, title=f"{radar} range" if radar else None)
+        panel.series([(row[x], row[y]) for row in of], colour, title=RADARS.get(radar))
     panel.names(names, bars)
     return panel
 

@@ -58,7 +58,7 @@ def refuse_empty(lists, radar):
             listed.add((frame["scene"], frame["frame"]))
     empty = [scan for scan in ((frame["scene"], frame["frame"]) for frame in radar.frames) if scan not in listed]
     if empty:
-        sys.exit(f"accuracy-cost: {radar.name} range: the reference lists no object in {empty}; "
+        sys.exit(f"accuracy-cost: radar {radar.name}: the reference lists no object in {empty}; "
                  "expected one in every frame")
 
 

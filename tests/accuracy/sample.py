@@ -44,7 +44,7 @@ def up_to_date(checks, cost, radar, cache):
     stale = [f"{chain.group}: {chain.name}" for chain in every
              if known.get((chain.group, chain.name)) != chain.digest(sample)]
     gone = len(known) - len({(chain.group, chain.name) for chain in every} & known.keys())
-    checks.hold(not stale and not gone, f"data/accuracy/cost.csv is stale: {len(stale)} chains of {radar.name} range "
+    checks.hold(not stale and not gone, f"data/accuracy/cost.csv is stale: {len(stale)} chains of radar {radar.name} "
                 f"have another suite, version or lists ({', '.join(stale[:3])} ...), {gone} are gone: make accuracy")
 
 
@@ -57,12 +57,12 @@ def order(checks, radar, cache):
     found = {name: errors.energies(radar, blocks, [of[name].lists(cache, radar.block(0, scenes.OF_CHAINS))])
              for name in ("perfect", "paper", "all effects")}
     scale = errors.Errors(found["perfect"])
-    checks.hold(scale.told, f"{radar.name} range: ideal echoes are not told from the signal")
+    checks.hold(scale.told, f"radar {radar.name}: ideal echoes are not told from the signal")
     for less, more in (("paper", "perfect"), ("all effects", "paper")):
         low = scale.difference(found[more], found[less])[1]
-        checks.hold(low > 0, f"{radar.name} range: {more} is not farther off than {less}: {low:.3g}")
+        checks.hold(low > 0, f"radar {radar.name}: {more} is not farther off than {less}: {low:.3g}")
     _, low, high = scale.error(errors.energies(radar, blocks[:1], blocks[1:]))
-    checks.hold(low < 22, f"{radar.name} range: the signal is {low:.3g} to {high:.3g} % from itself")
+    checks.hold(low < 22, f"radar {radar.name}: the signal is {low:.3g} to {high:.3g} % from itself")
     same_mean(checks, radar, blocks, of["paper"].lists(cache, radar.block(0, scenes.OF_CHAINS)), scale, found)
 
 
@@ -72,9 +72,9 @@ def same_mean(checks, radar, blocks, listed, scale, found):
     values = scale.values(found["paper"])
     low, high = (end / len(values) for end in errors.interval(scale.resamples.totals(values)))
     near = 0.1 * (said["high"] - said["low"])
-    checks.hold(abs(said["energy"] - statistics.fmean(values)) < 1e-9, f"{radar.name} range: mean {values}")
+    checks.hold(abs(said["energy"] - statistics.fmean(values)) < 1e-9, f"radar {radar.name}: mean {values}")
     checks.hold(abs(low - said["low"]) < near and abs(high - said["high"]) < near,
-                f"{radar.name} range: interval {low:.3g} to {high:.3g}, "
+                f"radar {radar.name}: interval {low:.3g} to {high:.3g}, "
                 f"glint-score has {said['low']:.3g} to {said['high']:.3g}")
 
 

@@ -17,18 +17,21 @@ LONG = {"scripted": ["corner-approach", "cut-in", "empty-road", "highway-straigh
 SHORT = {"scripted": ["corner-approach", "cut-in", "empty-road", "highway-straight", "intersection", "open-road",
                       "shadows", "side-crossing", "two-vehicles"],
          "recorded": ["1", "5", "7", "13"], "random": {"medium": 32, "dense": 32}}
+# Beside a road, with levels in place of fluctuation. Single frames show what both gain and cost, not how they last.
+ROADSIDE = {"scripted": ["motorway"], "recorded": [], "random": {"sparse --roadside": 12, "medium --roadside": 20,
+                                                                 "dense --roadside": 12}}
 MOST = 4  # candidates of random traffic for each frame that is taken
 EACH = 2  # frames of a scripted scene, and of a drive of the recorded table
 DRY = {"road": "asphalt", "clutter_per_m2": 1e-3, "clutter_ercs": 0.05}
 RAIN = DRY | {"rain_mmph": 10, "fog_gpm3": 0.1}
 SIZES = ["small", "medium", "large"]
-AZIMUTH_CELL_RAD = {"long": math.radians(1.6), "short": math.radians(9)}  # units of scores, finer than the beam
+AZIMUTH_CELL_RAD = {"long": math.radians(1.6), "short": math.radians(9), "roadside": math.radians(1.6)}  # units of scores, finer than the beam
 
 # What lrr77-full says of itself; all else that it has and a suite lacks is taken from it, so that every
 # effect exists. Steps are those of the radar of long range.
 OF_ITS_OWN = ["sources", "antenna_table", "unambiguous_range_m", "unambiguous_rate_mps", "false_alarms",
-              "false_alarm_range_rate_mps", "level_constant_db", "level_slow_db", "level_slow_m", "level_fast_db",
-              "level_keeps"]
+              "false_alarm_range_rate_mps"]
+LEVELS = ["level_constant_db", "level_slow_db", "level_slow_m", "level_fast_db", "level_keeps"]
 FLUCTUATION = {"fluctuation": "log_normal", "fluctuation_sigma_db": 3.41}  # one draw a scan, in place of levels
 OF_LONG_RANGE = ["range_step_m", "range_rate_step_mps", "azimuth_step_rad"]
 
@@ -38,11 +41,12 @@ def sensors(name):
         return json.load(text)
 
 
-def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=()):
+def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=(), levels=False):
     """The suite with every effect and a scan in every frame, without a second train: chain and signal fold
     alike. Fewer repetitions of the same chirps or pulses tell rates apart less well."""
     full = sensors("lrr77-full")["sensors"][0]
-    taken = {key: value for key, value in full.items() if key not in OF_ITS_OWN and key not in without} | FLUCTUATION
+    taken = {key: value for key, value in full.items() if key not in [*OF_ITS_OWN, *LEVELS, *without]}
+    taken |= {key: full[key] for key in LEVELS if key in full} if levels else FLUCTUATION
     for number, sensor in enumerate(suite["sensors"]):
         sensor = suite["sensors"][number] = taken | sensor
         sensor.pop("cycle_s", None)
@@ -56,16 +60,20 @@ def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=
     return suite
 
 
-def long_range(size):
+def long_range(size, levels=False):
     """A chirp every 20 us: 256 of them part rates by 0.383 m/s."""
     suite = sensors(f"lrr77-signal-{size}")
-    return described(suite, suite["sensors"][0]["waveform"]["repetitions"], 256, 97.971392 / 256)
+    return described(suite, suite["sensors"][0]["waveform"]["repetitions"], 256, 97.971392 / 256, levels=levels)
 
 
 def short_range(size):
     """Fewer pulses leave less room for the noise's window."""
     repetitions, cells = {"small": (28, 8), "medium": (40, 12), "large": (64, 16)}[size]
     return described(sensors("srr24-signal"), repetitions, 64, 0.5, cells, OF_LONG_RANGE)
+
+
+def beside_a_road(size):
+    return long_range(size, True)
 
 
 def played(text):
@@ -90,8 +98,10 @@ class Radar:
     """A radar's suites by size, and frames in which it lists something; again: other frames than those of the tables."""
 
     def __init__(self, name, cache, few=False, again=False):
-        suites, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT)}[name]
+        suites, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT),
+                             "roadside": (beside_a_road, ROADSIDE)}[name]
         self.name, self.cache, self.few, self.again = name, cache, few, again
+        self.lasting = name == "roadside"  # do levels and a roadside stay from scan to scan?
         self.score = ["--azimuth-cell-rad", repr(AZIMUTH_CELL_RAD[name])]  # options of glint-score
         self.suites = {size: self.suite_file(suites(size)) for size in SIZES}
         with open(self.suites["large"]) as suite:
@@ -110,9 +120,10 @@ class Radar:
 
     def few_frames(self):
         """The sample: one frame from each of a few scenes."""
-        some = self.plan["scripted"][1:6]
+        some = self.plan["scripted"][1:6] or self.plan["scripted"]
         scripted = [frame for scene in some for frame in evenly(played(f"glint-traffic {scene}"), 1)]
-        return weathered(scripted + played("glint-traffic-random --density dense --frames 3"))
+        density = list(self.plan["random"])[-1]
+        return weathered(scripted + played(f"glint-traffic-random --density {density} --frames 3"))
 
     def chosen(self):
         """Candidates are more than what is taken of them: frames in which the smallest signal sees a target."""

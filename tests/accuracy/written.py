@@ -8,7 +8,7 @@ COST = ["radar", "group", "chain", "scenes", "seeds", "us", "root", "root_low", 
         "gain_high", "digest"]
 KNOBS = ["radar", "group", "setting", "us", "off", "root", "root_low", "root_high", "bytes"]
 WORDS = ("radar", "group", "chain", "setting", "digest")
-RADARS = ("long", "short")
+RADARS = {"long": "long range", "short": "short range", "roadside": "long range, beside a road"}
 BEGIN = "## Tables\n\n"
 
 
@@ -64,24 +64,17 @@ def error(row):
 def scale(rows, radar):
     """The line of the scale: errors of spoiled lists of the reference."""
     own = pick(rows, radar=radar, group="scale")
-    return f"For scale, {radar} range: " + ", ".join(f"{row['chain']} {error(row)} %" for row in own) + ".\n" if own else ""
+    return "For scale: " + ", ".join(f"{row['chain']} {error(row)} %" for row in own) + ".\n" if own else ""
 
 
-def models(rows):
-    """Chains of both radars: error with its interval, and time."""
-    text = "".join(f"{radar.capitalize()} range: {row['scenes']:.0f} scenes, {row['seeds']:.0f} seeds of the "
-                   "reference.\n" for radar in RADARS for row in pick(rows, radar=radar)[:1])
-    text += "".join(scale(rows, radar) for radar in RADARS)
-    columns = ("error, %", "time", "points of the squared error less than")
-    text += "\n" + head(["chain", *(f"{what}, {radar} range" for radar in RADARS for what in columns)])
-    names = dict.fromkeys(row["chain"] for row in rows if row["group"] in ("models", "reference"))
-    for name in names:
-        cells = [name]
-        for radar in RADARS:
-            row = next(row for row in pick(rows, radar=radar, chain=name) if row["group"] in ("models", "reference"))
-            less = f"{BASES[name]}: " + with_interval(row) if "gain" in row else ""
-            cells += [error(row), spent(row["us"]) if "us" in row else "", less]
-        text += line(cells)
+def models(rows, radar):
+    """Chains of a radar: error with its interval, and time."""
+    of = pick(rows, radar=radar)
+    text = f"\n### {RADARS[radar].capitalize()}\n\n{of[0]['scenes']:.0f} scenes, {of[0]['seeds']:.0f} seeds of the reference.\n"
+    text += scale(rows, radar) + "\n" + head(["chain", "error, %", "time", "points of the squared error less than"])
+    for row in (row for row in of if row["group"] in ("models", "reference")):
+        less = f"{BASES[row['chain']]}: " + with_interval(row) if "gain" in row else ""
+        text += line([row["chain"], error(row), spent(row["us"]) if "us" in row else "", less])
     return text
 
 
@@ -136,7 +129,7 @@ def effects(rows, radar):
     own = [row for row in pick(rows, radar=radar) if row["group"] in ("added", "left out") and changes(row)]
     found = {(row["group"], row["chain"]): row for row in own}
     noise = noise_us(rows, radar)
-    text = f"\nEffects, {radar} range: points of the squared error that an effect takes away; "
+    text = f"\nEffects, {RADARS[radar]}: points of the squared error that an effect takes away; "
     text += f"differences of times below {noise:.0f} µs are not significant\n\n"
     text += head(["effect", "added to the paper's", "µs", "points per µs", "in all others", "µs", "points per µs"])
     gains = {}
@@ -150,7 +143,7 @@ def effects(rows, radar):
 
 def verdicts(rows, radar):
     """What the intervals support, in words."""
-    text = f"\n{radar.capitalize()} range:\n\n"
+    text = "\n"
     if not measured(rows, radar):
         return text + "Ideal echoes are not told from the reference, so there are no errors.\n"
     for group, where in (("added", "added to the paper's"), ("left out", "in all others")):
@@ -172,7 +165,7 @@ def knob(rows, group):
     own = pick(rows, group=group)
     columns = [key for key in ("off", "us", "bytes") if any(key in row or (key == "off" and "root" in row) for row in own)]
     names = {"off": UNITS[group], "us": "time", "bytes": "bytes a frame"}
-    text = f"\n{group.capitalize()}\n\n" + head(["radar", group, *(names[key] for key in columns)])
+    text = f"\n### {group.capitalize()}\n\n" + head(["radar", group, *(names[key] for key in columns)])
     for row in own:
         cells = {"us": spent(row["us"]) if "us" in row else "", "bytes": f"{row.get('bytes', 0):.0f}",
                  "off": error(row) if "root" in row else f"{row.get('off', 0):.3g}"}
@@ -182,7 +175,8 @@ def knob(rows, group):
 
 def markdown(cost, settings):
     """The tables of data/accuracy/README.md."""
-    return models(cost) + "".join(verdicts(cost, radar) + effects(cost, radar) for radar in RADARS) + "".join(
+    return "".join(models(cost, radar) + verdicts(cost, radar) + effects(cost, radar)
+                   for radar in RADARS if pick(cost, radar=radar)).lstrip("\n") + "".join(
         knob(settings, group) for group in UNITS if pick(settings, group=group))
 
 

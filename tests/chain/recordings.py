@@ -107,6 +107,10 @@ def the_first_half_gives_back_the_law(folder, scans):
             ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03),
             ("range_rate_sigma_mps", fit.sensor["range_rate_sigma_mps"], 0.02, 0.015)):
         check(abs(value - expected) <= within, f"{what}: {value:.3f} found, {expected} planted")
+    alone = fitted.curve([one._replace(snr_db=None) for scan in scans for one in scan.detections], 14)
+    for range_m in (30, 60, 120):
+        off_db = alone.snr_db(range_m, 0) - LAW.snr_db(range_m, 0)
+        check(abs(off_db) < 3, f"at {range_m} m, from cross sections alone: {off_db:.1f} dB off")
     check(0.8 <= fit.sensor["cell_range_m"] < 2, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
     azimuth_rad = math.hypot(fit.sensor["azimuth_floor_rad"], fit.azimuth_noise / 10)
     check(0.0035 < azimuth_rad < 0.0065, f"noise of azimuths at 20 dB: {azimuth_rad:.4f} rad found, 0.005 planted")
