@@ -132,17 +132,20 @@ def kept(recording, folder):
 
 def fits(recording, folder, keeps="median", **changed):
     """What a recording says, and what as many others of its law might say as a chain has lists: from scans drawn in blocks.
-    All annotations are less what lists of all effects seem to have, whose echoes lie behind the nearest points of boxes.
-    All have the roadside of the first."""
+    All have the roadside of the first. Lists of all effects under the first tell what the estimates add: their echoes lie
+    behind the nearest points of boxes, and merged ones spread wider than the noise of range. All fits are without it. Of n
+    blocks n - 3 are drawn: fits then vary by n/(n - 3) times the bootstrap's variance, as Student's t of n blocks does."""
     found = fitted.fit(recording, keeps)
     own = part(found, recording.radar, recording.scans)
     lists, _ = chains.run(chains.ALL, fitted.write_suite(found, folder, **changed), found, own)
-    seeming = [fitted.annotation(recording._replace(scans=[scan._replace(detections=seen) for scan, seen
-                                                           in zip(own.scans, one)])) for one in lists]
-    less = [statistics.fmean(of) for of in zip(*seeming)]
-    drawn = Progress("fits").over([*score.resampled(len(recording.scans), chains.SEEDS)])
+    made = [[scan._replace(detections=seen) for scan, seen in zip(own.scans, one)] for one in lists]
+    behind = [statistics.fmean(of) for of in zip(*(fitted.annotation(recording._replace(scans=scans)) for scans in made))]
+    noises_m = [fitted.noise(recording.radar, scans, 1e-3)[0].get("range_sigma_m") for scans in made]
+    wider = 1 if None in noises_m else statistics.fmean(noises_m) / found.sensor["range_sigma_m"]
+    drawn = Progress("fits").over([*score.resampled(len(recording.scans), chains.SEEDS, 3)])
     told = [found, *(fitted.fit(recording._replace(scans=[recording.scans[i] for i in one]), keeps) for one in drawn)]
-    return [one._replace(annotation=fitted.Annotation(*map(operator.sub, one.annotation, less))) for one in told]
+    return [one._replace(annotation=fitted.Annotation(*map(operator.sub, one.annotation, behind)),
+                         sensor=one.sensor | {"range_sigma_m": one.sensor["range_sigma_m"] / wider}) for one in told]
 
 
 def drawn_lists(chain, fits_drawn, rest, folder, **changed):

@@ -49,9 +49,10 @@ def block_length(scans):
     return min(max(scans // LONG_BLOCKS, 5), 10)
 
 
-def resampled(scans, draws):
-    """Numbers of scans, drawn in blocks of neighbours that wrap around the end; the same draws in each call."""
+def resampled(scans, draws, fewer=0):
+    """Numbers of scans, drawn in blocks of neighbours that wrap around the end, and so many blocks fewer than there are; the
+    same draws in each call."""
     generator, length = random.Random(1), block_length(scans)
     for _ in range(draws):
-        begins = [generator.randrange(scans) for _ in range(math.ceil(scans / length))]
+        begins = [generator.randrange(scans) for _ in range(max(math.ceil(scans / length) - fewer, 1))]
         yield [(begin + i) % scans for begin in begins for i in range(length)]

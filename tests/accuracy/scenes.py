@@ -159,6 +159,10 @@ class Radar:
         seeds = range(first + 1 + number * SEEDS, first + 1 + (number + 1) * SEEDS)
         return self.cache.text(".jsonl", lines_of(self.frames, seeds))
 
+    def one_seed(self):
+        """The file of all frames under the first seed of chains."""
+        return self.cache.text(".jsonl", lines_of(self.frames, [OF_CHAINS + 1]))
+
 
 def of_an_object(target):
     """Neither a false alarm nor clutter."""
