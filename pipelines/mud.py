@@ -22,8 +22,11 @@ def lose(frame, echoes):
     ]
 
 
-for line in sys.stdin:
+for number, line in enumerate(sys.stdin, 1):
     frame = json.loads(line)
+    if "echoes" not in frame:
+        print(f"mud: line {number}: echoes: missing; expected behind glint-ideal", file=sys.stderr)
+        sys.exit(65)
     hidden = [echo for echo in frame["echoes"] if low <= echo["azimuth_rad"] <= high]
     frame["echoes"] = [echo for echo in frame["echoes"] if echo not in hidden]
     if "account" in frame.get("sections", []):

@@ -372,8 +372,12 @@ class Loop:
         self.frames, self.answers, self.told = 0, b"", tempfile.TemporaryFile()
         for command in self.commands:
             before = self.processes[-1].stdout if self.processes else subprocess.PIPE
-            self.processes.append(subprocess.Popen(command, stdin=before, stdout=subprocess.PIPE, stderr=self.told,
-                                                   start_new_session=True, bufsize=0))
+            try:
+                self.processes.append(subprocess.Popen(command, stdin=before, stdout=subprocess.PIPE, stderr=self.told,
+                                                       start_new_session=True, bufsize=0))
+            except OSError:  # no program of that name
+                self.end()
+                raise
             if self.processes[1:]:
                 before.close()  # the next one has it, and alone: its end is told to the one before
         for pipe in (self.processes[0].stdin, self.processes[-1].stdout):

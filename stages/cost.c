@@ -87,7 +87,7 @@ static int measure(struct cost_state *own, struct diag *diag)
 {
     struct cost *cost = &own->cost;
     if (cost->sample.list.count == 0)
-        return 0;
+        return diag_fail(diag, DIAG_DATA, "the stream has no frame; expected one to measure");
     if (plan_sample(own, diag) != 0 || cost_measure(cost) != 0)
         return -1;
     if (own->error == NULL && own->within == NULL)
@@ -101,8 +101,6 @@ static int print(const struct cost_state *own, struct output *output, struct run
 {
     const struct cost *cost = &own->cost;
     struct text *text = output_text(output);
-    if (cost->chains.count == 0)
-        return 0;
     if (own->json || runner_output_ends(runner, ".json"))
         record_write(&cost_record, cost, NULL, text);
     else if (own->chosen != NULL)

@@ -413,7 +413,7 @@ static int check_limits(const struct sensor *sensor, struct diag *diag)
 static int check_array(const struct sensor *sensor, struct diag *diag)
 {
     const struct array_layout *layout = &sensor->array;
-    bool stated = layout->transmit.count * layout->receive.count > 0;
+    bool stated = layout->transmit.count + layout->receive.count > 0;
     bool array = sensor->antenna_pattern == ANTENNA_ARRAY;
     if (array != stated || array != (sensor->angle_estimator == MONOPULSE_BEAMS))
         return diag_fail(diag, DIAG_CONFIG,

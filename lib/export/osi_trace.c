@@ -25,8 +25,8 @@ static int check_times(struct osi_trace *trace, const struct frame *frame, struc
             first_s = elementary_min(first_s, last_s - frame->sensors.list.items[i].age_s);
     if (first_s < 0 || last_s > 1e10)
         return diag_fail(diag, DIAG_DATA,
-                         "time_s: a measurement at %.12g s; a trace has times in [0, 1e10] s: "
-                         "expected --shift-s, which is added to all times",
+                         "time_s: a measurement at %.12g s; expected one in [0, 1e10] s: "
+                         "--shift-s is added to all times",
                          first_s);
     uint64_t before_ns = trace->time_ns;
     trace->time_ns = osi_trace_ns(trace, frame->time_s);

@@ -102,7 +102,7 @@ def print_skills(second, results, scores):
             (f"the same body at least {FAR} scans away", None, second.scores_of_itself(FAR.__le__)),
             ("the same body 1 to 3 scans away", None, second.scores_of_itself(NEAR.__contains__))]
     print(f"{'predictor':38} {'us a frame':>10} {'skill':>8} {'interval':>13}")
-    for name, us, own in rows:
+    for name, us, own in (row for row in rows if row[2]):
         skill, least, most = gains(own, ideal, ideal, scans)
         print(f"{name:38} {'' if us is None else f'{us:.1f}':>10} {skill:6.0f} % {least:6.0f} to {most:3.0f}")
     blocks = scans / score.block_length(scans)

@@ -3,6 +3,7 @@ import json
 import math
 import os
 import resource
+import shlex
 import subprocess
 import tempfile
 from collections import namedtuple
@@ -49,7 +50,7 @@ def run(chain, suite, fit, part, seeds=SEEDS, first=1):
             for frame in frames(part.scans, part.speeds, seed, fit.roadside if chain.road else []):
                 traffic.write(json.dumps(frame) + "\n")
         traffic.flush()
-        text = (f"glint-extract '{traffic.name}' | glint-ideal --sensors '{suite}' --effects {chain.effects} --sections none"
+        text = (f"glint-extract {traffic.name} | glint-ideal --sensors {shlex.quote(suite)} --effects {chain.effects} --sections none"
                 f" | {chain.stages}")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         done = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=os.path.join(ROOT, chain.data)),

@@ -195,7 +195,7 @@ def write_suite(of, folder, **changed):
                              ("azimuth", "azimuth_rad,level_db", of.curve.over_azimuth),
                              ("antenna", "azimuth_rad,sum,delta", ratios)):
         with open(os.path.join(folder, name + ".csv"), "w", encoding="ascii") as out:
-            out.write("\n".join([head] + [",".join(f"{value:.9g}" for value in row) for row in rows]) + "\n")
+            out.write("\n".join([head] + [",".join(map(repr, map(float, row))) for row in rows]) + "\n")
     place = os.path.join(folder, "-".join(["recorded", *map(str, changed.values())]) + ".json")
     with open(place, "w", encoding="utf-8") as out:
         json.dump({"origin": "Made by scripts/realism --recordings.", "sensors": [{**of.sensor, **changed}]}, out, indent=2)

@@ -40,7 +40,7 @@ def counts(part, seen):
 def memory(levels, scans):
     """Changes of the level of a body's strongest detection, {(id, scan): dBsm}, and semivariances."""
     found = {}
-    for lag in sorted({1, 3, 10, scans // 6, scans // 3}):
+    for lag in sorted({1, 3, 10, scans // 6, scans // 3} - {0}):
         changes = [level - levels[of, scan + lag] for (of, scan), level in levels.items() if (of, scan + lag) in levels]
         if len(changes) > 1 and lag in (1, 10):
             found[f"level change over {lag} scans, dB"] = statistics.fmean(map(abs, changes))

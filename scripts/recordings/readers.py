@@ -27,6 +27,10 @@ CLASSES = {"car": "car", "van": "van", "truck": "truck", "truck/bus": "truck", "
            "cyclist": "bicycle", "pedestrian": "pedestrian"}
 STANDING = {"post", "guardrail", "wall"}  # classes that are no road users
 KINDS = STANDING | {"articulated_truck", *CLASSES.values()}
+# Bounds of numbers, (-FARTHEST, FARTHEST) of others: glint's objects, and fields of view below 180 degrees.
+BOUNDS = {"range_m": (0, 1e4), "azimuth_rad": (-1.55, 1.55), "yaw_rad": (-10, 10), "carrier_hz": (1e9, 1e12), "time_s": (-1e11, 1e11),
+          **dict.fromkeys(("length_m", "width_m", "height_m"), (0, 100)), **dict.fromkeys(("snr_db", "rcs_dbsm"), (-300, 300))}
+FARTHEST = 1e4
 MOST = 400  # scans, so that 39 lists of each fit into memory
 ARTICULATED_M = 12  # longer trucks are articulated
 KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
@@ -49,7 +53,7 @@ def read(folder):
                 refuse(f"{found}: expected a radar, and lists or calibration beside it")
             except KeyError as error:
                 refuse(f"{found}: {error.args[0]!r} is missing, a member or the number of a file beside it")
-            except (AttributeError, IndexError, TypeError, ValueError, OSError, struct.error) as error:
+            except (AttributeError, IndexError, TypeError, ValueError, OSError, OverflowError, RecursionError, struct.error) as error:
                 refuse(f"{found}: {'' if isinstance(error, ValueError) else type(error).__name__ + ': '}{error}")
             scans = [scan._replace(boxes=[box for box in scan.boxes if box.kind in KINDS]) for scan in recording.scans[:MOST]]
             return recording._replace(scans=statics.retimed(recording.radar, scans), notes=recording.notes + lacks(scans) + [
@@ -65,19 +69,22 @@ def check(radar, scans):
         if not good:
             raise ValueError(f"{path}: {value}; expected {expected}")
 
-    rows = [("radar", radar)]
+    rows = [("radar", radar._asdict()), *((f"scans[{i}]", {"time_s": scan.time_s}) for i, scan in enumerate(scans))]
+    rows += [(f"scans[{i}].{part}[{k}]", one._asdict()) for i, scan in enumerate(scans) for part in ("detections", "boxes")
+             for k, one in enumerate(getattr(scan, part))]
+    for path, row in rows:
+        for name, value in row.items():
+            least, most = BOUNDS.get(name, (-FARTHEST, FARTHEST))
+            if name in ("id", "kind"):
+                expect(isinstance(value, str) and value.isprintable() and 0 < len(value) < 256, f"{path}.{name}", value, "a short word")
+            elif value is not None or name not in ("snr_db", "rcs_dbsm"):
+                expect(type(value) in (int, float) and least < value < most, f"{path}.{name}", value,
+                       f"a number above {least:g} and below {most:g}")
+        expect("snr_db" not in row or {row["snr_db"], row["rcs_dbsm"]} != {None}, path, row, "snr_db, rcs_dbsm or both")
     for i, scan in enumerate(scans):
         path, ids = f"scans[{i}]", [box.id for box in scan.boxes]
         expect(i == 0 or scan.time_s > scans[i - 1].time_s, f"{path}.time_s", scan.time_s, "a time after that of the scan before")
         expect(len({"ego", *ids}) > len(ids), f"{path}.boxes", ids, "an id for each, and none that is ego")
-        rows += [(f"{path}.{part}[{k}]", one) for part in ("detections", "boxes") for k, one in enumerate(getattr(scan, part))]
-    for path, row in rows:
-        for name, value in row._asdict().items():
-            least = 0 if name in ("range_m", "length_m", "width_m", "height_m", "carrier_hz") else -math.inf
-            expect(name in ("id", "kind") or value is None and name in ("snr_db", "rcs_dbsm")
-                   or isinstance(value, (int, float)) and least < value < math.inf, f"{path}.{name}", value,
-                   "a finite number" + " above 0" * (least == 0))
-        expect(row[-2:] != (None, None), path, row, "snr_db, rcs_dbsm or both")
     for half in (scans[:len(scans) // 2], scans[len(scans) // 2:]):
         expect(len(half) >= 4, "scans", len(scans), "eight or more")
         expect(sum(len(scan.detections) for scan in half) >= 4, "detections of a half", "fewer than four", "four or more")
@@ -111,10 +118,15 @@ def class_of(word, length_m):
 
 
 def own(_, name):
+    def row(of, told):
+        if not set(told) <= set(of._fields):
+            raise ValueError(f"{told}: expected no members but {', '.join(of._fields)}")
+        return of(**told)
+
     told = json_of(name)
-    scans = [Scan(scan["time_s"], [Detection(**one) for one in scan["detections"]],
-                  [Box(**one | {"id": str(one["id"])}) for one in scan.get("boxes", [])]) for scan in told["scans"]]
-    return Recording(Radar(**told["radar"]), scans, [])
+    scans = [Scan(scan["time_s"], [row(Detection, one) for one in scan["detections"]],
+                  [row(Box, one | {"id": str(one["id"])}) for one in scan.get("boxes", [])]) for scan in told["scans"]]
+    return Recording(row(Radar, told["radar"]), scans, [])
 
 
 def aimotive(folder, extrinsics):

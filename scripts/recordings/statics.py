@@ -65,5 +65,5 @@ def retimed(radar, scans):
     for i in range(1, len(scans)):
         interval_s = scans[i].time_s - scans[i - 1].time_s
         way_m, shared = driven_m(still[i - 1], still[i], speeds[i] * interval_s)
-        times.append(times[-1] + (way_m / speeds[i] if shared >= 8 else interval_s))
+        times.append(times[-1] + (way_m / speeds[i] if shared >= 8 and speeds[i] else interval_s))
     return [scan._replace(time_s=time_s) for scan, time_s in zip(scans, times)]

@@ -264,11 +264,14 @@ def loops(folder):
                                 ("nothing", "true", "exit status"), ("a deep line", "sed -u s/.*/" + "[" * 5000 + "/", "no targets")):
         with glint.Loop(f"{STAGES} | {last}", timeout_s=5) as loop:
             yield name, fails(loop, glint.ChainError, message)
+    children = f"/proc/self/task/{os.getpid()}/children"
+    running = open(children, encoding="ascii").read()
     try:
-        glint.Loop(f"{STAGES} | nowhere")
+        glint.Loop("sleep 300 | nowhere")
         yield "a program that is not there", "starts"
     except FileNotFoundError as error:
-        yield "a program that is not there", None if error.filename == "nowhere" else error
+        left = open(children, encoding="ascii").read()
+        yield "a program that is not there", None if error.filename == "nowhere" and left == running else f"{error}: {left} are left"
     before = len(os.listdir("/proc/self/fd"))
     with glint.Loop(f"{STAGES} | sleep 0") as loop:
         for _ in range(20):

@@ -163,9 +163,11 @@ def recordings_that_cannot_be_are_refused(folder):
     cars = world(1)[0].boxes
     for changed, expected in (
             ({"time_s": 0.1}, "scans[4].time_s: 0.1; expected a time after that of the scan before"),
-            ({"detections": [readers.Detection(math.nan, 0, 0, 20)]}, "[4].detections[0].range_m: nan; expected a finite number above 0"),
-            ({"detections": [readers.Detection("near", 0, 0, 20)]}, "scans[4].detections[0].range_m: near; expected a finite"),
+            ({"detections": [readers.Detection(math.nan, 0, 0, 20)]}, "[4].detections[0].range_m: nan; expected a number above 0 and below 10000"),
+            ({"detections": [readers.Detection("near", 0, 0, 20)]}, "scans[4].detections[0].range_m: near; expected a number"),
+            ({"detections": [readers.Detection(20, 1.6, 0, 20)]}, "azimuth_rad: 1.6; expected a number above -1.55 and below 1.55"),
             ({"detections": [readers.Detection(20, 0, 0)]}, "expected snr_db, rcs_dbsm or both"),
+            ({"boxes": [cars[0]._replace(kind=["car"])]}, "boxes[0].kind: ['car']; expected a short word"),
             ({"boxes": [cars[0], cars[0]]}, "scans[4].boxes: ['near', 'near']; expected an id for each")):
         spoiled(4, **changed)
         refused(os.EX_DATAERR, expected)
@@ -175,6 +177,17 @@ def recordings_that_cannot_be_are_refused(folder):
     check(done.returncode == 0 and "no boxes with ids" in done.stdout and "no cross section" in done.stdout
           and "class tram are left out" in done.stdout and "statics a scan" in done.stdout
           and "skill" not in done.stdout.split("boxes      ")[1], f"without boxes: {done.stdout}{done.stderr}")
+
+
+def a_radar_that_stands_and_sees_far_aside_is_read(folder):
+    """From rounded figures, and its suite is written into a folder whose name has a quote."""
+    generator = random.Random(3)
+    places = [(generator.uniform(5, 100), generator.uniform(-1.2, 1.2)) for _ in range(20)]
+    write_own(folder, [readers.Scan(0.07 * i, [readers.Detection(round(range_m, 1), round(azimuth, 2), 0, 20 + generator.gauss(0, 3))
+                                               for range_m, azimuth in places], []) for i in range(10)])
+    done = subprocess.run([os.path.join(ROOT, "scripts", "realism"), "--recordings", folder, "--write", os.path.join(folder, "it's")],
+                          capture_output=True, text=True, check=False)
+    check(done.returncode == 0 and "ego        0.0 m/s" in done.stdout, f"a standing radar: {done.stdout}{done.stderr}")
 
 
 def planted_faults_are_marked(folder, suite, scans):
@@ -364,6 +377,7 @@ def main():
         view_of_delft_is_read(folder)
     with tempfile.TemporaryDirectory() as folder:
         recordings_that_cannot_be_are_refused(folder)
+        a_radar_that_stands_and_sees_far_aside_is_read(folder)
     the_real_recording_shows_what_its_page_says()
     sys.exit(1 if faults else 0)
 

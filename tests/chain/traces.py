@@ -433,7 +433,7 @@ def ids_and_times(folder):
     for program in ("glint-osi", "glint-mcap"):
         for time_s, words in ((-0.04, ""), (1e10, "--shift-s 1"), (3, "--shift-s -3.5")):
             said = pipe(f"{program} {words}", changed(line, time_s=time_s), 65)
-            check(":1: time_s: a measurement at" in said and "expected --shift-s" in said, said)
+            check(":1: time_s: a measurement at" in said and "--shift-s is added to all times" in said, said)
 
 
 def refusals(folder):
@@ -455,7 +455,7 @@ def refusals(folder):
                 (good + changed(good, scene="another"), ':2: scene: "another" after "by hand"; expected one scene of one seed'),
                 (good + changed(good, seed="2"), ':2: scene: "by hand" after "by hand"; expected one scene of one seed'),
                 (good + changed(good, frame=1), ":2: time_s: 7.24 after 7.24; expected ascending times"),
-                (late, ':1: time_s: a measurement at -0.05 s; a trace has times in [0, 1e10] s: expected --shift-s')):
+                (late, ':1: time_s: a measurement at -0.05 s; expected one in [0, 1e10] s: --shift-s is added to all times')):
             text = pipe(program, data, 65)
             check(said in text.replace('"ego" has no', '"2" has no'), f"{said}: {text}")
         out = os.path.join(folder, "old")
