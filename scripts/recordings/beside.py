@@ -74,15 +74,16 @@ def print_found(recording, fit, lost):
     (lag_s, inset_m), law, sensor = fit.annotation, fit.curve, fit.sensor
     azimuth_rad = math.hypot(sensor.get("azimuth_floor_rad", 0), fit.azimuth_noise / 10)
     speed_mps = statistics.fmean(statics.ego_speeds(recording.radar, recording.scans))
+    stands = any(statics.ego_speed(recording.radar, scan) is not None for scan in recording.scans)
     print(f"""
-boxes      lists are {lag_s:.2f} s older, and near faces lie {inset_m:.2f} m inside
-ego        {speed_mps:.1f} m/s on average, by what stands
+boxes      lists are {f"{lag_s:.2f} s older" if lag_s else "taken to be as old"}, and near faces lie {inset_m:.2f} m inside
+ego        {f"{speed_mps:.1f} m/s on average, by what stands" if stands else "taken to stand, as too few rates agree"}
 threshold  {sensor['threshold_db']:.1f} dB over the noise
 receiver   0 dBsm has {", ".join(f"{level:.1f} dB at {range_m:.0f} m" for range_m, level in law.over_range)}
            aside {", ".join(f"{level:.1f} dB at {math.degrees(angle):.1f}" for angle, level in law.over_azimuth)} degrees
 cells      {sensor['cell_range_m']:.2f} m, {sensor['cell_range_rate_mps']:.2f} m/s
 noise      {sensor['range_sigma_m']:.2f} m, {sensor['range_rate_sigma_mps']:.3f} m/s, {math.degrees(azimuth_rad):.2f} \
-degrees at 20 dB
+degrees at 20 dB{" (no less is possible in so wide a view)" * (fit.azimuth_noise < 1.001 * law.over_azimuth[-1][0] / fitted.STEEPEST)}
 levels     keep the {fit.sensor['level_keeps']}: scores of blocks left out: {", ".join(f"{word} {own:.1f}" for word, own in lost.items()) or "none"}
 roadside   {", ".join(f"{100 * one['per_m2'] * one['width_m']:.1f} of {one['rcs_dbsm']:.0f} dBsm at {one['from_y_m']} m"
                       for one in fit.roadside) or "nothing"}, in 100 m
@@ -111,7 +112,8 @@ def print_skills(second, results, scores):
     for chain, before in zip(chains.CHAINS[1:], [*chains.CHAINS[:4], chains.ALL, chains.ALL]):
         points, least, _ = gains(scores[chain], scores[before], ideal, scans)
         if least > 0:
-            left = {body: gains(scores[chain], scores[before], ideal, scans, body) for body in sorted({key[0] for key in ideal})}
+            bodies = sorted({key[0] for key in ideal})
+            left = {body: gains(scores[chain], scores[before], ideal, scans, body) for body in bodies if len(bodies) > 1}
             print(f"gain of {chain.name} over {before.name}: {points:.1f} points;", ", ".join(
                 f"without {body} {rest:.1f}{' (vanishes)' * (lowest <= 0)}" for body, (rest, lowest, _) in left.items()))
 
@@ -201,6 +203,8 @@ def compare(folder, suite_folder=None):
         print_found(recording, fit, lost)
         second = part(fit, rest.radar, rest.scans)
         results = {chain: chains.run(chain, suite, fit, second) for chain in Progress("chains").over(chains.CHAINS)}
+        if not second.boxes and any(scan.boxes for scan in recording.scans):
+            print("no road user is in view in the second half: skill and the marginals of road users are left out")
         if second.boxes:
             scores = {chain: second.scores(lists) for chain, (lists, _) in results.items()}
             print_skills(second, results, scores)

@@ -28,17 +28,17 @@ CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("without levels", "aut
 
 def frames(scans, speeds, seed, strips):
     """Frames of traffic, one a scan: the ego drives straight ahead at these speeds, between strips of a roadside."""
-    ways = {}
+    ways, ahead_m = {}, 0
     for i, (scan, speed) in enumerate(zip(scans, speeds)):
         interval_s = scans[max(i, 1)].time_s - scans[max(i, 1) - 1].time_s
-        bodies = [Box("ego", "car", *[0] * 8), *scan.boxes]
+        bodies, ahead_m = [Box("ego", "car", *[0] * 8), *scan.boxes], ahead_m + speed * interval_s * (i > 0)
         for box in bodies:
             driven_m = math.hypot(speed + box.vx_mps, box.vy_mps) * interval_s
             ways[box.id] = ways[box.id] + driven_m if box.id in ways else 0
         yield {"version": 0, "scene": f"seed{seed}", "frame": i, "time_s": scan.time_s - scans[0].time_s,
                "interval_s": interval_s, "seed": str(seed), "ego": "ego", "last": i + 1 == len(scans),
                "roadside": strips, "objects": [
-                   {"id": box.id, "class": box.kind, "x_m": ways["ego"] + box.x_m, "y_m": box.y_m, "yaw_rad": box.yaw_rad,
+                   {"id": box.id, "class": box.kind, "x_m": ahead_m + box.x_m, "y_m": box.y_m, "yaw_rad": box.yaw_rad,
                     "vx_mps": speed + box.vx_mps, "vy_mps": box.vy_mps, "yaw_rate_radps": 0, "length_m": box.length_m,
                     "width_m": box.width_m, "height_m": box.height_m, "travelled_m": ways[box.id]} for box in bodies]}
 

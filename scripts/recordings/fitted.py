@@ -19,7 +19,7 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 SLOWEST = 24  # dB a decade, the lesser of two 77 GHz radars on roads: few near detections are as weak as the threshold
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
 STEEPEST = 8  # extent of the view in noise of azimuth: delta is at most 140 times sum
-WITHIN_2, WITHIN_3 = 0.7737, 0.9733  # variances of normal numbers within two and three standard deviations
+WITHIN_2 = 0.7737  # variance of normal numbers within two standard deviations
 # Members that lists do not show, and figures for which a half may have too few detections: those of lrr77-full.
 SHIPPED = ("range_min_m range_floor_m diffraction curved_sides micro_motion bounces antenna_pattern phase_reference "
            "angle_estimator final_threshold list_order list_limit azimuth_sigma_rad cell_range_m cell_range_rate_mps "
@@ -153,13 +153,13 @@ def noise(radar, scans, least_rad):
 
 def azimuth_variances(found, least):
     """The variance of azimuths that no signal lessens, and that at a signal as strong as the noise, which is no less than
-    the least: weighted least squares of the squares of differences. Those beyond three standard deviations are wrong pairs."""
+    the least: weighted least squares of the squares of differences. Beyond two standard deviations there are wrong pairs."""
     squares = [([2, 10 ** (-one.snr_db / 10) + 10 ** (-other.snr_db / 10)], off_rad ** 2) for _, off_rad, one, other in found]
     law = [1e-4, max(1e-2, least)]
-    for _ in range(12):
+    for _ in range(30):
         weighed = [(row, square, sum(map(math.prod, zip(row, law)))) for row, square in squares]
-        near = [([one / variance for one in row], square / variance / WITHIN_3) for row, square, variance in weighed
-                if square < 9 * variance]
+        near = [([one / variance for one in row], square / variance / WITHIN_2) for row, square, variance in weighed
+                if square < 4 * variance]
         law[1] = max(least_squares(*zip(*near))[1], least)
         law[0] = max(sum(row[0] * (square - law[1] * row[1]) for row, square in near) / sum(row[0] ** 2 for row, _ in near), 1e-6)
     return law

@@ -125,8 +125,9 @@ def own(_, name):
 
     told = json_of(name)
     scans = [Scan(scan["time_s"], [row(Detection, one) for one in scan["detections"]],
-                  [row(Box, one | {"id": str(one["id"])}) for one in scan.get("boxes", [])]) for scan in told["scans"]]
-    return Recording(row(Radar, told["radar"]), scans, [])
+                  [row(Box, one | {"id": str(one["id"])}) for one in scan.get("boxes", []) if "id" in one]) for scan in told["scans"]]
+    nameless = sum("id" not in one for scan in told["scans"] for one in scan.get("boxes", []))
+    return Recording(row(Radar, told["radar"]), scans, [f"{nameless} boxes without id are left out"] * (nameless > 0))
 
 
 def aimotive(folder, extrinsics):

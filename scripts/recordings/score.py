@@ -40,8 +40,8 @@ def share(parts, wholes, scans, draws=1000):
         part, whole = (sum(sums[scan][i] for scan in chosen) for i in (0, 1))
         return part / whole if whole else 0
 
-    drawn = sorted(map(ratio, resampled(scans, draws)))
-    return ratio(range(scans)), drawn[round(0.025 * draws)], drawn[round(0.975 * draws) - 1]
+    drawn = sorted(ratio(chosen) for chosen in resampled(scans, draws) if any(sums[scan][1] for scan in chosen)) or [0]
+    return ratio(range(scans)), drawn[round(0.025 * len(drawn))], drawn[round(0.975 * len(drawn)) - 1]
 
 
 def block_length(scans):
