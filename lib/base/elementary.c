@@ -473,7 +473,8 @@ double elementary_pow(double base, double exponent)
         return NO_NUMBER;
     if (base == 0 || isinf(base))
         return (base == 0) == (exponent > 0) ? 0 : INFINITE;
-    struct pair log = log_of(base);
+    static const struct pair log_10 = {0x1.26bb1bbb55516p+1, -0x1.f48ad494ea4p-53}; /* log_of(10) */
+    struct pair log = base == 10 ? log_10 : log_of(base);
     struct pair product = product_of(exponent, log.hi);
     return exp_of(product.hi, product.lo + exponent * log.lo);
 }

@@ -89,6 +89,7 @@ static int read_angle_curve(const struct text *bytes, const struct table *table,
     curve->rows = read_levels(bytes, table->over, -PI / 2, PI / 2, &curve->count, arena, diag);
     if (curve->rows == NULL)
         return -1;
+    curve->ahead_db = receiver_curve_level_db(curve, 0);
     double first = curve->rows[0].at, last = curve->rows[curve->count - 1].at;
     if (first <= -table->reach_rad && last >= table->reach_rad)
         return 0;

@@ -25,6 +25,5 @@ double receiver_curve_level_db(const struct receiver_curve *curve, double angle_
 
 double receiver_curve_gain(const struct receiver_curve *curve, double angle_rad)
 {
-    return units_amplitude_from_db(receiver_curve_level_db(curve, angle_rad) -
-                                   receiver_curve_level_db(curve, 0));
+    return units_amplitude_from_db(receiver_curve_level_db(curve, angle_rad) - curve->ahead_db);
 }

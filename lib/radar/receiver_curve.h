@@ -14,6 +14,7 @@ struct receiver_curve_row {
 struct receiver_curve {
     const struct receiver_curve_row *rows; /* NULL: no curve is given */
     size_t count;                          /* >= 1 with rows */
+    double ahead_db;                       /* the level at angle 0 */
 };
 
 /* The level at an angle, as the table has it. A mirrored table has exactly the same level at the

@@ -9,7 +9,7 @@
 /* Slopes that rise and fall; 0 is within a gap, at 1.5 dB. */
 static const struct receiver_curve_row ROWS[] = {{-0.4, -12}, {-0.2, 1},  {-0.1, 1},
                                                  {0.1, 2},    {0.15, -3}, {0.5, -3.5}};
-static const struct receiver_curve CURVE = {ROWS, COUNT(ROWS)};
+static const struct receiver_curve CURVE = {ROWS, COUNT(ROWS), 1.5};
 
 static void levels_are_straight_between_rows_and_constant_beyond(void **state)
 {
@@ -39,7 +39,7 @@ static void a_mirrored_table_has_mirrored_gains(void **state)
     struct receiver_curve_row rows[COUNT(ROWS)];
     for (size_t i = 0; i < COUNT(ROWS); i++)
         rows[COUNT(ROWS) - 1 - i] = (struct receiver_curve_row){-ROWS[i].at, ROWS[i].level_db};
-    struct receiver_curve mirrored = {rows, COUNT(rows)};
+    struct receiver_curve mirrored = {rows, COUNT(rows), 1.5};
     for (double angle_rad = -0.6; angle_rad < 0.6; angle_rad += 0.0137)
         assert_close(receiver_curve_gain(&mirrored, -angle_rad),
                      receiver_curve_gain(&CURVE, angle_rad), 0);
