@@ -6,7 +6,7 @@
 
 extern const struct record antenna_array_record; /* of struct array_layout */
 
-/* Refuses an array without beams (DIAG_CONFIG): of too few or too many virtual elements, uneven
- * ones, or ones so far apart that two directions in the field of view look alike. */
+/* Refuses an array that has no beams (DIAG_CONFIG): too few or too many virtual elements, uneven
+ * steps between them, or steps so wide that two directions in the field of view look alike. */
 int antenna_array_check(const struct array_layout *layout, double field_of_view_rad,
                         struct diag *diag);

@@ -1,4 +1,4 @@
-/* Whether the figures of a sensor agree with each other.
+/* Checks that the figures of a sensor agree.
  *
  * Physics relates figures of a radar: the cell in range rate takes a dwell, which must fit into the
  * cycle; the echo from the greatest range has a beat frequency, which the receiver must pass. A

@@ -18,7 +18,7 @@ struct datasheet_accuracy {
 struct datasheet {
     double azimuth_rad[DATASHEET_AZIMUTHS]; /* from boresight to the border of the view */
     struct datasheet_accuracy accuracy[DATASHEET_LEVELS]; /* at the threshold, 10 and 20 dB above */
-    double chance[DATASHEET_CHANCES];   /* of detection of a mean echo at the threshold, and 0.9 */
+    double chance[DATASHEET_CHANCES]; /* of detection: that of a mean echo at the threshold; 0.9 */
     double echo_dbsm[DATASHEET_ECHOES]; /* 0, 10, 20 */
     /* The range up to which an echo is detected with that chance, at most range_max_m; 0: nowhere
      * from range_min_m on. */
@@ -29,7 +29,7 @@ struct datasheet {
 /* The figures of a sensor with its derived members. */
 void datasheet_of(const struct sensor *sensor, struct datasheet *sheet);
 
-/* Adds a sheet for every sensor, in degrees, dBsm, m and m/s. Neighbours that differ only in name
- * and mount share one. A check that does not hold is a line that begins with "doubt:". The
+/* Adds a sheet for every sensor, in degrees, dBsm, m and m/s. Neighbouring sensors that differ only
+ * in name and mount share one. A check that does not hold is a line that begins with "doubt:". The
  * suite's assumptions follow. */
 void datasheet_add(const struct suite *suite, struct text *text);

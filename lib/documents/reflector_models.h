@@ -28,7 +28,7 @@ extern const struct record contour_record;
 /* Refuses a larger oblique cross section, and a document with some members but not all. */
 int reflector_models_check_contour(const struct contour *contour, struct diag *diag);
 
-/* Posts are fully visible up to one angle off the face's normal, invisible from the other on. */
+/* Posts are fully visible up to full_rad off the face's normal, and invisible from zero_rad on. */
 struct contour_view {
     double full_rad, zero_rad;
 };

@@ -28,7 +28,7 @@ enum range_migration {
 };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
-/* Echoes that a sensor expects in a scan, by its designer (MODEL 14.21). */
+/* Echoes in a scan that the designer of a sensor expects (MODEL 14.21). */
 struct suite_prior {
     double echoes; /* mean number of echoes, detected or not */
     double snr_db; /* mean power of echoes over the power of the noise */
@@ -58,7 +58,7 @@ struct sensor {
     double level_constant_db, level_slow_db, level_slow_m, level_fast_db;
     enum level_keeps level_keeps;
     double unambiguous_range_m, unambiguous_rate_mps; /* 0: unlimited */
-    double unambiguous_middle_mps;                    /* of the span of range rates */
+    double unambiguous_middle_mps;                    /* of the interval of range rates */
     double receiver_bandwidth_hz, noise_figure_db, antenna_gain_dbi;
     enum if_sampling if_sampling;
     double chirp_slope_hzps, chirp_s;

@@ -10,7 +10,7 @@ struct vehicle {
     const char *origin;
     double length_m, width_m, height_m;      /* for objects that have no size of their own */
     double rear_axle_x_m;                    /* from the centre of the box; 0: not given */
-    struct class_level level;                /* of its bodies, where not the sensor's */
+    struct class_level level;                /* of its bodies, in place of the sensor's */
     struct reflector_set reflectors;         /* belongs to no object yet */
     enum sensing_target_3gpp sensing_target; /* for glint-extract-3gpp */
     struct contour contour;                  /* for glint-extract-contour */

@@ -15,7 +15,7 @@ struct waveform {
     enum waveform_kind kind;
     int64_t samples;     /* 0: the document describes no waveform */
     int64_t repetitions; /* chirps or pulses of a train */
-    int64_t stagger;     /* folds of range rate that a second train tells apart; 0: no train */
+    int64_t stagger;     /* folds of range rate that a second train resolves; 0: there is none */
     int64_t elements;    /* 0: the sum and delta channels of the antenna */
     double spacing;      /* of the elements, in wavelengths */
     enum point_response window;
@@ -32,10 +32,10 @@ double waveform_range_step_m(const struct waveform *waveform, double cell_range_
 /* The point response along range; that along range rate is the member window. */
 enum point_response waveform_range_response(const struct waveform *waveform);
 
-/* Refuses members that contradict each other (DIAG_CONFIG). 0 samples, no waveform, pass. */
+/* Refuses members that contradict each other (DIAG_CONFIG); accepts 0 samples, no waveform. */
 int waveform_check(const struct waveform *waveform, double cell_range_m, double range_max_m,
                    struct diag *diag);
 
-/* The search in a spectrum with `padding` cells to a bin. The noise of the cells in its windows is
- * independent. The probability of a false alarm is divided by the number of beams. */
+/* The search in a spectrum with `padding` cells to a bin. Its windows take only cells of
+ * independent noise. The probability of a false alarm is divided by the number of beams. */
 struct cfar waveform_cfar(const struct waveform *waveform, size_t padding, size_t beams);

@@ -13,7 +13,7 @@ static bool add_noise_to_pointers(const struct effect_scan *scan,
 {
     const double _Complex i = (double _Complex)I;
     if (measurement->cell->beam != NULL)
-        return true; /* its elements have noise */
+        return true; /* beam_cells_of added the noise */
     double draw[4], sigma = scan->sensor->pointer_sigma * sqrt(0.5) *
                             interferer_noise_factor(measurement->cell->interference);
     random_gaussian(&measurement->address, RANDOM_POINTERS, 0, draw);

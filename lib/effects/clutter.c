@@ -6,9 +6,9 @@
 #include "base/random.h"
 #include "propagation/ground_return.h"
 
-/* The ground is divided into rings, from the sensor's greatest range inwards. Each reaches in to
- * this part of its own range, the last one to the least range. */
-#define RING_PART 0.7071067811865476 /* 6 dB at 40 dB a decade */
+/* The ground is divided into rings, from the sensor's greatest range inwards. The inner radius of a
+ * ring is this part of its outer one; the last ring reaches in to the sensor's least range. */
+#define RING_PART 0.7071067811865476 /* power changes by 6 dB in a ring at 40 dB a decade */
 #define RINGS 16
 
 /* A ring ends where its remaining points together have less than this part of the threshold. */
@@ -24,8 +24,8 @@ static bool described(const struct effect_scan *scan)
 
 struct ring {
     double near_m, far_m;
-    double mean;        /* number of points */
-    double least_power; /* of a point and all weaker ones, over the mean power of a point */
+    double mean;        /* mean number of points */
+    double least_power; /* of a point with all weaker ones, over the mean power of a point */
 };
 
 static struct ring ring_between(const struct effect_scan *scan, double per_m2, double near_m,
@@ -59,9 +59,9 @@ static struct echo point_at(const struct effect_scan *scan, const struct ring *r
     };
 }
 
-/* Adds the points of a ring, the strongest first. A share of all is stronger than the present one;
- * powers are exponential, so -ln(share) is its power, and 1 - share + share ln(share) the mean of
- * what the weaker ones have. */
+/* Adds the points of a ring, the strongest first. share is the part of all points that are stronger
+ * than the present one. Powers are exponential, so -ln(share) is its power over the mean, and all
+ * weaker points have 1 - share + share ln(share) of the whole power. */
 static void add_ring(const struct effect_scan *scan, const struct ring *ring, int64_t number,
                      const struct sensor_pose *pose, struct effect_echoes *echoes)
 {
@@ -85,8 +85,8 @@ static void add_ring(const struct effect_scan *scan, const struct ring *ring, in
     }
 }
 
-/* Points per m2 of this scan. Their number is negative binomial, as its mean varies by a gamma
- * variate, or without overdispersion a Poisson count. */
+/* Mean number of points per m2 in this scan. With overdispersion it is a gamma variate, so that the
+ * number of points is negative binomial; without, that number is Poisson. */
 static double density_per_m2(const struct effect_scan *scan)
 {
     const struct conditions *conditions = &scan->frame->conditions;

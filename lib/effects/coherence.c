@@ -1,5 +1,5 @@
-/* Gives echoes their phases (MODEL 8.2, 14.18). Resolution cells and peaks add pointers with them,
- * and label where phases differ (sensor/resolution_cell.h, sensor/smear.h). */
+/* Gives echoes their phases (MODEL 8.2, 14.18). Cells and peaks add pointers with these phases, and
+ * are labelled if they differ (sensor/resolution_cell.h, sensor/smear.h). */
 #include "effects/effect.h"
 
 #include "base/units.h"

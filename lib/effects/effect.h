@@ -20,8 +20,8 @@
 
 enum effect_home { EFFECT_HOME_IDEAL, EFFECT_HOME_SENSOR, EFFECT_HOME_NOISE };
 
-/* The steps by which noise measures a cell, in their order. Of targets that glint-sensor-signal
- * reads in the signal, only the last two steps are left. */
+/* The steps in which the noise stage measures a cell, in this order. glint-sensor-signal measures
+ * targets in the signal, and takes only the last two steps. */
 enum effect_step {
     EFFECT_STEP_POINTERS, /* changes the sum and delta pointers, before the angle is read */
     EFFECT_STEP_SIGMA,    /* sets the standard deviations that EFFECT_STEP_NOISE then uses */
@@ -38,16 +38,16 @@ struct effect_scan {
     double time_s;           /* of the measurement */
     struct echo_span echoes; /* those of ideal; none in noise */
     struct random_address
-        address;      /* the scan's; frame_draw_address_in adds an echo or a cell's leader */
+        address;      /* of the scan; frame_draw_address_in adds an echo or the leader of a cell */
     uint64_t effects; /* the set of effects that are simulated */
-    uint64_t receiving, measuring[EFFECT_STEPS]; /* those of them that have the hook */
-    const double **constants; /* of an effect, by effect_id; NULL: no effect has any */
+    uint64_t receiving, measuring[EFFECT_STEPS]; /* those with the hook receive, or measure */
+    const double **constants; /* of each effect, by effect_id; NULL: no effect has any */
     double interference;      /* power of other radars over that of the sensor's own noise */
 };
 
 /* One echo on its way through the receiver. */
 struct effect_reception {
-    const struct echo *echo;        /* as ideal has it */
+    const struct echo *echo;        /* as ideal or add_echoes made it */
     double strength, amplitude;     /* linear, before and after the antenna */
     double range_m, range_rate_mps; /* as the radar reads them */
     double phase_rad;
@@ -94,8 +94,8 @@ struct effect {
 
     enum effect_home home;
 
-    /* The documents describe the effect for a scan if a bit of these members, at most 3, is set, or
-     * if `described` returns true. */
+    /* The documents describe the effect for a scan if any bit of these members (at most 3) is set,
+     * or if `described` returns true. */
     struct effect_member members[4];
     bool (*described)(const struct effect_scan *scan);
     /* Works out constants of the scan, which lie in the frame's arena. The hook receive finds them

@@ -26,7 +26,7 @@ static double noise_ratio_of(const struct effect_scan *scan, const struct interf
     struct motion ego_motion = frame_motion(ego, age_s),
                   other_motion = frame_motion(carrier, age_s);
     struct vec2 offset_m = vec2_sub(other_motion.position_m, ego_motion.position_m);
-    ego_motion.position_m = (struct vec2){0, 0}; /* where rounding is least */
+    ego_motion.position_m = (struct vec2){0, 0}; /* offset_m is from the ego: least rounding */
     struct sensor_pose pose = kinematics_sensor_pose(&ego_motion, sensor->mount_x_m,
                                                      sensor->mount_y_m, sensor->mount_yaw_rad);
     struct vec2 line_m = vec2_sub(offset_m, pose.position_m);

@@ -1,7 +1,7 @@
-/* Levels of bodies (MODEL 14.22): a part that stays, a slow one over the metres that a body and the
- * ego have driven, and a fast one over aspect and range. No part depends on the frame, so a body
- * that stays in place keeps its level; none depends on the sensor's name, as the places of sensors
- * tell their levels apart. */
+/* Levels of bodies (MODEL 14.22): a constant part, a slow one over the metres that a body and the
+ * ego have driven, and a fast one over aspect and range. No part depends on the frame's number, so
+ * a body that stays in place keeps its level. No part depends on the sensor's name: sensors in
+ * different places have different fast parts. */
 #include "effects/effect.h"
 
 #include "base/elementary.h"

@@ -1,11 +1,11 @@
-/* Echoes that walk through range cells while they are measured (MODEL 14.20). The lost level is the
- * amplitude's; cells and peaks take the widening (radar/resolution.h, sensor/smear.h).
+/* Echoes that walk through range cells while they are measured (MODEL 14.20). The walk lowers the
+ * amplitude here and widens the response in cells and peaks (radar/resolution.h, sensor/smear.h).
  * glint-sensor-signal has the walk in its samples instead. */
 #include "effects/effect.h"
 
 #include "radar/point_response.h"
 
-/* Effects before this one may add echoes that walk where those of ideal stand. */
+/* Earlier effects may add echoes that walk, even if no echo of ideal does. */
 static bool some_echo_walks(const struct effect_scan *scan)
 {
     bool walks = (scan->effects & (EFFECT_BIT(EFFECT_WHEELS) | EFFECT_BIT(EFFECT_LIMBS) |

@@ -31,8 +31,8 @@ struct side {
 struct side line_of_sight_side(const struct look_body *body, double from_x, double from_y,
                                double to_x, double to_y);
 
-/* True if the sensor's foot is exactly at the end of the side and another side in line begins
- * there, which then has the foot (hard case 33). */
+/* True if the foot of the perpendicular from the sensor is exactly at the end of the side and
+ * another side in line begins there, which then has the foot (hard case 33). */
 bool line_of_sight_next_side_has_foot(const struct look *look, const struct side *side);
 
 /* Notes in the selection's log that bodies may hide something, or that none can. */
@@ -63,28 +63,28 @@ struct line_of_sight line_of_sight_along(const struct look *look,
 /* Margins of single decisions, in metres, positive on both sides of a border and 0 on it: the
  * distance of a reflector from being lost, or from not being lost (MODEL 2.5, 11.1). */
 
-/* Of a line past all bodies that block, except the given ones and, with under, raised ones. If the
- * line is not blocked: its least distance from a body, beside, over or under it; infinite without
- * bodies or occlusion, 0 in a soft shadow (MODEL 14.4). If it is blocked: its greatest depth in a
- * body; with diffraction, the depth beyond twice the line's widest Fresnel radius. */
+/* The margin of a line past all bodies that block, except the given ones and, with under, raised
+ * ones. If it is not blocked: the least distance from a body, beside, over or under it; infinite
+ * without bodies or occlusion, 0 in a soft shadow (MODEL 14.4). If it is blocked: the greatest
+ * depth in a body; with diffraction, that beyond twice its widest Fresnel radius. */
 double line_of_sight_margin_m(const struct look *look, const struct look_body *const *except,
                               size_t count, const struct obstruction_line *line, bool under,
                               bool blocked);
 
-/* From the border of a point's visibility: the angle to zero_rad, times the range. Infinite for a
+/* The margin of a point's visibility: the angle to zero_rad, times the range. It is infinite for a
  * point that is visible from everywhere. */
 double line_of_sight_facing_margin_m(const struct box *box, enum visibility_shape shape,
                                      double facing_rad, double zero_rad, struct vec2 place,
                                      struct vec2 sensor);
 
-/* From losing or gaining the specular point on the side a to b with the unit vector along
- * (mirror_specular_point). With a specular point: the least of the foot's distances from the
- * shortened ends and the sensor's distance from the side's line. Without: the greatest distance by
- * which foot or sensor is beyond these borders. NaN for a side of length zero. */
+/* The margin of the specular point on the side a to b with the unit vector along
+ * (mirror_specular_point). With a specular point it is the least of the foot's distances from the
+ * shortened ends and the sensor's distance from the side's line. Without one it is the greatest
+ * distance by which foot or sensor is beyond these borders. NaN for a side of length zero. */
 double line_of_sight_foot_margin_m(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
                                    struct vec2 sensor);
 
-/* Of a sight line from an outline that it does not touch. */
+/* The distance of a sight line from an outline that it does not touch. */
 double line_of_sight_outline_margin_m(const struct vec2 *corners, size_t count, struct vec2 from,
                                       struct vec2 to);
 

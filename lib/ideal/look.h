@@ -37,9 +37,9 @@ struct look_body {
     double radius_m;           /* of the circle around the box */
     struct vec2 sensor_m;      /* the sensor's place in the body's frame */
     struct look_extent shadow; /* of the box and its rim */
-    bool blocks;               /* sight lines through its outline */
-    bool spare;                /* enough bodies before it block alike; it need not be tested */
-    size_t twins;              /* number of bodies after it, by id, that block alike */
+    bool blocks;               /* its outline stops sight lines */
+    bool spare;                /* enough equal bodies precede it, so it need not be tested */
+    size_t twins;              /* number of equal bodies after it, by id */
     bool raised;               /* a radar can look under it */
     bool moved;                /* between the measurement and the frame's time */
 };
@@ -52,12 +52,12 @@ struct look {
     struct sensor_pose pose;
     double height_m;          /* of the sensor over the road; 0: the scene is flat */
     bool sees_over;           /* the sensor may see over objects and under them */
-    bool sees_under;          /* and a class of the frame has a clearance */
+    bool sees_under;          /* sees_over, and a class of the frame has a clearance */
     double wavelength_m;      /* for diffraction; 0: none is simulated */
     double rim_m;             /* width of the zone beside a body where diffraction is felt */
     bool ego_moved;           /* between the measurement and the frame's time */
-    struct vec2 view_right;   /* right border of the field of view at low elevations, and */
-    struct vec2 view_left;    /* the left one; both zero: all directions may be in view */
+    struct vec2 view_right;   /* right border of the field of view at low elevations */
+    struct vec2 view_left;    /* left border; both zero: all directions may be in view */
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
     struct look_set *sets;                 /* in the frame's order */
@@ -107,7 +107,7 @@ struct look_extent look_reflectors_extent(const struct look *look, const struct 
 double look_within_range_m(const struct look *look, const struct kinematics *read);
 double look_within_view_rad(const struct look *look, double azimuth_rad);
 
-/* Margins with this sight margin; none in a frame that carries no margins. */
+/* Margins whose sight_m is margin_m; no margins in a frame that carries none. */
 struct margins look_sight_margins(const struct look *look, double margin_m);
 
 /* True only if nothing within the silhouette can be in range, or in view at low elevations. */
@@ -125,8 +125,8 @@ struct look_stretch {
 };
 
 /* The part of a straight strip of this half width that holds all that may be in range and in view,
- * up to this height over the road. The strip begins at from, and runs endlessly both ways along the
- * unit vector heading. */
+ * up to this height over the road. The strip runs endlessly both ways along the unit vector
+ * heading; lengths along it count from the place `from`. */
 struct look_stretch look_stretch_in_reach(const struct look *look, struct vec2 from,
                                           struct vec2 heading, double half_width_m,
                                           double height_m);

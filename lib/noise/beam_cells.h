@@ -1,17 +1,17 @@
-/* Cells of an array, parted into the beams of echoes.
+/* Divides the cells of an array into beams, with noise.
  *
- * The samples of several echoes at the elements get noise, and every maximum of their beams that
- * counts (array_keep) becomes a cell (MODEL 7.5). An echo belongs to the beam that receives most of
- * it; if that is less than half of its amplitude, it is lost as masked. A beam without an echo of
- * its own is labelled with the one that makes most of its amplitude, and that then labels two
- * beams. */
+ * A cell of several echoes has their samples at the elements. Noise is added to these, and every
+ * maximum of their beams that counts (array_keep) becomes a cell (MODEL 7.5). An echo belongs to
+ * the beam that receives most of its amplitude, if that is at least half, and is lost as masked
+ * otherwise. A beam to which no echo belongs is labelled with the echo that makes most of its
+ * amplitude. That echo then labels two beams, unless it was masked. */
 #pragma once
 
 #include "effects/effect.h"
 
-/* The cells of the sensor, for noise of a stage: those of single echoes as they are, of the others
- * one for each beam, with the shares of its echoes as weights. Range and range rate are the means
- * over these, and the azimuth is that of the beam without noise. With a scan, the member beam has
- * the place in noise; without one (NULL) no noise is added. */
+/* The cells of the sensor: those without samples as they are, and for the others one cell for each
+ * beam. Its members are weighted by their shares of its amplitude, its range and range rate are the
+ * means over them, its azimuth is that of the beam without noise, and its member beam is the
+ * maximum in noise. Without scan (NULL) there is no noise. Masked echoes are lost to the stage. */
 struct cell_span beam_cells_of(struct frame *frame, const char *stage, const struct sensor *sensor,
                                const struct effect_scan *scan);

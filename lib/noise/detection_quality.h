@@ -18,7 +18,7 @@ struct existence {
 };
 
 /* The probability, in [0, 1], that a detection of a power >= 0 is an echo and not noise, by Bayes'
- * rule. 1 for a power that neither can have. */
+ * rule; 1 for a power that neither of the two can have. */
 double detection_quality_existence(const struct existence *existence, double power);
 
 /* Properties of a scan that the quality of its detections depends on. */

@@ -3,7 +3,7 @@
  * The dipole pair is equation (6) of the paper (MODEL 7.1): two half-wavelength dipoles half a
  * wavelength apart, with phases counted from the first dipole (PHASE_ELEMENT, the equation as
  * printed) or from the array's centre (PHASE_CENTRE). A cell with one echo has the same angle
- * either way, a cell with several has not (MODEL 8.1).
+ * either way, a cell with several echoes does not (MODEL 8.1).
  *
  * A measured pattern is a table of sum and delta amplitudes over azimuth. Both are linear between
  * rows and zero outside the table; delta is signed, positive to the left. Between two rows

@@ -39,8 +39,8 @@ struct array {
     size_t turn[ARRAY_MOST_ELEMENTS]; /* the transmitter of each element, from the right */
     double weight[ARRAY_MOST_ELEMENTS];
     double noise;                       /* RMS of a beam's noise if each element's has RMS 1 */
-    double signal_moment, noise_moment; /* of (2 pi m)^2 under w and under w^2 */
-    double envelope[ARRAY_PADDING * ARRAY_MOST_ELEMENTS / 2 + 1]; /* by steps of the transform */
+    double signal_moment, noise_moment; /* means of (2 pi m)^2, weighted by w and w^2 */
+    double envelope[ARRAY_PADDING * ARRAY_MOST_ELEMENTS / 2 + 1]; /* highest lobe from each step */
     struct phasor root[ARRAY_PADDING * ARRAY_MOST_ELEMENTS];      /* exp(-2 pi j k/(8 N)) */
 };
 

@@ -1,4 +1,4 @@
-/* Random levels that stay alike over a distance.
+/* Random levels that change gradually over a distance.
  *
  * Knots stand at the whole numbers of a line or a plane. Each has a standard normal value e of its
  * own, drawn by address, and a place has a weighted sum of the values at the knots around it (MODEL
@@ -7,8 +7,8 @@
  *     g(x) = cos(pi t/2) e_k + sin(pi t/2) e_(k+1).
  *
  * So g is continuous, is standard normal at every place, and needs no state: it is the same
- * wherever a stream is cut. Places d knots apart have the correlation (1 - d/2) cos(pi d/2)
- * + sin(pi d/2)/pi, averaged over where the knots stand, and none from d = 2 on. In a plane weights
+ * wherever a stream is cut. Places d knots apart have the correlation (1 - d/2) cos(pi d/2) +
+ * sin(pi d/2)/pi, averaged over where the knots stand, and none from d = 2 on. In a plane weights
  * are products, and so are correlations. */
 #pragma once
 
@@ -23,7 +23,7 @@ double level_on_line(const struct random_address *line, enum random_purpose purp
 double level_on_turn(const struct random_address *plane, enum random_purpose purpose, double x,
                      double y, int64_t turn);
 
-/* Over all levels, do the reflectors' cross sections give the mean of the power or its median? */
+/* The cross sections of reflectors are the mean, or the median, of the power over all levels. */
 enum level_keeps { LEVEL_KEEPS_MEAN, LEVEL_KEEPS_MEDIAN };
 
 /* The mean of a normal level in dB for which the mean of its power is 1: -(ln 10/20) sigma_db^2. */

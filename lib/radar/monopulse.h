@@ -1,6 +1,6 @@
 /* Azimuth read from the sum and delta channels.
  *
- * |delta|/|sum| has the size of the azimuth, the phase between both its sign (MODEL 7.2, 7.4). */
+ * |delta|/|sum| tells the size of the azimuth, their relative phase its sign (MODEL 7.2, 7.4). */
 #pragma once
 
 #include "radar/antenna.h"
@@ -11,8 +11,8 @@ enum monopulse_estimator {
      * last bit of a pointer may decide without that flag, if nearly equal echoes lie within about 1
      * degree to both sides of boresight; the azimuth is then below 7e-4 rad (hard case 11). */
     MONOPULSE_MAGNITUDE,
-    /* The signed ratio -Im(delta conj(sum)) / |sum|^2: for one echo the same azimuth, for several
-     * continuous. */
+    /* The signed ratio -Im(delta conj(sum)) / |sum|^2: for one echo the same azimuth; for several
+     * it changes continuously with the pointers. */
     MONOPULSE_RATIO,
     MONOPULSE_BEAMS, /* the maxima of an array's beams (radar/array.h): not read by this module */
 };

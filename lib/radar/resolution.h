@@ -25,8 +25,8 @@ struct resolution_echo {
     double phase_rad; /* of coherent echoes */
 };
 
-/* The part of an echo's amplitude that lies at its leader's place: the response to a pulse that the
- * cell resolves, 1 for the leader itself. */
+/* The part of an echo's amplitude at its leader's place: the response of a pulse whose resolution
+ * is half a cell; 1 for the leader itself. */
 double resolution_response(const struct resolution_echo *leader, const struct resolution_echo *echo,
                            const struct resolution *resolution);
 

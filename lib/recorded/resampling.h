@@ -1,4 +1,4 @@
-/* A recording at another rate than its own.
+/* Resamples a recording to another rate.
  *
  * Places and velocities follow the cubic Hermite curve between two steps, yaws the shorter arc; yaw
  * rates and distances travelled are linear; class and sizes stay. A road user is there from its

@@ -1,4 +1,4 @@
-/* Which suite of sensors, and which of its effects. They are asked for at glint-ideal, written into
+/* The suite and the effects that a run simulates. They are chosen at glint-ideal, written into
  * every frame, and obeyed by the stages after it.
  *
  * A stage after ideal may be given a suite or effects as well, but only those that the frame was

@@ -11,7 +11,7 @@ struct effect_scan;
 
 struct received_echo {
     struct contributor echo;        /* the ideal values, with weight 0 */
-    double strength;                /* G = A_ref(R) ERCS, before the antenna pattern of arrival */
+    double strength;                /* G = A_ref(R) ERCS, before the antenna */
     double amplitude;               /* A = G A_phi, equation (2) */
     double range_m, range_rate_mps; /* as the radar measures them, perhaps folded */
     double phase_rad;               /* relative to others; 0 in the paper */

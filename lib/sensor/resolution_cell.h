@@ -21,9 +21,9 @@ struct resolution_echo resolution_cell_place(const struct received_echo *echo);
 bool resolution_cell_measure(const struct sensor *sensor, struct antenna_pointers pointers,
                              struct cell *cell);
 
-/* Sets the azimuth and the sum pointer of a cell of an array, whose delta pointer is 0: those of a
- * single echo, or the samples of several at the elements, and the strongest beam's. False if the
- * amplitude is 0. */
+/* For an array: sets a cell's azimuth and sum pointer, to those of a single echo, or to those of
+ * the strongest beam of several echoes, whose samples at the elements it adds to the cell. The
+ * delta pointer stays 0. False if the amplitude is 0. */
 bool resolution_cell_see(const struct sensor *sensor, const struct received_echo *echoes,
                          size_t count, struct arena *arena, struct cell *cell);
 
@@ -36,8 +36,8 @@ bool resolution_cell_see(const struct sensor *sensor, const struct received_echo
  *                        these cancel to no less than 1e-15 of their sizes (hard case 13)
  *
  * Without superpose the pointers are those of one echo of the summed strength at the echoes' mean
- * azimuth; for a single echo they are the same bit for bit. An array has beams instead. False as
- * resolution_cell_measure. */
+ * azimuth; for a single echo they are the same bit for bit. An array uses resolution_cell_see
+ * instead. False as resolution_cell_measure and resolution_cell_see. */
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell);
 
@@ -55,9 +55,9 @@ struct clustered_echoes {
     struct resolution resolution;
 };
 
-/* The margins of all cells from their members and from clustering: the least sight_m of a cell's
- * members and, unless echoes are coherent, two margins from pairs of a leader and an echo that had
- * no cell yet when the leader opened its own, if one of the two is in the cell. cell_edge is the
+/* The margins of all cells from their members and from clustering. sight_m is the least of a cell's
+ * members. Unless echoes are coherent, a leader and each echo that had no cell yet when the leader
+ * opened its own are a pair, which gives two margins to the cells of both. cell_edge is the
  * distance, in half cells, of the echo from the edge of the leader's cell: from the nearer edge if
  * it is a member, else from the edge that it is farthest beyond. leader_db is the leader's lead in
  * amplitude, if the two are within two half cells of each other. */

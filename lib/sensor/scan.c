@@ -27,7 +27,7 @@ struct scan scan_receive(const struct effect_scan *context)
     return scan;
 }
 
-/* Leaves of the echoes of a coherent cell what lies at their leader's place. */
+/* Reduces the echoes of a coherent cell to their parts at the leader's place. */
 static void respond(struct received_echo *members, size_t count,
                     const struct resolution *resolution)
 {

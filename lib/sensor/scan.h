@@ -11,7 +11,7 @@ struct scan {
     struct echo_span added;              /* echoes that effects add: of wheels, limbs, clutter */
     struct clustered_echoes received;    /* the echoes of positive amplitude */
     size_t cells;                        /* number of cells, in the order of their leaders */
-    const struct received_echo *by_cell; /* the same cell by cell, each as its cell has it */
+    const struct received_echo *by_cell; /* the same by cell; coherent ones as at their leader */
     const size_t *first;                 /* first echo of each cell in by_cell, then the total */
     const struct received_echo *silent;  /* echoes without amplitude, which are in no cell */
     size_t silent_count;

@@ -17,7 +17,7 @@ struct detection {
     double amplitude;
     struct antenna_pointers pointers; /* of sum and delta channels; 0 for an array */
     bool sign_undecided;
-    const struct array_maximum *beam; /* of an array, by noise in units of amplitude; else NULL */
+    const struct array_maximum *beam; /* of an array, sigma for noise of amplitude 1; else NULL */
     struct cell cell;                 /* from the labelled echoes alone, without noise */
 };
 
@@ -26,7 +26,7 @@ struct detections {
     const struct range_doppler *spectrum;
     struct cfar cfar;
     double noise;  /* RMS in a bin; 0: none */
-    double least;  /* amplitude of a detection; 0 with noise, which makes the threshold */
+    double least;  /* least amplitude of a detection; 0 with noise: CFAR decides */
     double time_s; /* instant of the measurement */
     LIST_OF(struct detection) list;
 };
@@ -50,8 +50,8 @@ void detections_list(const struct detections *detections, struct frame *frame, c
 
 /* Sets the standard deviations of the measurement of a single echo (MODEL 14.21) by the Cramer-Rao
  * bound of the window and of the elements, or by the slope of sum and delta. The range error of a
- * chirp contains the error of the range rate. Each is at most that of a value anywhere in a cell,
- * or in the field of view. With sum and delta channels it also sets looks_merged. peak is the
+ * chirp contains the error of the range rate. Each is at most that of a value that is uniform in a
+ * cell, or in the field of view. With sum and delta channels it also sets looks_merged. peak is the
  * amplitude of the peak, over all beams; noise > 0 is the RMS of noise in the peak's cell of the
  * spectrum, in units of peak and of the measurement's amplitude and pointers. */
 void detections_estimate(const struct signal_cube *signal, double peak, double noise,

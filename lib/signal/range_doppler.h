@@ -4,11 +4,11 @@
  * range_padding by rate_padding to a bin. The axis of rates is a ring; that of ranges is one if all
  * cells of a row are kept.
  *
- * A peak is a cell whose strongest beam has at least the power of the eight neighbours. In one beam
- * it must exceed the CFAR threshold (cfar.h) among the range rates of its range; along range, walls
- * and rows of posts would hide themselves. Place and amplitude are interpolated between the cells
- * (point_response.h). A peak outside the main lobe of a stronger peak counts as a side lobe of it,
- * unless it is at least twice as high as a side lobe can be there. */
+ * A peak is a cell whose strongest beam has at least the power of the eight neighbours. In at least
+ * one beam it must reach the CFAR threshold (cfar.h), which is taken along range rate: along range,
+ * walls and rows of posts would hide themselves. Place and amplitude are interpolated between the
+ * cells (point_response.h). A peak outside the main lobe of a stronger peak counts as a side lobe
+ * of it, unless it is at least twice as high as a side lobe can be there. */
 #pragma once
 
 #include <stdbool.h>

@@ -6,13 +6,13 @@
  * sensor's ranges. The caller then transforms the first train over the repetitions into the
  * spectrum; the second train stays as it is.
  *
- * Every echo has the exact phase of its delay at the sample's instant. Channels weight it with the
- * antenna's sum and delta pointers at its azimuth, or, for a row of elements, with the magnitude of
- * the sum pointer and the phase of the element's place. Transmitters of an array send one after
- * another in a repetition. Its amplitude is that of the received echo
- * in glint-sensor. pointer_sigma is the RMS noise of a cell after windows and transforms, over all
- * elements together, as in glint-noise. Noise of pulses has passed a matched receiver: its
- * correlation over range is their point response. */
+ * Every echo has the amplitude of the received echo in glint-sensor, and the exact phase of its
+ * delay at the sample's instant. Channels weight it with the antenna's sum and delta pointers at
+ * its azimuth, or, for a row of elements, with the magnitude of the sum pointer and the phase of
+ * the element's place. Transmitters of an array send one after another in a repetition.
+ * pointer_sigma is the RMS noise of a cell after windows and transforms, over all elements
+ * together, as in glint-noise. Noise of pulses has passed a matched receiver: its correlation over
+ * range is their point response. */
 #pragma once
 
 #include "base/random.h"
@@ -36,10 +36,10 @@ struct signal_cube {
     double chirp_s;                     /* its length, < 0 if the frequency falls; 0 for pulses */
     double coupling;                    /* bins of range that a rate of 1 m/s adds; 0 for pulses */
     double fold_mps;                    /* range rates this far apart share a bin */
-    size_t folds;                       /* that the second train resolves; 1: there is none */
+    size_t folds;                       /* folds that the second train resolves; 1: no train */
     struct element_row array;           /* elements 0: the channels are sum and delta */
     size_t turns;                       /* transmitters that take turns in a repetition, or 1 */
-    const size_t *turn;                 /* of each channel */
+    const size_t *turn;                 /* of the transmitter of each channel */
     size_t range_padding, row_cells;    /* cells to a bin; cells of a transformed row */
     ptrdiff_t first_cell;               /* first cell kept; below 0: from the row's end on */
     size_t range_cells;                 /* number of cells kept */
@@ -47,7 +47,7 @@ struct signal_cube {
     struct phasor *tone;                /* scratch: the samples of one echo */
     struct phasor *rows;                /* [channel][row cell]: one repetition */
     struct phasor *spectrum;            /* [channel][rate cell][range cell] */
-    struct phasor *second;              /* [channel][repetition][range cell]; NULL without */
+    struct phasor *second;              /* [channel][repetition][range cell]; NULL: none */
 };
 
 /* Input of the receivers in one scan. */
@@ -61,8 +61,8 @@ struct signal_input {
 /* The cube of a sensor with a waveform. */
 struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *arena);
 
-/* The phase, in turns, of a channel's transmitter against the first one's, as it sends later, for
- * an echo with this range rate. */
+/* The phase, in turns, that an echo with this range rate has in a channel more than in those of the
+ * first transmitter, because the channel's transmitter sends later. */
 double signal_cube_turn_phase(const struct signal_cube *signal, size_t channel, double rate_mps);
 
 /* Time of a repetition after the measurement. */

@@ -1,4 +1,4 @@
-/* The true one of the range rates that fold alike.
+/* Chooses the true one of range rates that fold alike.
  *
  * The hypotheses are the range rates v + 2 k v_u within the folds of the waveform that put the peak
  * within the sensor's ranges: a chirp measures R + carrier_hz v/slope for the range R, so each has
@@ -18,8 +18,8 @@ struct unfolding_reading {
 bool unfolding_read(const struct signal_cube *signal, const struct range_doppler_peak *peak,
                     double rate_mps, struct unfolding_reading *reading);
 
-/* Chooses for a peak of this amplitude, in a beam at the sine of an azimuth if there are elements.
- * False without a hypothesis. Without a second train the rate is that of the peak, in [-v_u, v_u).
- */
+/* Chooses the reading of a peak of this amplitude; sine is that of its beam's azimuth, if there are
+ * elements. False without a hypothesis. Without a second train the rate is that of the peak, in
+ * [-v_u, v_u). */
 bool unfolding_choose(const struct signal_cube *signal, const struct range_doppler_peak *peak,
                       double amplitude, double sine, struct unfolding_reading *reading);

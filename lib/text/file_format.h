@@ -1,4 +1,4 @@
-/* Which format a file has, and what reads it.
+/* Formats of files, and the programs that read them.
  *
  * After a reader has refused a file, the message names the format of the file and the program that
  * reads it. */
