@@ -16,7 +16,7 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 }
 
 const struct effect effect_ambiguity = {
-    .summary = "ranges and range rates beyond those that the waveform can tell fold back",
+    .summary = "ranges and range rates outside the unambiguous interval fold into it",
     .cause = "unambiguous_range_m and unambiguous_rate_mps of a sensor",
     .left_out_when = "the sensor has neither unambiguous_range_m nor unambiguous_rate_mps",
     .cost = "two remainders per echo",

@@ -53,8 +53,8 @@ static bool add_noise_to_azimuth(const struct effect_scan *scan,
 }
 
 const struct effect effect_angle_noise = {
-    .summary = "noise on the sum and delta channels disturbs angle and amplitude, and the angle "
-               "has a floor",
+    .summary = "noise on the sum and delta channels disturbs angle and amplitude; the angle's "
+               "error has a floor",
     .cause = "pointer_sigma and azimuth_floor_rad of a sensor",
     .left_out_when = "the sensor's pointer_sigma and azimuth_floor_rad are 0",
     .cost = "four draws and an angle per cell, and two draws for the floor",

@@ -5,7 +5,7 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 {
     const struct sensor *sensor = scan->sensor;
     if ((reception->echo->effects & EFFECT_BIT(EFFECT_ROADSIDE)) != 0)
-        return false; /* its level has a law of its own */
+        return false; /* roadside echoes have a level of their own */
     struct random_address address = frame_draw_address_in(scan->address, reception->echo->id);
     double uniform[4];
     random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);

@@ -16,7 +16,7 @@ static bool described(const struct effect_scan *scan)
     return false;
 }
 
-/* The road's complex permittivity and its roughness in m, which is assumed, as is asphalt. */
+/* The road's complex permittivity and its roughness in m. Asphalt and roughness are assumed. */
 static const double *begin(const struct effect_scan *scan)
 {
     double *constants = arena_get(scan->frame->arena, 3 * sizeof *constants);
