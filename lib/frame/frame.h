@@ -154,7 +154,7 @@ struct cell {
     uint64_t effects;    /* EFFECT_BITs of those that changed a value of the cell or a member */
     LIST_OF(struct contributor) members;
     LIST_OF(struct phasor) elements; /* of an array, without noise; empty for a single echo */
-    /* The beam in which noise_beams found the cell, with noise; NULL elsewhere and on the wire. */
+    /* The noisy beam of which beam_cells made this cell; NULL elsewhere and on the wire. */
     const struct array_maximum *beam;
     bool repeats; /* is its label that of another cell of the frame as well? Not on the wire */
     struct margins margins;

@@ -13,8 +13,8 @@ struct sighting {
     const char *sensor, *object;
     int64_t reflectors, in_range, in_view, blocked;
     double blocked_share; /* blocked over in_view; 0 if in_view is 0 */
-    int visibility;     /* level of nuScenes: 0 to 3 for a share that is not hidden below 0.4, 0.6,
-                         * 0.8 or up to 1; 4: in_view is 0 */
+    int visibility; /* level of nuScenes by the share that is not hidden: 0 below 0.4, 1 below 0.6,
+                     * 2 below 0.8, else 3; 4: in_view is 0 */
     int64_t detections; /* targets with a contributor of the object on a path without mirrors */
     int64_t merged;     /* detections that also have a contributor of another object */
     int64_t ghosts;     /* targets with a contributor of the object on a path by a mirror */

@@ -10,7 +10,7 @@
 typedef void extraction_describe(const void *state, const struct vehicle *vehicle,
                                  struct reflector_set *set, struct arena *arena);
 
-/* With what the state of every stage that extracts begins, and for its table of options. */
+/* First member of the state of every stage that extracts, and its row in the table of options. */
 struct extraction {
     const char *vehicles; /* a folder of documents, before all others; NULL: none */
 };

@@ -10,7 +10,7 @@
 #include "run/tool.h"
 #include "text/output.h"
 
-/* Where a tool's frames come from: next gives 1 and a frame, 0 at the end, or -1 after a message in
+/* The source of a tool's frames: next gives 1 and a frame, 0 at the end, or -1 after a message in
  * the tool's diag. */
 struct frame_source {
     int (*next)(void *from, struct frame **frame);

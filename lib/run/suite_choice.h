@@ -41,8 +41,8 @@ extern const struct record suite_choice_record;
 const struct suite *suite_choice_load(struct runner *runner, const char *name);
 const struct suite *suite_choice_of_frame(struct runner *runner, const struct frame *frame);
 
-/* What ideal writes into every frame: name and digest of the suite, and the text of the effects,
- * which is the option's, or else the suite's, or else "auto". */
+/* Sets what ideal writes into every frame: name and digest of the suite, and the text of the
+ * effects, which is the option's, or else the suite's, or else "auto". */
 int suite_choice_request(const struct suite_choice *choice, const struct suite *suite,
                          struct sensors *request, struct diag *diag);
 

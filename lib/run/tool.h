@@ -22,8 +22,8 @@ struct suite_choice;
  * stream expects. */
 int runner_frame(struct runner *runner, struct frame **frame);
 
-/* What --output names, or standard output. NULL after a message. Open outputs before the first
- * frame, so that a place where nothing can be written is refused before the work. */
+/* The output that --output names, or standard output. NULL after a message. Open outputs before the
+ * first frame, so that a place where nothing can be written is refused before the work. */
 struct output *runner_output(struct runner *runner);
 
 /* A file beside that output. NULL after a message, also if both are one file. */

@@ -21,7 +21,7 @@ char *path_folder(const char *path);
 /* The path at the end of a chain of links. There need be no file of that name. */
 char *path_target(const char *path);
 
-/* Whether two paths lead to one file. Files are compared by device and inode, so a link and another
+/* True if two paths lead to one file. Files are compared by device and inode, so a link and another
  * spelling of the path are the same file. Two files that are not there are the same if they would
  * have one name in one folder, also through links. A terminal or another character device never
  * counts as the same file, because writing to it destroys nothing. */
