@@ -115,7 +115,7 @@ def print_skills(second, results, scores):
             bodies = sorted({key[0] for key in ideal})
             left = {body: gains(scores[chain], scores[before], ideal, scans, body) for body in bodies if len(bodies) > 1}
             print(f"gain of {chain.name} over {before.name}: {points:.1f} points;", ", ".join(
-                f"without {body} {rest:.1f}{' (vanishes)' * (lowest <= 0)}" for body, (rest, lowest, _) in left.items()))
+                f"without body {body} {rest:.1f}{' (vanishes)' * (lowest <= 0)}" for body, (rest, lowest, _) in left.items()))
 
 
 def kept(recording, folder):
@@ -181,7 +181,7 @@ def print_components(second, fit, folder, scores):
     for name, chain, document in Progress("components").over(trials):
         lists, _ = chains.run(chain, document, fit, second)
         lost.append((gains(scores[best], second.scores(lists), scores[chains.IDEAL], scans), name))
-    print(f"\nof {best.name}, most is lost")
+    print(f"\n{best.name}, these cost most skill")
     for (points, least, most), name in sorted(lost, reverse=True)[:3]:
         print(f"{name:38} {points:6.1f} points, {least:.1f} to {most:.1f}")
 

@@ -117,7 +117,7 @@ def effect_cells(rows, row, noise):
         return ["", "", ""]
     more = spent_more(rows, row)
     rate = ""
-    if told(row) and more is not None:
+    if told(row) > 0 and more is not None:
         rate = f"{row['gain'] / more:.2g}" if more > noise else "free"
     return [with_interval(row), "" if more is None else f"{more:.0f}", rate]
 
@@ -131,7 +131,7 @@ def effects(rows, radar):
     noise = noise_us(rows, radar)
     text = f"\nEffects, {RADARS[radar]}: points of the squared error that an effect takes away; "
     text += f"differences of times below {noise:.0f} µs are not significant\n\n"
-    text += head(["effect", "added to the paper's", "µs", "points per µs", "in all others", "µs", "points per µs"])
+    text += head(["effect", "added to the paper's model", "µs", "points per µs", "in all others", "µs", "points per µs"])
     gains = {}
     for row in own:
         gains[row["chain"]] = max(gains.get(row["chain"], -1000), row.get("gain", 0))
@@ -146,7 +146,7 @@ def verdicts(rows, radar):
     text = "\n"
     if not measured(rows, radar):
         return text + "Ideal echoes are not told from the reference, so there are no errors.\n"
-    for group, where in (("added", "added to the paper's"), ("left out", "in all others")):
+    for group, where in (("added", "added to the paper's model"), ("left out", "in all others")):
         own = pick(rows, radar=radar, group=group)
         said = {"gain": [row for row in own if told(row) > 0], "harm": [row for row in own if told(row) < 0],
                 "have no significant gain, or one below 0.01": [row for row in own if not told(row) and changes(row)],
