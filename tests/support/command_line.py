@@ -2,14 +2,18 @@
 import os
 import sys
 
-USAGE = 64
+USAGE, IO = 64, 74
 
 
 def check(text, good):
     """text is the one at the script's head; good says whether the words after its name are a command line of it."""
     name, words = os.path.basename(sys.argv[0]), sys.argv[1:]
     if words[:1] in (["-h"], ["--help"]):
-        print(text.strip())
+        try:
+            os.write(1, (text.strip() + "\n").encode())
+        except OSError as error:
+            print(f"{name}: {error.strerror}", file=sys.stderr)
+            sys.exit(IO)
         sys.exit()
     if not good:
         print(f"{name}: unknown command line: {' '.join(words) or '(empty)'}; see --help", file=sys.stderr)
