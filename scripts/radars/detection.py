@@ -11,9 +11,9 @@ class Law:
 
     def __init__(self, members):
         levels = [(math.hypot(*(members.get(f"level_{name}_db", 0) for name in ("constant", "slow", "fast"))), members.get("level_keeps"))]
-        if members["fluctuation"] == "log_normal":
+        if members.get("fluctuation") == "log_normal":
             levels.append((members.get("fluctuation_sigma_db", 3.41), "mean"))
-        self.order, self.final = ORDERS.get(members["fluctuation"]), members.get("final_threshold", True)
+        self.order, self.final = ORDERS.get(members.get("fluctuation")), members.get("final_threshold", True)
         self.sigma_db = math.hypot(*(sigma_db for sigma_db, _ in levels))
         self.mean_db = sum(-math.log(10) / 20 * sigma_db ** 2 for sigma_db, keeps in levels if keeps != "median")
 
