@@ -49,7 +49,7 @@ def suite_name(word):
     return os.path.splitext(os.path.basename(word))[0]
 
 
-TABLES = "antenna_table", "range_curve", "azimuth_curve", "elevation_curve"
+TABLES = "antenna_table", "range_curve", "azimuth_curve", "elevation_curve", "azimuth_floor_curve"
 
 
 def copies_of_tables(suite):

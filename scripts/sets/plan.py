@@ -48,7 +48,7 @@ def read_json(path):
     try:
         with open(path, encoding="utf-8") as file:
             return json.load(file, object_pairs_hook=glint.once, parse_constant=glint.no_constant)
-    except FileNotFoundError as error:
+    except OSError as error:
         raise Fault(NO_INPUT, f"{path}: {error.strerror}") from error
     except json.JSONDecodeError as error:
         raise Fault(BAD_DATA, f"{path}:{error.lineno}: {error.msg}") from error
