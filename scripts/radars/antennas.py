@@ -141,7 +141,7 @@ def floors(scan, rows, snr):
     return {"azimuth_floor_curve": curve}
 
 
-def write(rows, path):
-    with open(path, "w", encoding="ascii") as out:
-        out.write("azimuth_rad,sum,delta\n" if len(rows[0]) == 3 else "azimuth_rad,level_db\n")
-        out.writelines(",".join(f"{value:.12g}" for value in row) + "\n" for row in rows)
+def text_of(rows):
+    """A table as a file has it."""
+    heading = "azimuth_rad,sum,delta\n" if len(rows[0]) == 3 else "azimuth_rad,level_db\n"
+    return heading + "".join(",".join(f"{value:.12g}" for value in row) + "\n" for row in rows)

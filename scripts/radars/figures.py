@@ -26,10 +26,13 @@ COLUMNS = {"azimuth_deg": (-180, 180), "range_max_m": (1e-3, 1e5), "accuracy_deg
 WORDS = {"detected_object": ("car", "truck", "motorcycle", "pedestrian"), "fluctuation": ("none", "swerling_1", "swerling_3"),
          "list_order": ("strongest", "nearest")}
 LISTS = ("range_limits", "azimuth_accuracies", "gains", "transmit_positions_wavelengths", "receive_positions_wavelengths")
-ABOUT = ("name", "origin", "document", "sources", "extends", "radars", "scans")  # are no figures
+# What is no figure, with the levels on which it may stand.
+LEVELS = ("the sheet", "a radar", "a scan")
+ABOUT = {"origin": LEVELS[:1], "document": LEVELS[:1], "extends": LEVELS[:1], "radars": LEVELS[:1], "scans": LEVELS[1:2], "name": LEVELS[1:],
+         "sources": LEVELS, "members": LEVELS}
 
 
-class Refused(Exception):
+class Refused(ValueError):
     """What is wrong with a sheet, in a sentence."""
 
 
@@ -47,7 +50,7 @@ def others(name):
     return spelled
 
 
-FIRST = {spelling: name for name in (*BOUNDS, *WORDS, *LISTS, "members") for spelling, _ in others(name)}
+FIRST = {spelling: name for name in (*BOUNDS, *WORDS, *LISTS) for spelling, _ in others(name)}
 
 
 def scale(name):
@@ -68,17 +71,19 @@ def expect(path, value, good, words):
 
 def check_known(path, name):
     if name not in FIRST:
-        near = difflib.get_close_matches(name, FIRST, 1)
+        near = difflib.get_close_matches(name, [*FIRST, *ABOUT], 1)
         raise Refused(f"{path}{name}: unknown figure" + (f"; did you mean {near[0]}?" if near else ""))
 
 
 def check_names(part, path=""):
-    """Refuses members that no figure has, and members about the sheet that are of another kind."""
+    """Refuses members that no figure has, and members that are no figures but of another kind or level."""
     expect(path.rstrip(".") or "the sheet", part, isinstance(part, dict), "an object of figures")
     for name, value in part.items():
         where = path + name
         if name not in ABOUT:
             check_known(path, name)
+        elif LEVELS[path.count(".")] not in ABOUT[name]:
+            raise Refused(f"{where}: expected only in {' or '.join(ABOUT[name])}, not in {LEVELS[path.count('.')]}")
         elif name in ("radars", "scans"):
             expect(where, value, isinstance(value, list) and value, "a list of one or more objects")
             for i, one in enumerate(value):
@@ -87,9 +92,11 @@ def check_names(part, path=""):
             expect(where, value, isinstance(value, dict), "an object of texts")
             for figure, text in value.items():
                 check_known(where + ".", figure)
-                expect(f"{where}.{figure}", text, isinstance(text, str), "a text")
+                expect(f"{where}.{figure}", text, isinstance(text, str) and len(text) < 240, "a text of at most 239 letters")
+        elif name == "members":
+            expect(where, value, isinstance(value, dict) and value and "name" not in value, "an object of members other than name")
         else:
-            expect(where, value, isinstance(value, str), "a text")
+            expect(where, value, isinstance(value, str) and 0 < len(value) < 240, "a text of 1 to 239 letters")
             expect(where, value, name != "name" or re.fullmatch(r"[\w-]+", value), "letters, digits, _ and -")
 
 
@@ -98,13 +105,14 @@ class Figures:
 
     def __init__(self, scan, sheet, *parts):
         self.scan, self.document, self.extends = scan, sheet.get("document", "the data sheet"), sheet.get("extends")
-        self.values, self.sources, self.used = {}, {}, set()
+        self.values, self.sources, self.members, self.used = {}, {}, {}, set()
         for part in (sheet, *parts):
             for name in part:
                 for other, _ in others(name):
                     self.values.pop(other, None)
             self.values |= {name: value for name, value in part.items() if name not in ABOUT}
             self.sources |= part.get("sources", {})
+            self.members |= part.get("members", {})
 
     def __contains__(self, name):
         return any(spelling in self.values for spelling, _ in others(name))
@@ -140,21 +148,21 @@ class Figures:
                 raise Refused(f"{self.scan}: {self.told(*given[0])} and {self.told(name, value)} contradict each other")
         return given[0] if given else (None, None)
 
-    def whole(self, name, kind, words):
-        """A figure that is a list or an object; an empty one if the sheet does not have it."""
+    def whole(self, name, words):
+        """A figure that is a list; an empty one if the sheet does not have it."""
         self.used.add(name)
-        value = self.values.get(name, kind())
-        expect(f"{self.scan}: {name}", value, isinstance(value, kind) and (value or name not in self.values), words)
+        value = self.values.get(name, [])
+        expect(f"{self.scan}: {name}", value, isinstance(value, list) and (value or name not in self.values), words)
         return value
 
     def places(self, name):
         """Places of elements, a list of numbers; [] if the sheet does not have them."""
-        return [number(f"{self.scan}: {name}[{i}]", one, -1e4, 1e4) for i, one in enumerate(self.whole(name, list, "a list of numbers"))]
+        return [number(f"{self.scan}: {name}[{i}]", one, -1e4, 1e4) for i, one in enumerate(self.whole(name, "a list of numbers"))]
 
     def rows(self, name, *columns):
         """Rows of a figure over azimuth: (azimuth in rad, value), ascending; the value is that of the first column it has."""
         found = []
-        for i, row in enumerate(self.whole(name, list, "a list of rows")):
+        for i, row in enumerate(self.whole(name, "a list of rows")):
             path, given = f"{self.scan}: {name}[{i}]", [column for column in columns if isinstance(row, dict) and column in row]
             expect(path, row, len(given) == 1 and row.keys() == {"azimuth_deg", *given}, f"azimuth_deg and one of {', '.join(columns)}")
             for column, value in row.items():

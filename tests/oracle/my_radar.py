@@ -9,6 +9,7 @@ In the whole chain probabilities of detection are counted, to five standard erro
 import csv
 import json
 import math
+import os
 import re
 import subprocess
 import sys
@@ -27,7 +28,18 @@ def made(bench, sheet):
     """The script's result on a sheet, and the suite's path."""
     path, out = bench.scratch / "sheet.json", bench.scratch / "made.json"
     path.write_text(json.dumps(sheet))
-    return subprocess.run([SCRIPT, path, "-o", out], capture_output=True, check=False, text=True), out
+    return run(path, "-o", out), out
+
+
+def run(*words, limit=None, **variables):
+    """The script's result. No file may be longer than `limit` KiB."""
+    words = [SCRIPT, *words] if limit is None else ["bash", "-c", f'ulimit -f {limit}; exec "$@"', "-", SCRIPT, *words]
+    return subprocess.run(words, capture_output=True, check=False, text=True, env=os.environ | variables)
+
+
+def reads(bench, suite):
+    """What glint says against a suite; an empty text if it takes it."""
+    return subprocess.run([bench.bin / "glint", "--datasheet", suite], capture_output=True, check=False, text=True).stderr
 
 
 def printed(bench, sheet):
@@ -253,9 +265,8 @@ def extended(bench):
     accuracy, _ = last_accuracy(parts["rear_right"])
     for value, expected in zip(accuracy, (0.05, 0.004, 2, 2, 2, 2)):
         hold(bench, "accuracy beside that of the extended suite", value, expected, 0.06)
-    refused = subprocess.run([bench.bin / "glint", "--datasheet", made(bench, {"extends": "lrr77-full", "range_resolution_m": 0.3})[1]],
-                             capture_output=True, check=False, text=True)
-    bench.check("chirp_slope_hzps" in refused.stderr, f"the chirp of another cell: {refused.stderr}")
+    refused = reads(bench, made(bench, {"extends": "lrr77-full", "range_resolution_m": 0.3})[1])
+    bench.check("chirp_slope_hzps" in refused, f"the chirp of another cell: {refused}")
     chirp = dict.fromkeys(("chirp_slope_hzps", "chirp_s", "receiver_bandwidth_hz"))
     part = printed(bench, {"extends": "lrr77-full", "range_resolution_m": 0.3, "members": chirp})[0]["front"]
     hold(bench, "resolution without the other chirp", numbers(part, "resolution")[0], 0.3)
@@ -268,6 +279,50 @@ def extended(bench):
     subprocess.run([SCRIPT, bench.scratch / "sheet.json", "-o", bench.scratch / "inner" / "base.json"], check=True)
     part = printed(bench, {"extends": "inner/base.json", "range_max_m": 299.8})[0]
     hold(bench, "false alarms in twice as many cells", numbers(part["front"], "false alarms")[0], 2 * 1e-6 * 149.8 / 2 * 140 / 0.4)
+
+
+def shipped(bench):
+    """Every shipped suite can be extended by figures of detection, and is found from anywhere."""
+    for i, path in enumerate(sorted((model.ROOT / "data/sensors").glob("*.json"))):
+        sheet = {"extends": path.stem} | ({"detected_at_m": 20}, {"detection_probability": 0.8}, {"false_alarm_rate": 1e-5})[i % 3]
+        done, out = made(bench, sheet)
+        fits = "waveform" in path.read_text() or not reads(bench, out)  # a waveform has false alarms of its own
+        bench.check(done.returncode == 0 and fits, f"{sheet}: {done.stderr}")
+    made(bench, {"extends": "corner77-four", "height_m": 0.6})
+    (bench.scratch / "real/deep").mkdir(parents=True)
+    (bench.scratch / "linked").symlink_to("real/deep")
+    for out in "linked/made.json", "made.json":
+        done = run(bench.scratch / "sheet.json", "-o", bench.scratch / out, GLINT_DATA=str(bench.scratch))
+        fault = done.stderr or reads(bench, bench.scratch / out)
+        bench.check(not fault, f"{out} with other data: {fault}")
+
+
+def levels(bench):
+    """Members of the sheet hold for radars with members of their own, for which null takes one away; a table among them is as it is."""
+    radars = [{"name": "a"}, {"name": "b", "members": {"diffraction": True, "bounces": None}}, {"name": "c", "members": {"antenna_table": "own.csv"}}]
+    done, out = made(bench, PLAIN | {"members": {"bounces": 3, "curved_sides": True}, "radars": radars})
+    found = [{name: one.get(name) for name in ("bounces", "curved_sides", "diffraction", "antenna_table")} for one in json.loads(out.read_text())["sensors"]]
+    expected = [(3, True, None, "made-a.csv"), (None, True, True, "made-b.csv"), (3, True, None, "own.csv")]
+    bench.check([tuple(one.values()) for one in found] == expected, f"{found} {done.stderr}")
+
+
+def whole(bench):
+    """A radar that cannot be written leaves the one that is there, and nothing else; a data set has all of its tables."""
+    sheet, folder = model.ROOT / "data/sheets/ars408-21.json", bench.scratch / "whole"
+    (folder / "folder").mkdir(parents=True)
+    run(sheet, "-o", folder / "made.json")
+    before = {path: path.read_bytes() for path in folder.glob("*.*")}
+    bench.check(len(before) == 5, f"files: {list(before)}")
+    for out, limit, code, message in (("made.json", 2, 74, "made.json: File too large"), ("folder", None, 73, "is there, and is no plain file"),
+                                      ("folder/", None, 73, "is there, and is no plain file"), ("no/made.json", None, 73, "no/made.json: No such file")):
+        done = run(sheet, "-o", f"{folder}/{out}", limit=limit)
+        bench.check(done.returncode == code and message in done.stderr, f"{out}: {done.returncode}, {done.stderr}")
+        bench.check(before == {path: path.read_bytes() for path in folder.rglob("*.*")}, f"{out} was not written, and the folder has changed")
+    (folder / "plan.json").write_text(json.dumps({
+        "name": "x", "origin": "x", "sources": [{"random": "sparse", "frames": 1}], "suites": ["./made.json"], "frames_per_shard": 1,
+        "chain": "glint-extract | glint-ideal --sensors {suite} | glint-sensor | glint-noise --sensors {suite}"}))
+    done = subprocess.run([model.ROOT / "scripts/dataset", folder / "plan.json", "--out", folder / "set"], capture_output=True, check=False, text=True)
+    bench.check((folder / "set/documents/sensors/made-front_near-floor.csv").exists(), done.stderr)
 
 
 REFUSED = [
@@ -305,11 +360,30 @@ REFUSED = [
      "gains are down by 3 dB both ways over 9.99 degrees, and with beam_one_way_full_width_deg 40 over 28.3"),
     ({"range_accuracy_m": 0.05, "range_step_m": 0.2}, "range_accuracy_m has 0.05; steps of 0.2 alone have a deviation of 0.05774"),
     ({"extends": "lrr77-signal-small"}, "range_resolution_m 1 beside the waveform of the extended suite"),
-    ({"extends": "no-radar"}, "no-radar.json: No such file or directory"),
+    ({"extends": "no-radar"}, "no-radar.json and "),
     ({"radars": [{"name": "a"}, {"name": "a"}]}, "two radars or scans have the name a"),
     ({"radars": [{"scans": []}]}, "radars[0].scans is []; expected a list of one or more objects"),
     ({"sources": {"range_max": "x"}}, "sources.range_max: unknown figure; did you mean range_max_m?"),
-    ({"name": "a/b"}, 'name is "a/b"; expected letters, digits, _ and -'),
+    ({"radars": [{"name": "a/b"}]}, 'name is "a/b"; expected letters, digits, _ and -'),
+    ({"name": "a"}, "name: expected only in a radar or a scan, not in the sheet"),
+    ({"scans": [{"name": "far"}]}, "scans: expected only in a radar, not in the sheet"),
+    ({"radars": [{"radars": [{}]}]}, "radars[0].radars: expected only in the sheet, not in a radar"),
+    ({"radars": [{"extends": "lrr77"}]}, "radars[0].extends: expected only in the sheet"),
+    ({"radars": [{"scans": [{"scans": [{}]}]}]}, "radars[0].scans[0].scans: expected only in a radar, not in a scan"),
+    ({"radars": [{"name": "front", "azimuth_accuracies": [{"azimuth_deg": 0, "accuracy_deg": 1}, {"azimuth_deg": 30, "accuracy_deg": 2}]},
+                 {"name": "front-floor"}]}, "made-front-floor.csv is a table of another radar or scan"),
+    ({"members": {"carrier_hz": None}, "cycle_ms": 50}, "front: carrier_hz is missing"),
+    ({"members": {"cell_range_rate_mps": "x"}, "cycle_ms": 50}, "front/cell_range_rate_mps: 'x'; expected number"),
+    ({"members": {"cycle_s": "x"}}, "front/cycle_s: 'x'; expected number"),
+    ({"members": {"name": "x"}}, 'members is {"name": "x"}; expected an object of members other than name'),
+    ({"members": {"cycle": 1}}, "front/cycle: unknown member"),
+    ({"list_limit": 2.5}, "front/list_limit: 2.5; expected integer"),
+    ({"range_max_m": 9e4, "range_resolution_m": 1e4}, "front/range_sigma_m: 2500.0; expected at most 1000"),
+    ({"document": "\ud800"}, "/document: '\\ud800'; expected one line"),
+    ({"origin": ""}, 'origin is ""; expected a text of 1 to 239 letters'),
+    ({"sources": {"range_max_m": 240 * "x"}}, "expected a text of at most 239 letters"),
+    ({"extends": "./sheet.json"}, "sheet.json: /: origin is missing"),
+    ({"extends": "/etc/passwd"}, "make-radar: /etc/passwd:1: "),
     ({"range_max_m": None}, "range_max_m is null; expected a number from 0.1 to 100000"),
     ({"range_min_m": "near"}, 'range_min_m is "near"; expected a number'),
     ({"left_of_middle_m": 0.1, "inside_left_side_m": 0.1}, "left_of_middle_m 0.1 and inside_left_side_m 0.1 contradict each other"),
@@ -322,12 +396,15 @@ def refused(bench):
         code = 66 if change.get("extends") == "no-radar" else 65
         bench.check(done.returncode == code and message in done.stderr, f"{change}: {done.returncode}, {done.stderr}")
     path = bench.scratch / "sheet.json"
-    for text, out, code, message in (('{"range_max_m": 1, "range_max_m": 2}', "made.json", 65, "range_max_m stands twice"),
-                                     ('{"range_max_m": 1,}', "made.json", 65, "line 1 column"), (json.dumps(PLAIN), "no/made.json", 73, "no/made-front.csv"),
+    for text, out, code, message in (('{"range_max_m": 1, "range_max_m": 2}', "made.json", 65, "'range_max_m' stands twice"),
+                                     ('{"range_max_m": 1,}', "made.json", 65, "sheet.json:1: "), ("[" * 100000, "made.json", 65, "nested too deep"),
                                      (json.dumps(PLAIN), "sheet.json", 64, "unknown command line")):
         path.write_text(text)
-        done = subprocess.run([SCRIPT, path, "-o", bench.scratch / out], capture_output=True, check=False, text=True)
-        bench.check(done.returncode == code and message in done.stderr, f"{text}: {done.returncode}, {done.stderr}")
+        done = run(path, "-o", bench.scratch / out)
+        bench.check(done.returncode == code and message in done.stderr, f"{text[:80]}: {done.returncode}, {done.stderr}")
+    with open("/dev/full", "w", encoding="ascii") as full:
+        done = subprocess.run([SCRIPT, "--help"], stdout=full, stderr=subprocess.PIPE, check=False, text=True)
+    bench.check((done.returncode, done.stderr) == (74, "make-radar: No space left on device\n"), f"a full disk: {done.returncode}, {done.stderr}")
 
 
 def scans(bench):
@@ -353,6 +430,9 @@ CHECKS = [
     ("accuracy, resolution and speeds hold in the whole chain, up to the borders", edges),
     ("what a sheet does not state is among the printed assumptions", assumptions),
     ("a sheet extends a suite", extended),
+    ("every shipped suite can be extended, from anywhere", shipped),
+    ("members of the sheet hold beside those of a radar", levels),
+    ("what fails leaves the radar that is there", whole),
     ("figures that contradict each other are refused with both", refused),
     ("near and far scan of one radar run in one cycle", scans),
 ]
