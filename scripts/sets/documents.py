@@ -10,7 +10,7 @@ from plan import BAD_DATA, FROM_FILES, NO_INPUT, ROOT, Fault, is_own, kind_of, r
 
 BIN = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin")
 DOCUMENTS = "documents"
-FOLDERS = {"recording": "trajectories", "scenario": "scenarios", "suite": "sensors"}
+FOLDERS = {"recording": "trajectories", "scenario": "scenarios", "suite": "sensors", "export": "exports"}
 
 
 def program_version():
@@ -30,11 +30,8 @@ def data_folders():
 
 def path_of(word, kind, plan_folder):
     """The file of a name or path."""
-    if "/" in word or "." in word:
-        found = [os.path.join(plan_folder, word)]
-    else:
-        found = [os.path.join(folder, FOLDERS[kind], word + ending) for folder in data_folders()
-                 for ending in (".json", ".csv", ".csv.gz")]
+    found = [os.path.join(folder, FOLDERS[kind], word + ending) for folder in data_folders()
+             for ending in (".json", ".csv", ".csv.gz")] if is_name(word) else [os.path.join(plan_folder, word)]
     for path in found:
         if os.path.isfile(path):
             return path

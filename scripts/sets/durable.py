@@ -38,7 +38,7 @@ def create(path, work, folder=False):
     """A new file or folder in the folder `work` under a name that no other process takes, and its open descriptor. The
     descriptor's lock says that its maker lives, to other containers and machines too where the file system has locks."""
     while True:
-        temporary = os.path.join(work, f"{os.path.basename(path)}.{MACHINE}.{secrets.token_hex(8)}{TEMPORARY}")
+        temporary = os.path.join(work, f"{os.path.basename(path)[:40]}.{MACHINE}.{secrets.token_hex(8)}{TEMPORARY}")
         os.mkdir(temporary) if folder else open(temporary, "xb").close()
         with contextlib.suppress(FileNotFoundError):  # another process removed it before it was locked
             descriptor = os.open(temporary, os.O_RDONLY if folder else os.O_WRONLY)
@@ -121,6 +121,13 @@ def digest_of(data):
 def digest_of_file(path):
     with open(path, "rb") as file:
         return "sha256:" + hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def digest_of_folder(folder):
+    """One digest of all names below a folder, of the bytes of files and of where links lead."""
+    names = sorted(os.path.join(place, name) for place, folders, files in os.walk(folder) for name in folders + files)
+    found = (os.readlink(path) if os.path.islink(path) else os.path.isfile(path) and digest_of_file(path) for path in names)
+    return digest_of("".join(f"{path[len(folder):]} {one}\n" for path, one in zip(names, found)).encode(errors="surrogateescape"))
 
 
 def canonical(value):

@@ -10,7 +10,7 @@ from layout import WORK
 from plan import ROOT, kind_of, read_json
 from shard import MANIFEST, record_path
 
-PAGE, FRAME = "README.md", "frame"
+PAGE, FRAME, SCHEMAS = "README.md", "frame", f"{DOCUMENTS}/schemas"
 MEDIA = {"jsonl": "application/jsonl", "csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
 
 
@@ -22,10 +22,6 @@ def frame_fields():
     return {"fields": fields, "primaryKey": ["scene", "frame"]}
 
 
-def schema_path(name):
-    return f"{DOCUMENTS}/schemas/{name}.json"
-
-
 def schemas_of(layout):
     """The Table Schemas of what the set has, by the paths that they get.
 
@@ -35,7 +31,7 @@ def schemas_of(layout):
     for schema in of_tables.values():
         schema.pop("foreignKeys", None)
     of_lines = {} if layout["plan"].get("lines") == "none" else {FRAME: frame_fields()}
-    return {schema_path(name): schema for name, schema in {**of_lines, **of_tables}.items()}
+    return {f"{SCHEMAS}/{name}.json": schema for name, schema in {**of_lines, **of_tables}.items()}
 
 
 def kind_of_file(path):
@@ -43,7 +39,7 @@ def kind_of_file(path):
     name, form, *compression = os.path.basename(path).split(".")
     kind = {"format": form, "mediatype": MEDIA[form]}
     kind |= {"encoding": "utf-8", "compression": compression[0]} if compression else {}
-    return kind | {"schema": schema_path(FRAME if form == "jsonl" else name)}
+    return kind | {"schema": f"{SCHEMAS}/{FRAME if form == 'jsonl' else name}.json"}
 
 
 def resource_of(file, shard):

@@ -28,12 +28,6 @@ def record_path(folder, part):
     return os.path.join(folder, WORK, f"part-{part}.json")
 
 
-def widen(pipe):
-    """Gives a pipe room for a portion; the system may refuse that to a user who has many."""
-    with contextlib.suppress(OSError):
-        fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, PORTION)
-
-
 def runs_of(plan, shard, tool):
     """The pipelines that make a shard, as words, with the tool at the end. Tables need all frames of the shard in one run."""
     shell, commands = shell_of(plan), shard["commands"]
@@ -53,7 +47,8 @@ def counted(words, lines, folder, plan_folder):
             subprocess.Popen(words, cwd=plan_folder, env=environment(folder), stdin=subprocess.DEVNULL,
                              stdout=subprocess.PIPE, stderr=said, pass_fds=[end], text=True) as process:
         os.close(end)
-        widen(frames)
+        with contextlib.suppress(OSError):  # the system may refuse room for a portion to a user who has many pipes
+            fcntl.fcntl(frames, fcntl.F_SETPIPE_SZ, PORTION)
         room = bytearray(PORTION)
         while count := frames.readinto(room):
             lines.write(memoryview(room)[:count])

@@ -282,7 +282,7 @@ def sets(bin_dir):
               f"a shard of another set: {done.stdout.decode()}")
         os.remove(stranger)
         done = run(f"BUILD={build} scripts/check-set {folder}/set >/dev/full", bin_dir)
-        check(done.returncode == 74 and b"stdout: No space left" in done.stderr, f"a full disk: {done.stderr.decode()}")
+        check(done.returncode == 74 and b"check-set: No space left" in done.stderr, f"a full disk: {done.stderr.decode()}")
         other_table(folder, package)
         done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
         check(done.returncode == 65 and "other rows than those of the stream" in done.stdout.decode(),
