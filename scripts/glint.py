@@ -86,7 +86,7 @@ def fault(value, shape, optional=OPTIONAL):
     return None
 
 
-def _unjoined(frame):
+def unjoined(frame):
     """A name that joins nothing, or two things; None: there is none."""
     ids = [one["id"] for one in frame.get("objects", ())]
     names = [one["name"] for one in frame["sensors"]["list"]] if "sensors" in frame else []
@@ -158,7 +158,7 @@ def _parsed(file, name, needs):
             raise ValueError("0 bytes")
         for line in gzip.GzipFile(fileobj=file) if head == b"\x1f" else file:
             frame = decoded(line)
-            wrong = fault(frame, FRAME, OPTIONAL - {*needs}) or _unjoined(frame)
+            wrong = fault(frame, FRAME, OPTIONAL - {*needs}) or unjoined(frame)
             if wrong:
                 raise BadFrame(wrong.lstrip(".: "))
             frame = Frame(frame)

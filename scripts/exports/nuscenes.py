@@ -65,7 +65,7 @@ class Writer:
 
     def __init__(self, layout, output):
         self.layout, self.output, self.fields = layout, output, layout["fields"].split()
-        self.scene, self.splits, self.shared, self.end_us = None, {}, {}, BEGIN_US - GAP_US
+        self.scene, self.splits, self.shared, self.newest_us = None, {}, {}, {}  # the last of each channel
         for name, text in layout.get("files", {}).items():
             output.write(name, base64.b64decode(text))
         self.tables = {name: output.file(f"{layout['version']}/{name}.json") for name in layout["tables"]}
@@ -94,7 +94,7 @@ class Writer:
             self.end_scene()
         scans = [(sensor, targets, frame["time_s"] - sensor.get("age_s", 0)) for sensor, targets in scans_of(frame)]
         if not self.scene and scans:
-            begin_us = self.end_us + GAP_US - round(1e6 * min(at_s for _, _, at_s in scans))
+            begin_us = max(self.newest_us.values(), default=BEGIN_US - GAP_US) + GAP_US - round(1e6 * min(at_s for _, _, at_s in scans))
             self.scene = {"name": frame["scene"], "token": token(frame["scene"], frame["seed"]), "begin_us": begin_us, "frames": [], "axle": None}
             self.splits.setdefault(split, []).append(frame["scene"])
         if scans:
@@ -105,9 +105,10 @@ class Writer:
     def scan(self, frame, sensor, targets, at_s):
         """Writes the file of a scan; what its rows need."""
         at, channel = self.scene["begin_us"] + round(1e6 * at_s), "RADAR_" + word(sensor["name"])
-        self.end_us = max(self.end_us, at)
-        if len(targets) > MOST_POINTS or at >= END_US:
-            raise Fault(BAD_DATA, f"{frame.place}: {len(targets)} targets of {sensor['name']} at {at} us; expected at most {MOST_POINTS}, before {END_US}")
+        before, self.newest_us[channel] = self.newest_us.get(channel, 0), at
+        if len(targets) > MOST_POINTS or not before < at < END_US:
+            raise Fault(BAD_DATA, f"{frame.place}: {at_s} s: {len(targets)} targets of {sensor['name']} at {at} us; expected at most {MOST_POINTS}, "
+                                  f"1 us or more after the scan before, and before {END_US}")
         path = f"samples/{channel}/{self.scene['token'][:8]}__{channel}__{at}.pcd"
         points = [point_of(self.fields, i, one) for i, one in enumerate(targets)]
         self.output.scan(path, radar_file(self.layout["point"], self.fields, points), frame, sensor, targets)
@@ -160,7 +161,7 @@ class Writer:
 
     def instance(self, name, kind, found):
         """Rows of an object of a scene."""
-        own, (called, *attributes) = token(self.scene["token"], name, kind), self.layout["classes"].get(kind, [kind])
+        own, (called, *attributes) = token(self.scene["token"], name, kind), self.layout["classes"].get(kind) or [kind]
         category = self.once("category", {"token": token("category", kind), "name": called, "description": kind})
         rows = [{"token": token(own, sample), "sample_token": sample, "instance_token": own,
                  "visibility_token": "" if level is None else str(level + 1),

@@ -7,14 +7,17 @@ import itertools
 import json
 import math
 import os
+import zlib
 
 import glint
+import schema
 from documents import data_folders
 from plan import BAD_DATA, NO_INPUT, ROOT, Fault, read_json
 from progress import Progress
 
 HEIGHT_M = 0.5  # of a sensor whose document has none: usual for radars
 LEVELS = "v0-40", "v40-60", "v60-80", "v80-100"
+CELLS = {"frame_key", "scan_key", "detection_key", "seed", "time_s", "sensor", "measured_s", "detections"}  # are in all rows of tables that have them
 # What formats need beyond glint.FRAME, and what gives it.
 LENGTH, VALUE = glint.number(1e-3, 1e6), glint.number(-1e9, 1e9)
 QUALITY = ("rcs_dbsm", "range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad", "existence", "range_rate_over_ground_mps", "x_centre_m",
@@ -29,27 +32,39 @@ GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave
 
 
 def rows(folder, name):
-    """The rows of a table, without empty cells."""
+    """The rows of a table, without empty cells; each knows its place."""
     of, path = {"integer": int, "number": float, "boolean": "true".__eq__, "string": str}, os.path.join(folder, name + ".csv")
     types = {one["name"]: of[one["type"]] for one in read_json(os.path.join(ROOT, "schemas", "tables.json"))[name]["fields"]}
-    path += ".gz" * (not os.path.exists(path))
+    place = path = path + ".gz" * (not os.path.exists(path))
     try:
         with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="utf-8", newline="") as file:
-            for row in csv.DictReader(file, strict=True):
-                yield {key: types[key](cell) for key, cell in row.items() if cell}
-    except (AttributeError, EOFError, KeyError, TypeError, ValueError, csv.Error) as error:
-        raise Fault(BAD_DATA, f"{path}: {error!r}; expected a table of glint-tables") from error
+            table = csv.DictReader(file, strict=True)
+            if not table.fieldnames:
+                raise ValueError("no heading")
+            for cells in table:
+                place = f"{path}:{table.line_num}"
+                row = glint.Frame((key, types[key](cell)) for key, cell in cells.items() if cell)
+                if None in cells.values() or CELLS & types.keys() - row.keys():
+                    raise ValueError("cells are missing")
+                row.place = place
+                yield row
+    except (AttributeError, EOFError, KeyError, TypeError, ValueError, csv.Error, gzip.BadGzipFile, zlib.error) as error:
+        raise Fault(BAD_DATA, f"{place}: {error!r}; expected a table of glint-tables") from error
 
 
 def by(key, folder, name):
-    """Gives the rows of a table that have this key, which does not decrease from call to call."""
-    groups = itertools.groupby(rows(folder, name), lambda row: row[key])
-    state = [-1, ()]
+    """Gives the rows of a table that have this key, which increases from call to call. Rows of other keys are refused."""
+    groups = ((found, list(group)) for found, group in itertools.groupby(rows(folder, name), lambda row: row[key]))
+    ahead = [next(groups, (math.inf, []))]
 
     def of(wanted):
-        while state[0] < wanted:
-            state[:] = next(((found, list(group)) for found, group in groups), (math.inf, ()))
-        return list(state[1]) if state[0] == wanted else []
+        found, group = ahead[0]
+        if found < wanted:
+            raise Fault(BAD_DATA, f"{group[0].place}: {key} {found}; expected ascending keys, each of a row of {key[:-4]}s")
+        if found > wanted:
+            return []
+        ahead[0] = next(groups, (math.inf, []))
+        return group
     return of
 
 
@@ -64,10 +79,14 @@ def frames_of_tables(folder):
         for one in frame["targets"]:
             one["quality"] = {name[8:]: value for name, value in one.items() if name.startswith("quality_")}
             one["contributors"] = parts(one["detection_key"])
-        frame.place = f"{folder}: frame_key {key}"
-        if fault := glint.fault(frame, glint.FRAME):
-            raise Fault(BAD_DATA, frame.place + fault)
+        frame.place = row.place
+        if fault := glint.fault(frame, glint.FRAME) or glint.unjoined(frame):
+            raise Fault(BAD_DATA, f"{row.place}: {fault.lstrip('.')}")
+        if (found := len(frame["targets"])) != (expected := sum(one["detections"] for one in sensors)):
+            raise Fault(BAD_DATA, f"{row.place}: {found} rows of detections; expected {expected}, as scans say")
         yield frame
+    for of in (objects, scans, targets, parts, sightings):
+        of(math.inf)
 
 
 def streams_of(path):
@@ -75,10 +94,19 @@ def streams_of(path):
     their lines if they have none."""
     manifest, shards = os.path.join(path, "datapackage.json"), {(None, path)}
     if os.path.exists(manifest):
-        shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3])) for one in read_json(manifest)["resources"]}
+        shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3]))
+                  for one in document(manifest, "set")["resources"]}
     for split, place in sorted(shards, key=str):
         place += ".jsonl.gz" * (split is not None and not glob.glob(os.path.join(glob.escape(place), "frames.csv*")))
         yield split, split and os.path.join(path, "documents"), frames_of_tables(place) if os.path.isdir(place) else glint.frames(place)
+
+
+def document(path, kind):
+    """A document of a kind of data/exports/schema.json."""
+    found = read_json(path)
+    if fault := schema.fault_of(found, read_json(os.path.join(ROOT, "data", "exports", "schema.json"))[kind]):
+        raise Fault(BAD_DATA, f"{path}: {fault}")
+    return found
 
 
 @functools.lru_cache
@@ -88,7 +116,7 @@ def mounts(suite, folder, name):
     path = next(filter(os.path.isfile, places), None)
     if path is None:
         raise Fault(NO_INPUT, f"{' and '.join(places)}: no such file, and frames lack the heights of sensors; name their document by --suite")
-    return path, {one["name"]: one for one in read_json(path)["sensors"]}
+    return path, {one["name"]: one for one in document(path, "suite")["sensors"]}
 
 
 def complete(frame, suite, folder):
@@ -108,19 +136,20 @@ def complete(frame, suite, folder):
 
 def frames_of(streams, suite):
     """The frames of streams with their splits: those of a scene together and in order."""
-    seen, before = set(), (None, 0, 0)
+    seen, before, measured = set(), (None, 0, 0), False
     for split, folder, frames in Progress("streams").over(streams):
         for frame in frames:
             complete(frame, suite, folder)
+            measured = measured or any(scans_of(frame))
             now = frame["scene"], frame["frame"], frame["time_s"]
             if now[0] in seen if now[0] != before[0] else now[1] <= before[1] or now[2] <= before[2]:
                 raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0]} at {now[2]} s; expected each scene once, with all of its "
                                       "frames in their order")
             seen.add(now[0])
             before = now
-            yield {None: "train", "validation": "val"}.get(split, split), frame
-    if not seen:
-        raise Fault(BAD_DATA, "the inputs have no frame")
+            yield {"validation": "val"}.get(split, split), frame
+    if not measured:
+        raise Fault(BAD_DATA, "the inputs have no frame in which a sensor has measured")
 
 
 def scans_of(frame):

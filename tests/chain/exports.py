@@ -541,9 +541,12 @@ def a_plan_names_exports(folder):
     assert {name: len(open(os.path.join(sets, name)).read().split()) for name in os.listdir(sets)} == {"train.txt": 30, "val.txt": 10, "test.txt": 20}
     export(folder, "nuscenes", "--out", "again", "lines")
     same(os.path.join(folder, "again"), f"{folder}/lines/exports/nuscenes")
-    shutil.rmtree(f"{folder}/lines/exports/vod")
-    shell("make -s -C lines", folder)
-    same(f"{folder}/lines/exports", f"{folder}/tables/exports")
+    for damage in ("rm -r lines/exports/vod", "rm -r lines/exports/vod/corner_left", "echo > lines/exports/nuscenes/glint-boxes.csv",
+                   "echo > lines/exports/vod/more", "rm lines/exports/vod/corner_left/radar/testing", "rm lines/exports/vod.sha256"):
+        said = shell(f"{damage}; {SCRIPTS}/check-set lines && exit 1; test $? = 65", folder)
+        assert re.match("exports/(vod|nuscenes): other files than its .sha256 says; make -C lines makes it again\n", said), (damage, said)
+        shell(f"make -s -C lines && {SCRIPTS}/check-set lines", folder)
+        same(f"{folder}/lines/exports", f"{folder}/tables/exports")
     for wrong, members in (("need the quality", {"chain": plan["chain"].replace(" --sections quality", "")}),
                            ("are made of tables of CSV", {"compression": "zstd"}), ("'sim'; expected one of", {"exports": ["sim"]})):
         save(folder, "wrong.json", [plan | {"exports": ["kitti"]} | members])
@@ -588,6 +591,8 @@ def what_formats_cannot_hold_is_refused(folder):
              ("nuscenes", changed(targets=[target()] * 32769), "32769 targets of front at 1000000000000000 us; expected at most 32768"),
              ("nuscenes", [good, good | {"frame": 1, "time_s": 9.1e9}], "before 9007199254740992"),
              ("kitti", changed(targets=[target(rcs_dbsm=2e9)]), "expected an object of numbers"),
+             ("nuscenes", [good, good | {"frame": 1, "time_s": 1e-9}], "hand.jsonl:2: 1e-09 s: 1 targets of front at 1000000000000000 us; expected at most 32768, 1 us"),
+             ("kitti", changed(targets=[], sensors=frame_of([], [], sensors=[{"measured": False}])["sensors"]), "no frame in which a sensor has measured"),
              ("nuscenes", [good, good], "frame 0 of by-hand at 0.0 s; expected each scene once, with all of its frames in their order"),
              ("nuscenes", [good, good | {"scene": "b"}, good | {"frame": 1, "time_s": 1}], "frame 1 of by-hand at 1 s; expected each scene once"),
              ("kitti", [good, good | {"seed": "2"}], "expected each scene once"),
@@ -603,10 +608,16 @@ def what_formats_cannot_hold_is_refused(folder):
     for words, status, wrong in ((["nuscenes", "--out", "out", "hand.jsonl"], 66, "frames lack the heights of sensors; name their document by --suite"),
                                  (["nuscenes", "--out", "out", "--suite", ROOT + "/data/sensors/srr24-pair.json", "hand.jsonl"], 65, "has no such sensor at this place"),
                                  (["nuscenes", "--out", ".", "--suite", suite, "hand.jsonl"], 73, "is there already"),
-                                 (["nuscenes", "--out", "no/out", "--suite", suite, "hand.jsonl"], 66, "No such file or directory"),
+                                 (["nuscenes", "--out", "no/out", "--suite", suite, "hand.jsonl"], 73, "--out 'no/out': is there already, or cannot be made"),
+                                 (["nuscenes", "--out", "", "--suite", suite, "hand.jsonl"], 73, "--out ''"),
+                                 (["nuscenes", "--out", "n" * 256, "--suite", suite, "hand.jsonl"], 73, "nnn"),
+                                 (["kitti", "--out", "out", "--split", "../../../../out", "--suite", suite, "hand.jsonl"], 64, "--split: '../../../../out'; expected"),
+                                 (["kitti", "--out", "out", "--split", "", "--suite", suite, "hand.jsonl"], 64, "--split: ''; expected"),
+                                 (["kitti", "--out", "out", "--suite", "short.json", "hand.jsonl"], 65, "short.json: /: sensors is missing"),
                                  (["nuscenes", "--out", "out", "nowhere.jsonl"], 66, "nowhere.jsonl"), (["mine", "--out", "out", "hand.jsonl"], 66, "mine.json"),
                                  (["kitti", "hand.jsonl"], 64, "--out"), (["kitti", "--out", "out"], 64, "inputs"), (["--sim"], 64, "expected FORMAT")):
         assert wrong in export(folder, *words, status=status), (words, wrong)
+    export(folder, "kitti", "--out", "n" * 255, "--suite", suite, "hand.jsonl")
     save(folder, "nothing.jsonl", [])
     assert "the inputs have no frame" in export(folder, "vod", "--out", "out", "nothing.jsonl", status=65)
     with open(os.path.join(folder, "cut.jsonl.gz"), "wb") as file:
@@ -649,6 +660,33 @@ def any_member_may_be_wrong(folder):
                 refused += status != 0
     os.chdir(ROOT)
     assert refused > 250, refused
+
+
+def any_member_of_a_layout_may_be_wrong(folder):
+    """Each is left out or replaced: the document is refused, or the export is made."""
+    suite_of(folder, frame_of([], []))
+    save(folder, "hand.jsonl", [frame_of([body("ego"), body("other", x=12)], [target()])])
+    os.environ.update(ENVIRONMENT)
+    os.chdir(folder)
+    for form in ("nuscenes", "kitti"):
+        with open(f"{ROOT}/data/exports/{form}.json", encoding="utf-8") as file:
+            good = json.load(file)
+        for path in [(), *members(good)]:
+            for value in ("left out", 0, "x", {"car": 0}):
+                layout = {"": json.loads(json.dumps(good))}
+                record, name = layout, ""
+                for key in path:
+                    record, name = record[name], key
+                if value == "left out":
+                    del record[name]
+                else:
+                    record[name] = value
+                save(folder, "layout.json", [layout.get("", [])])
+                status, said = in_a_fork(["./layout.json", "--out", "out", "--suite", "suite.json", "hand.jsonl"])
+                assert status == 0 or status == 65 and said.startswith("export: ./layout.json: /"), (form, path, value, status, said)
+                assert status == 65 or path[:1] not in ((), ("layout",), ("point",), ("fields",), ("digits",)), (form, path, value)
+                shutil.rmtree("out", ignore_errors=True)
+    os.chdir(ROOT)
 
 
 def in_a_fork(words):
@@ -694,6 +732,30 @@ def tables_that_are_no_tables(folder):
                 file.write(text)
 
 
+def tables_that_lost_rows(folder):
+    """Rows that were moved, left out or emptied are refused with their table, never dropped."""
+    shell("glint-traffic cut-in | glint-extract | glint-ideal --sensors corner77-four --sections quality,visibility | glint-sensor | glint-noise"
+          " > list.jsonl; head -3 list.jsonl | glint-tables --plain good", folder)
+    for name in ("frames", "objects", "scans", "detections", "contributors", "sightings"):
+        path = os.path.join(folder, "good", name + ".csv")
+        with open(path, encoding="utf-8") as file:
+            heading, *rows = text = file.read().splitlines(keepends=True)
+        wrong = {"reversed": [heading, *rows[::-1]], "empty": [], "short": [heading, rows[0].rpartition(",")[0] + "\n", *rows[1:]],
+                 "without its first half": [heading, *rows[len(rows) // 2:]], "without its last half": [heading, *rows[:len(rows) // 2]],
+                 "without a key": [heading, rows[0][rows[0].index(","):], *rows[1:]]}
+        for what in {"objects": ["without a key"], "sightings": ["without its first half", "without its last half"]}.get(name, ()):
+            del wrong[what]  # no point or label is lost
+        for what, lines in wrong.items():
+            with open(path, "w", encoding="utf-8") as file:
+                file.writelines(lines)
+            status, said = (done := subprocess.run([SCRIPTS + "/export", "kitti", "--out", "out", "good"], cwd=folder, env=ENVIRONMENT, capture_output=True,
+                                                   text=True, check=False)).returncode, done.stderr
+            assert status == 65 and re.fullmatch(r"export: good/\w+\.csv(:\d+)?: .*\n", said), (name, what, status, said)
+        with open(path, "w", encoding="utf-8") as file:
+            file.writelines(text)
+    export(folder, "kitti", "--out", "out", "good")
+
+
 def killed_runs_leave_no_folder_of_the_name(folder):
     """Killed at any time; the next run removes what is left of them."""
     shell("glint-traffic cut-in | glint-extract | glint-ideal --sensors radarscenes77-full --sections quality | glint-sensor | glint-noise > list.jsonl", folder)
@@ -736,7 +798,7 @@ def main():
     for test in (an_approaching_car, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
                  every_token_resolves, points_in_boxes_are_counted, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
                  lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_formats_cannot_hold_is_refused,
-                 any_member_may_be_wrong, tables_that_are_no_tables,
+                 any_member_may_be_wrong, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,
                  killed_runs_leave_no_folder_of_the_name, pcl_reads_the_radar_files):
         if chosen and test.__name__ not in chosen:
             continue
