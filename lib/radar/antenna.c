@@ -156,9 +156,9 @@ double antenna_beam_rad(const struct antenna *antenna)
 {
     const double fine_rad = PI / 2 / 65536;
     double edge = sqrt(0.5) * antenna_gain(antenna, 0), above_rad = 0;
-    for (double step_rad = 16 * fine_rad; step_rad >= fine_rad; step_rad /= 16)
-        while (above_rad < PI / 2 && antenna_gain(antenna, above_rad + step_rad) > edge)
-            above_rad += step_rad;
+    for (int steps = 16; steps > 0; steps /= 16)
+        while (above_rad < PI / 2 && antenna_gain(antenna, above_rad + steps * fine_rad) > edge)
+            above_rad += steps * fine_rad;
     return elementary_min(2 * (above_rad + fine_rad), PI);
 }
 
