@@ -125,7 +125,7 @@ def check_names():
 
 
 def check_scripts(folder):
-    """A set is made and checked, tracks are scored, and glint.py reads frames."""
+    """A set is made, checked and exported, also by scripts through a link; tracks are scored, and glint.py reads frames."""
     run(f"{DOCUMENTS}/scripts/dataset {DOCUMENTS}/data/sets/small.json --out set && make -s -C set && {DOCUMENTS}/scripts/check-set set", folder)
     run(f"cat set/*/*/*.jsonl.gz > list.jsonl.gz && {DOCUMENTS}/scripts/tracker list.jsonl.gz > tracks.jsonl", folder)
     score = json.loads(run("glint-score-tracks --tracks tracks.jsonl --summary list.jsonl.gz", folder))
@@ -133,6 +133,10 @@ def check_scripts(folder):
     code = "import glint; print(sum(len(one['targets']) for one in glint.frames('list.jsonl.gz')))"
     assert int(run(f'PYTHONPATH={DOCUMENTS}/scripts python3 -B -c "{code}"', folder)) > 0
     assert run("build/bin/glint pipelines/two-vehicles.sh", DOCUMENTS).startswith("{")
+    linked = os.path.join(PREFIX, "share/glint/scripts")
+    run(f"{linked}/make-radar {DOCUMENTS}/data/sheets/ars408-21.json -o radar.json && glint-traffic two-vehicles | glint-extract | "
+        "glint-ideal --sensors ./radar.json --sections quality | glint-sensor | glint-noise >seen.jsonl", folder)
+    run(f"{linked}/export kitti --suite radar.json --out kitti seen.jsonl", folder)
 
 
 check_programs()
