@@ -16,6 +16,7 @@ import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell in the background lets its programs ignore it
 PATIENCE_S = 60
 NUMBERS = {"x86_64": (257, 436), "aarch64": (56, 436)}.get(os.uname().machine)  # of openat and close_range
 O_TMPFILE, EOPNOTSUPP, ENOSYS = 0o20000000, 95, 38
