@@ -83,7 +83,7 @@ receiver   0 dBsm has {", ".join(f"{level:.1f} dB at {range_m:.0f} m" for range_
            aside {", ".join(f"{level:.1f} dB at {math.degrees(angle):.1f}" for angle, level in law.over_azimuth)} degrees
 cells      {sensor['cell_range_m']:.2f} m, {sensor['cell_range_rate_mps']:.2f} m/s
 noise      {sensor['range_sigma_m']:.2f} m, {sensor['range_rate_sigma_mps']:.3f} m/s, {math.degrees(azimuth_rad):.2f} \
-degrees at 20 dB{" (no less is possible in so wide a view)" * (fit.azimuth_noise < 1.001 * law.over_azimuth[-1][0] / fitted.STEEPEST)}
+degrees at 20 dB{" (no less is possible in so wide a view)" * (fit.azimuth_noise < 1.001 * fitted.least_noise_rad(law))}
 levels     keep the {fit.sensor['level_keeps']}: scores of blocks left out: {", ".join(f"{word} {own:.1f}" for word, own in lost.items()) or "none"}
 roadside   {", ".join(f"{100 * one['per_m2'] * one['width_m']:.1f} of {one['rcs_dbsm']:.0f} dBsm at {one['from_y_m']} m"
                       for one in fit.roadside) or "nothing"}, in 100 m
@@ -203,11 +203,11 @@ def compare(folder, suite_folder=None):
         print_found(recording, fit, lost)
         second = part(fit, rest.radar, rest.scans)
         results = {chain: chains.run(chain, suite, fit, second) for chain in Progress("chains").over(chains.CHAINS)}
-        if not second.boxes and any(scan.boxes for scan in recording.scans):
-            print("no road user is in view in the second half: skill and the marginals of road users are left out")
         if second.boxes:
             scores = {chain: second.scores(lists) for chain, (lists, _) in results.items()}
             print_skills(second, results, scores)
+        elif any(scan.boxes for scan in recording.scans):
+            print("no road user is in view in the second half: skill and the marginals of road users are left out")
         print_marginals(second, {chain: drawn_lists(chain, others, rest, place)
                                  for chain in Progress("chains").over(chains.CHAINS[1:])}, fit.sensor["threshold_db"])
         if second.boxes:

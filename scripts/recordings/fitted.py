@@ -165,6 +165,11 @@ def azimuth_variances(found, least):
     return law
 
 
+def least_noise_rad(law):
+    """The least noise of azimuth, at a signal as strong as the noise, that an antenna's table can have in so wide a view."""
+    return law.over_azimuth[-1][0] / STEEPEST
+
+
 def fit(recording, level_keeps="median"):
     """What the scans of a recording say, for its annotation and its radar; level_keeps is chosen elsewhere."""
     detections, radar = [one for scan in recording.scans for one in scan.detections], recording.radar
@@ -172,7 +177,7 @@ def fit(recording, level_keeps="median"):
     threshold_db = quantile(told, LEAST) if told else 14.0
     law = curve(detections, threshold_db)
     scans = completed(recording.scans, law)
-    scatter, azimuth_noise = noise(radar, scans, law.over_azimuth[-1][0] / STEEPEST)
+    scatter, azimuth_noise = noise(radar, scans, least_noise_rad(law))
     found = {"mount_x_m": radar.x_m, "mount_y_m": radar.y_m, "mount_yaw_rad": radar.yaw_rad, "carrier_hz": radar.carrier_hz,
              "range_max_m": max(one.range_m for one in detections), "threshold_db": threshold_db,
              "field_of_view_rad": 2 * law.over_azimuth[-1][0],

@@ -130,6 +130,13 @@ def digest_of_folder(folder):
     return digest_of("".join(f"{path[len(folder):]} {one}\n" for path, one in zip(names, found)).encode(errors="surrogateescape"))
 
 
+def has_its_digest(folder):
+    """Is a folder as it was when its digest was written into the file of its name with .sha256?"""
+    with contextlib.suppress(OSError), open(folder + ".sha256", "rb") as file:
+        return file.read().strip() == digest_of_folder(folder).encode()
+    return False
+
+
 def canonical(value):
     """A text of JSON that depends on the value alone."""
     return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False)

@@ -711,14 +711,22 @@ def in_a_fork(words):
         return status, told.read().decode()
 
 
-def tables_that_are_no_tables(folder):
-    """Cut, without a column, with words for numbers, or not there."""
-    shell("glint-traffic two-vehicles | glint-extract | glint-ideal --sensors srr24-pair --sections quality,visibility | glint-sensor | glint-noise"
-          " | glint-tables --plain good", folder)
+def each_table(folder):
+    """Name, path and text of each table in the folder `good`. Each gets its text back before the next one's turn."""
     for name in ("frames", "objects", "scans", "detections", "contributors", "sightings"):
         path = os.path.join(folder, "good", name + ".csv")
         with open(path, encoding="utf-8") as file:
             text = file.read()
+        yield name, path, text
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+def tables_that_are_no_tables(folder):
+    """Cut, without a column, with words for numbers, or not there."""
+    shell("glint-traffic two-vehicles | glint-extract | glint-ideal --sensors srr24-pair --sections quality,visibility | glint-sensor | glint-noise"
+          " | glint-tables --plain good", folder)
+    for name, path, text in each_table(folder):
         half = text[:len(text) // 2]
         for wrong in (half.rpartition(",")[0], half.replace("_key", "_kex", 1), text.replace("\n0", "\nzero", 1), "", text.split("\n")[0] + "\n", None):
             os.remove(path)
@@ -728,18 +736,14 @@ def tables_that_are_no_tables(folder):
             done = subprocess.run([SCRIPTS + "/export", "vod", "--out", "out", "good"], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, check=False)
             assert done.returncode in (0, 65, 66) and "Traceback" not in done.stderr and done.stderr.count("\n") == (done.returncode != 0), (name, wrong and wrong[-90:], done)
             shutil.rmtree(os.path.join(folder, "out"), ignore_errors=True)
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(text)
 
 
 def tables_that_lost_rows(folder):
     """Rows that were moved, left out or emptied are refused with their table, never dropped."""
     shell("glint-traffic cut-in | glint-extract | glint-ideal --sensors corner77-four --sections quality,visibility | glint-sensor | glint-noise"
           " > list.jsonl; head -3 list.jsonl | glint-tables --plain good", folder)
-    for name in ("frames", "objects", "scans", "detections", "contributors", "sightings"):
-        path = os.path.join(folder, "good", name + ".csv")
-        with open(path, encoding="utf-8") as file:
-            heading, *rows = text = file.read().splitlines(keepends=True)
+    for name, path, text in each_table(folder):
+        heading, *rows = text.splitlines(keepends=True)
         wrong = {"reversed": [heading, *rows[::-1]], "empty": [], "short": [heading, rows[0].rpartition(",")[0] + "\n", *rows[1:]],
                  "without its first half": [heading, *rows[len(rows) // 2:]], "without its last half": [heading, *rows[:len(rows) // 2]],
                  "without a key": [heading, rows[0][rows[0].index(","):], *rows[1:]]}
@@ -751,8 +755,6 @@ def tables_that_lost_rows(folder):
             status, said = (done := subprocess.run([SCRIPTS + "/export", "kitti", "--out", "out", "good"], cwd=folder, env=ENVIRONMENT, capture_output=True,
                                                    text=True, check=False)).returncode, done.stderr
             assert status == 65 and re.fullmatch(r"export: good/\w+\.csv(:\d+)?: .*\n", said), (name, what, status, said)
-        with open(path, "w", encoding="utf-8") as file:
-            file.writelines(text)
     export(folder, "kitti", "--out", "out", "good")
 
 

@@ -84,17 +84,11 @@ def writes_frames(command):
 
 
 @functools.cache
-def streams_of(path):
-    return list(hops_of(path))
-
-
 def hops_of(path):
-    """The streams that leave each of glint's own stages in a pipeline file that writes frames."""
+    """The streams that leave each of glint's own stages in a pipeline file that writes frames, with their commands."""
     header, commands = stages_of(path)
-    for count in range(1, len(commands) + 1):
-        if writes_frames(commands[count - 1]):
-            text = header + " | ".join(commands[:count])
-            yield commands[count - 1], run(["bash", "-c", text, path]).stdout
+    return [(command, run(["bash", "-c", header + " | ".join(commands[:count]), path]).stdout)
+            for count, command in enumerate(commands, 1) if writes_frames(command)]
 
 
 # Reading
@@ -228,11 +222,6 @@ def some(data):
     """At most 150 frames of a stream, spread over it."""
     lines = data.splitlines(keepends=True)
     return b"".join(lines[::1 + (len(lines) - 1) // 150])
-
-
-def seconds(data):
-    """Every second frame."""
-    return b"".join(data.splitlines(keepends=True)[::2])
 
 
 # The noise-free list, compared within a tolerance
@@ -480,11 +469,11 @@ def is_scripted(name):
 def turn_and_shift(folder):
     for name in filter(is_scripted, SCENARIOS):
         document = general_position(name)
-        traffic = seconds(piped(f"glint-traffic {save(folder, name + '.json', document)}"))
+        traffic = some(piped(f"glint-traffic {save(folder, name + '.json', document)}"))
         lists = {suite: noise_free(suite, traffic) for suite in SUITES}
         for angle, shift in ((0.7, (0, 0)), (0, (1e6, -1e6))):
             moved = move(document, angle, shift)
-            after = seconds(piped(f"glint-traffic {save(folder, name + '.json', moved)}"))
+            after = some(piped(f"glint-traffic {save(folder, name + '.json', moved)}"))
             check_origin(parse(after), moved)
             for suite in SUITES:
                 try:
@@ -792,7 +781,7 @@ def check_list(frame, suite):
 
 def well_formed(folder):
     for path in PIPELINES:
-        for command, data in streams_of(path):
+        for command, data in hops_of(path):
             for line in data.splitlines()[::2]:
                 frame = json.loads(line, parse_float=finite, parse_constant=finite)
                 check_order(frame)
@@ -808,7 +797,7 @@ def schema(folder):
     Draft202012Validator.check_schema(SCHEMA)
     validator, count = Draft202012Validator(SCHEMA), 0
     for path in PIPELINES:
-        for command, data in streams_of(path):
+        for command, data in hops_of(path):
             for frame in map(json.loads, data.splitlines()[::67]):
                 count += 1
                 fault = next(validator.iter_errors(frame), None)
