@@ -12,7 +12,7 @@
 #define CLASS(name, need) COLUMN(name, RECORDED_TEXT, need, row.class, 0, 0, 0, 0)
 #define RECORDING(name) COLUMN(name, RECORDED_ALIKE, RECORDED_OPTIONAL, row.id, 0, 0, 0, 0)
 #define TIME(name, unit_s)                                                                         \
-    COLUMN(name, RECORDED_TIME, RECORDED_OPTIONAL, row.time_ns, 0, 0, unit_s, 0)
+    COLUMN(name, RECORDED_TIME, RECORDED_NEEDED, row.time_ns, 0, 0, unit_s, 0)
 #define FRAME(name) COLUMN(name, RECORDED_FRAMES, RECORDED_NEEDED, row.time_ns, 0, 1e9, 1, 0)
 #define VALUE(name, member, need, low, high, scale, shift)                                         \
     COLUMN(name, RECORDED_NUMBER, need, row.member, low, high, scale, shift)
@@ -105,7 +105,7 @@ static void complete_highd(struct recorded_cells *cells)
 
 /* In feet, of the middle of the front bumper. Local_Y points along the road and Local_X to its
  * right. There are no headings; ids come again for other vehicles. Frames of two files begin with
- * the same number, so that the stamp goes before. */
+ * the same number, so that the stamp is read where there is one. */
 #define FOOT_M 0.3048
 #define FEET(name, member, low, scale)                                                             \
     VALUE(name, member, RECORDED_NEEDED, low, 1e9, (scale)*FOOT_M, 0)
@@ -113,8 +113,8 @@ static void complete_highd(struct recorded_cells *cells)
 static const struct recorded_column ngsim_columns[] = {
     ID("Vehicle_ID"),
     RECORDING("Location"),
-    TIME("Frame_ID", 0.1),
     TIME("Global_Time", 1e-3),
+    TIME("Frame_ID", 0.1),
     CLASS("v_Class", RECORDED_NEEDED),
     FEET("Local_Y", x_m, -1e9, 1),
     FEET("Local_X", y_m, -1e9, -1),
@@ -138,19 +138,27 @@ static const struct recorded_word ngsim_words[] = {
 
 /* A row for each step, with columns for everybody. The place is that of the reference point,
  * usually below the rear axle, and the box lies around another. The log says no classes, so they
- * are those of the names, or else follow from the box. */
+ * are those of the names, or else follow from the box. Before version 2.37.5 esmini wrote
+ * "Entitity"; its first logs have other units, places without one. */
 enum { BOX_X, BOX_Y };
 
 static const struct recorded_column esmini_columns[] = {
     ID("Entity_Name [-]"),
+    ID("Entitity_Name [-]"),
     CLASS("Entity_Name [-]", RECORDED_NEEDED),
+    CLASS("Entitity_Name [-]", RECORDED_NEEDED),
     TIME("TimeStamp [s]", 1),
+    TIME("TimeStamp [sec]", 1),
     PLACE("World_Position_X [m]", x_m, 1),
+    PLACE("World_Position_X [-]", x_m, 1),
     PLACE("World_Position_Y [m]", y_m, 1),
+    PLACE("World_Position_Y [-]", y_m, 1),
     SPEED("Vel_X [m/s]", vx_mps, 1),
     SPEED("Vel_Y [m/s]", vy_mps, 1),
     VALUE("World_Heading_Angle [rad]", yaw_rad, RECORDED_NEEDED, -1e3, 1e3, 1, 0),
+    VALUE("World_Heading_Angle [deg]", yaw_rad, RECORDED_NEEDED, -1e3, 1e3, PI / 180, 0),
     VALUE("Heading_Angle_Rate [rad/s]", yaw_rate_radps, RECORDED_NEEDED, -1e3, 1e3, 1, 0),
+    VALUE("Heading_Angle_Rate [deg/s]", yaw_rate_radps, RECORDED_NEEDED, -6e4, 6e4, PI / 180, 0),
     ASIDE("bb_x [m]", BOX_X),
     ASIDE("bb_y [m]", BOX_Y),
     SIZE("bb_length [m]", length_m, RECORDED_NEEDED),
@@ -221,35 +229,29 @@ static const struct recorded_word interaction_words[] = {
  * that of an image (slow_mps of highD and NGSIM). */
 const struct recorded_layout recorded_layouts[] = {
     {.format = SUMO_FORMAT,
-     .mark = "timestep_time",
      .kinds = {{sumo_vehicles, "DEFAULT_VEHTYPE", 0.5},
                {sumo_persons, "DEFAULT_PEDTYPE", 0.5},
                {sumo_containers, "DEFAULT_CONTAINERTYPE", 0.5}}},
-    {.format = SUMO_FORMAT, .mark = "angle", .kinds = {{sumo_plain, "DEFAULT_VEHTYPE", 0.5}}},
+    {.format = SUMO_FORMAT, .kinds = {{sumo_plain, "DEFAULT_VEHTYPE", 0.5}}},
     {.format = {.name = "a table of inD", .id_name = "trackId", .words = ind_words},
-     .mark = "xCenter",
      .kinds = {{ind_columns, NULL, 0}},
      .beside = {"trackId", NULL}},
     {.format = {.name = "a table of highD", .id_name = "id", .words = highd_words, .slow_mps = 1},
-     .mark = "xVelocity",
      .kinds = {{highd_columns, NULL, 0}},
      .beside = {"id", "drivingDirection"},
      .complete = complete_highd},
     {.format =
          {.name = "a table of NGSIM", .id_name = "Vehicle_ID", .words = ngsim_words, .slow_mps = 1},
-     .mark = "Vehicle_ID",
      .kinds = {{ngsim_columns, NULL, 0.5}}},
     {.format = {.name = "a log of esmini",
                 .id_name = "Entity_Name",
                 .by_time = true,
                 .words = esmini_words},
-     .mark = "TimeStamp [s]",
      .kinds = {{esmini_columns, NULL, 0}},
      .wide = true,
      .complete = complete_esmini},
     {.format = {.name = "a table of INTERACTION",
                 .id_name = "track_id",
                 .words = interaction_words},
-     .mark = "track_id",
      .kinds = {{interaction_columns, NULL, 0}}},
 };

@@ -1,7 +1,11 @@
 /* Columns of highD, inD, INTERACTION, NGSIM, SUMO and esmini tables.
  *
  * A layout lists the columns of a table. Their order, the case of their letters and other columns
- * do not matter. A table has the first layout whose mark is among its columns, or else the last. */
+ * do not matter. A table has the layout of which it has all needed columns. If it has those of
+ * several, it has the one that needs the most, and the first of equals.
+ *
+ * Columns of one kind and one member are spellings of the same value, for instance in another unit.
+ * A table has the value if it has one of them; the first one that it has is read. */
 #pragma once
 
 #include "recorded/recorded_row.h"
@@ -18,15 +22,15 @@ enum recorded_need {
 struct recorded_column {
     const char *name; /* NULL after the last */
     enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_FRAMES, RECORDED_ALIKE, RECORDED_NUMBER } kind;
-    enum recorded_need need; /* of several columns of times, one is needed */
-    size_t offset;           /* of the member, in struct recorded_cells */
-    double low, high;        /* of a number in the file */
-    double scale, shift;     /* scale of a time: its unit in s; below 1 s times are whole */
+    enum recorded_need need;
+    size_t offset;       /* of the member, in struct recorded_cells */
+    double low, high;    /* of a number in the file */
+    double scale, shift; /* scale of a time: its unit in s; below 1 s times are whole */
 };
 
-/* One kind of road user in a table. Its first column is the id. A row is of the first kind whose id
- * it has; its class is that of the kind unless a column gives another. All kinds but the first may
- * be passengers. */
+/* One kind of road user in a table. Its first columns are spellings of the id. A row is of the
+ * first kind whose id it has; its class is that of the kind unless a column gives another. All
+ * kinds but the first may be passengers. */
 struct recorded_kind {
     const struct recorded_column *columns;
     const char *class;
@@ -39,11 +43,10 @@ struct recorded_cells {
     double aside[2];
 };
 
-enum { RECORDED_KINDS = 3, RECORDED_COLUMNS = 16, RECORDED_LAYOUTS = 7 };
+enum { RECORDED_KINDS = 3, RECORDED_COLUMNS = 24, RECORDED_LAYOUTS = 7 };
 
 struct recorded_layout {
     struct recorded_format format;              /* place, next and close are those of all tables */
-    const char *mark;                           /* name of a column that no other layout has */
     struct recorded_kind kinds[RECORDED_KINDS]; /* columns NULL: no more */
     /* Names of columns in the file NN_tracksMeta.csv beside the table; id NULL: there is no file.
      * Values of direction are 1 against x and 2 along x; NULL: there is no such column. */

@@ -18,7 +18,17 @@ enum { ABSENT = -1, NAME_ROOM = 80 };
 /* A kind of road user that the table has; in a wide table one road user. */
 struct part {
     const struct recorded_kind *kind;
-    int at[RECORDED_COLUMNS]; /* the places of its columns; ABSENT */
+    const char *user;         /* "#1" or "#2" or ... in a wide table, else NULL */
+    int id;                   /* the place of its id; ABSENT */
+    int at[RECORDED_COLUMNS]; /* the places of its columns; ABSENT: not read */
+};
+
+/* A layout, the parts that the table has of it, and the number of needed values that these parts
+ * have and lack. */
+struct fit {
+    const struct recorded_layout *layout;
+    LIST_OF(struct part) parts;
+    size_t found, lacking;
 };
 
 /* A row of the file of tracks. */
@@ -31,13 +41,12 @@ struct table {
     struct recorded_format format;
     struct csv_table_rows *lines;
     struct input *input;
-    const struct recorded_layout *layout;
+    struct fit fit;
     const struct csv_table *names;
     struct intern places;         /* of the columns, by their names */
     const struct csv_table *rows; /* of the last line, or NULL */
     size_t row;                   /* of those, which is read */
-    LIST_OF(struct part) parts;
-    size_t part; /* of the row, which is next */
+    size_t part;                  /* of the row, which is next */
     struct intern recordings;
     struct arena *arena;
     double rate_hz; /* of the file of the recording, and from that of the tracks: */
@@ -57,16 +66,9 @@ static int place_of(const struct table *table, const char *name)
     return ABSENT;
 }
 
-static const struct recorded_layout *layout_of(const struct table *table)
-{
-    const struct recorded_layout *layout = recorded_layouts;
-    while (layout + 1 < recorded_layouts + RECORDED_LAYOUTS &&
-           place_of(table, layout->mark) == ABSENT)
-        layout++;
-    return layout;
-}
+/* ---- the layout ---- */
 
-/* The name of a column; in a wide table that of a road user, "#1" or "#2" or ... */
+/* The name of a column; in a wide table that of a road user. */
 static const char *name_of(const struct recorded_column *column, const char *user, char *room)
 {
     if (user == NULL || column->kind == RECORDED_TIME)
@@ -75,68 +77,138 @@ static const char *name_of(const struct recorded_column *column, const char *use
     return room;
 }
 
-/* Finds the columns of a kind. Columns that stand together are needed once one of them is there,
- * and the first column of times where there is no other. */
-static int find_columns(const struct table *table, struct part *part, const char *user,
-                        struct diag *diag)
+static bool same_value(const struct recorded_column *a, const struct recorded_column *b)
+{
+    return a->kind == b->kind && a->offset == b->offset;
+}
+
+/* Finds the columns of a kind, of each value the first spelling. */
+static struct part part_of(const struct table *table, const struct recorded_kind *kind,
+                           const char *user)
+{
+    const struct recorded_column *columns = kind->columns;
+    struct part part = {.kind = kind, .user = user, .id = ABSENT};
+    char room[NAME_ROOM];
+    bool found = false;
+    for (size_t i = 0; columns[i].name != NULL; i++) {
+        found = found && same_value(&columns[i - 1], &columns[i]);
+        part.at[i] = found ? ABSENT : place_of(table, name_of(&columns[i], user, room));
+        found = found || part.at[i] != ABSENT;
+        if (part.id == ABSENT && same_value(columns, &columns[i]))
+            part.id = part.at[i];
+    }
+    return part;
+}
+
+/* Values that stand together are needed once one of them is there. */
+static bool is_needed(const struct part *part, const struct recorded_column *column)
 {
     const struct recorded_column *columns = part->kind->columns;
-    bool together = false, timed = false;
+    bool together = false;
+    for (size_t i = 0; columns[i].name != NULL; i++)
+        together = together || (columns[i].need == RECORDED_TOGETHER && part->at[i] != ABSENT);
+    return column->need == RECORDED_NEEDED || (column->need == RECORDED_TOGETHER && together);
+}
+
+/* Counts the needed values, and adds the names of lacking columns to the text, if there is one. */
+static void count_values(struct fit *fit, const struct part *part, struct text *names)
+{
+    const struct recorded_column *columns = part->kind->columns;
     char room[NAME_ROOM];
-    for (size_t i = 0; columns[i].name != NULL; i++) {
-        int at = part->at[i] = place_of(table, name_of(&columns[i], user, room));
-        together = together || (columns[i].need == RECORDED_TOGETHER && at != ABSENT);
-        timed = timed || (columns[i].kind == RECORDED_TIME && at != ABSENT);
+    for (size_t i = 0, end; columns[i].name != NULL; i = end) {
+        bool found = false;
+        for (end = i; columns[end].name != NULL && same_value(&columns[i], &columns[end]); end++)
+            found = found || part->at[end] != ABSENT;
+        if (!is_needed(part, &columns[i]))
+            continue;
+        fit->found += found;
+        fit->lacking += !found;
+        for (size_t j = i; names != NULL && !found && j < end; j++) {
+            const char *between = names->length > 0 ? ", " : "";
+            text_format(names, "%s\"%s\"", j > i ? " or " : between,
+                        name_of(&columns[j], part->user, room));
+        }
     }
-    for (size_t i = 0; columns[i].name != NULL; i++) {
-        bool needed = columns[i].kind == RECORDED_TIME       ? !timed
-                      : columns[i].need == RECORDED_TOGETHER ? together
-                                                             : columns[i].need == RECORDED_NEEDED;
-        size_t ignored;
-        if (needed && part->at[i] == ABSENT)
-            return csv_table_column(table->names, name_of(&columns[i], user, room), &ignored, diag);
-    }
-    return 0;
 }
 
-static int add_part(struct table *table, const struct recorded_kind *kind, const char *user,
-                    struct diag *diag)
+/* Adds every road user that a column names, whatever its number is; without any, "#1". */
+static void add_users(struct table *table, struct fit *fit)
 {
-    struct part *part = list_add(&table->parts, table->arena);
-    part->kind = kind;
-    return find_columns(table, part, user, diag);
-}
-
-/* Adds every road user that a column names, whatever its number is; without any, "#1" is refused.
- */
-static int find_users(struct table *table, struct diag *diag)
-{
-    const struct recorded_kind *kind = table->layout->kinds;
     struct intern users = {0};
     for (size_t i = 0; i < table->names->columns; i++) {
         const char *name = table->names->header[i];
         size_t length = strcspn(name, " ");
-        if (*name != '#' || length == 1 || strspn(name + 1, "0123456789") != length - 1)
-            continue;
-        uint32_t user = intern_number(&users, name, length, table->arena);
-        if (user == table->parts.count &&
-            add_part(table, kind, intern_text(&users, user), diag) != 0)
-            return -1;
+        if (*name == '#' && length > 1 && strspn(name + 1, "0123456789") == length - 1)
+            intern_number(&users, name, length, table->arena);
     }
-    return table->parts.count > 0 ? 0 : add_part(table, kind, "#1", diag);
+    if (users.list.count == 0)
+        intern_word(&users, "#1", table->arena);
+    for (uint32_t i = 0; i < users.list.count; i++)
+        *list_add(&fit->parts, table->arena) =
+            part_of(table, fit->layout->kinds, intern_text(&users, i));
 }
 
-/* Of a kind without a column of ids there is nobody, unless all lack it: then the first is
- * refused. */
-static int find_kinds(struct table *table, struct diag *diag)
+/* Adds the kinds that have a column of ids; without any, the first. */
+static void add_kinds(struct table *table, struct fit *fit)
 {
-    const struct recorded_kind *kinds = table->layout->kinds, *kind = kinds;
-    do {
-        if (place_of(table, kind->columns->name) != ABSENT &&
-            add_part(table, kind, NULL, diag) != 0)
-            return -1;
-    } while (++kind < kinds + RECORDED_KINDS && kind->columns != NULL);
-    return table->parts.count > 0 ? 0 : add_part(table, kinds, NULL, diag);
+    const struct recorded_kind *kinds = fit->layout->kinds;
+    for (size_t i = 0; i < RECORDED_KINDS && kinds[i].columns != NULL; i++) {
+        struct part part = part_of(table, &kinds[i], NULL);
+        if (part.id != ABSENT)
+            *list_add(&fit->parts, table->arena) = part;
+    }
+    if (fit->parts.count == 0)
+        *list_add(&fit->parts, table->arena) = part_of(table, kinds, NULL);
+}
+
+static struct fit fit_of(struct table *table, const struct recorded_layout *layout)
+{
+    struct fit fit = {.layout = layout};
+    (layout->wide ? add_users : add_kinds)(table, &fit);
+    for (size_t i = 0; i < fit.parts.count; i++)
+        count_values(&fit, &fit.parts.items[i], NULL);
+    return fit;
+}
+
+/* Names the nearest layout with what it lacks, and the header. */
+static int refuse_header(const struct table *table, struct diag *diag)
+{
+    enum { MOST = 600 };
+    struct fit counted = {0};
+    struct text lacking = {0}, header = {0};
+    for (size_t i = 0; i < table->fit.parts.count; i++)
+        count_values(&counted, &table->fit.parts.items[i], &lacking);
+    for (size_t i = 0; i < table->names->columns; i++)
+        text_format(&header, "%s%s", i > 0 ? ", " : "", table->names->header[i]);
+    int names = (int)(lacking.length < MOST ? lacking.length : MOST);
+    int length = (int)(header.length < MOST ? header.length : MOST);
+    if (counted.found == 0)
+        diag_fail(diag, DIAG_DATA, "no column is one that a layout needs; the header is: %.*s",
+                  length, header.bytes);
+    else
+        diag_fail(diag, DIAG_DATA,
+                  "column%s %.*s %s missing for %s, the nearest layout; the header is: %.*s",
+                  counted.lacking > 1 ? "s" : "", names, lacking.bytes,
+                  counted.lacking > 1 ? "are" : "is", table->fit.layout->format.name, length,
+                  header.bytes);
+    text_free(&lacking);
+    text_free(&header);
+    return -1;
+}
+
+/* Finds the layout of whose needed values the table has the largest share, and of equal shares the
+ * most; refuses the table if it lacks any. */
+static int find_layout(struct table *table, struct diag *diag)
+{
+    struct fit *best = &table->fit;
+    for (size_t i = 0; i < RECORDED_LAYOUTS; i++) {
+        struct fit fit = fit_of(table, &recorded_layouts[i]);
+        size_t own = fit.found * (best->found + best->lacking);
+        size_t least = best->found * (fit.found + fit.lacking);
+        if (i == 0 || own > least || (own == least && fit.found > best->found))
+            *best = fit;
+    }
+    return best->lacking == 0 ? 0 : refuse_header(table, diag);
 }
 
 /* ---- files beside a table ---- */
@@ -175,7 +247,7 @@ static int take_recording(struct table *table, const struct csv_table *row, stru
 
 static int take_track(struct table *table, const struct csv_table *row, struct diag *diag)
 {
-    const char *id_name = table->layout->beside.id, *way = table->layout->beside.direction;
+    const char *id_name = table->fit.layout->beside.id, *way = table->fit.layout->beside.direction;
     const char *id = take_text(row, id_name, table->arena, diag);
     const char *class = id != NULL ? take_text(row, "class", table->arena, diag) : NULL;
     double direction = 0;
@@ -254,10 +326,9 @@ static int read_header(struct table *table, const char *path, struct diag *diag)
     table->names = csv_table_names(table->lines);
     for (size_t i = 0; i < table->names->columns; i++)
         intern_word(&table->places, table->names->header[i], table->arena);
-    table->layout = layout_of(table);
-    if ((table->layout->wide ? find_users : find_kinds)(table, diag) != 0)
+    if (find_layout(table, diag) != 0)
         return -1;
-    return table->layout->beside.id == NULL ||
+    return table->fit.layout->beside.id == NULL ||
                    (read_beside(table, path, "recordingMeta", take_recording, diag) == 0 &&
                     read_beside(table, path, "tracksMeta", take_track, diag) == 0)
                ? 0
@@ -317,7 +388,7 @@ static int find_track(const struct table *table, const struct part *part, struct
 {
     uint32_t number;
     if (!intern_find(&table->tracks, row->id, strlen(row->id), &number))
-        return refuse(table, (size_t)part->at[0], "\" is no track of tracksMeta", diag);
+        return refuse(table, (size_t)part->id, "\" is no track of tracksMeta", diag);
     row->class = table->track_list.items[number].class;
     row->direction_rad = table->track_list.items[number].direction_rad;
     return 0;
@@ -331,20 +402,18 @@ static int read_part(struct table *table, const struct part *part, struct record
     cells.row.place = table->rows->numbers[table->row];
     cells.row.class = part->kind->class;
     cells.row.ahead = part->kind->ahead;
-    cells.row.passenger = part->kind != table->layout->kinds;
+    cells.row.passenger = part->kind != table->fit.layout->kinds;
     for (size_t i = 0; columns[i].name != NULL; i++) {
         int at = part->at[i];
-        bool skipped = columns[i].kind == RECORDED_TIME
-                           ? at == ABSENT
-                           : columns[i].need != RECORDED_NEEDED && is_empty(table, at) &&
-                                 (at == ABSENT || columns[i].kind != RECORDED_ALIKE);
+        bool may_be_empty = columns[i].need != RECORDED_NEEDED && columns[i].kind != RECORDED_ALIKE;
+        bool skipped = at == ABSENT || (may_be_empty && is_empty(table, at));
         if (!skipped && read_cell(table, &columns[i], (size_t)at, &cells, diag) != 0)
             return -1;
     }
-    if (table->layout->beside.id != NULL && find_track(table, part, &cells.row, diag) != 0)
+    if (table->fit.layout->beside.id != NULL && find_track(table, part, &cells.row, diag) != 0)
         return -1;
-    if (table->layout->complete != NULL)
-        table->layout->complete(&cells);
+    if (table->fit.layout->complete != NULL)
+        table->fit.layout->complete(&cells);
     *row = cells.row;
     return RECORDED_ROW;
 }
@@ -355,7 +424,7 @@ static int next_row(void *state, struct recorded_row *row, struct diag *diag)
 {
     struct table *own = state;
     for (;;) {
-        if (own->rows == NULL || own->part == own->parts.count) {
+        if (own->rows == NULL || own->part == own->fit.parts.count) {
             own->part = 0;
             if (own->rows == NULL || ++own->row == own->rows->rows) {
                 own->rows = csv_table_next(own->lines, diag);
@@ -364,12 +433,12 @@ static int next_row(void *state, struct recorded_row *row, struct diag *diag)
         }
         if (own->rows == NULL)
             return diag->code == DIAG_OK ? RECORDED_END : -1;
-        const struct part *part = &own->parts.items[own->part++];
-        bool wide = own->layout->wide, more = own->part < own->parts.count;
-        if (is_empty(own, part->at[0]) && (wide || more))
+        const struct part *part = &own->fit.parts.items[own->part++];
+        bool wide = own->fit.layout->wide, more = own->part < own->fit.parts.count;
+        if (is_empty(own, part->id) && (wide || more))
             continue;
         if (!wide)
-            own->part = own->parts.count;
+            own->part = own->fit.parts.count;
         return read_part(own, part, row, diag);
     }
 }
@@ -388,7 +457,7 @@ struct recorded_reader recorded_table_open(struct input *input, const char *path
     table->input = input;
     table->arena = arena;
     if (read_header(table, path, diag) == 0) {
-        table->format = table->layout->format;
+        table->format = table->fit.layout->format;
         table->format.place = "row";
         table->format.next = next_row;
         table->format.close = close_table;

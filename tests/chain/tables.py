@@ -430,7 +430,7 @@ def shared_cases(row, x, x_name, id_name, sign=","):
         (row, row.replace(x, 'a"b'), "row 2: a misplaced quote"),
         (row, row.replace(x, '"' + x), "quote opens a cell and nothing closes it"),
         (row, row.replace(x, "\0"), "row 2: a NUL byte; expected text"),
-        (x_name, "z", f'column "{x_name}" is missing; the header is: '),
+        (x_name, "z", f'column "{x_name}" is missing for a '),
     ]
 
 
@@ -494,7 +494,7 @@ def bad_input(folder):
         (row, row.replace("car", "ship"), 'row 2: unknown class "ship"; expected a word that --help lists'),
         (row, row.replace("1,1,", ",1,"), 'row 2, column "track_id": ""; expected 1 to 1024 printable'),
         (row, row.replace(",100,", ",,"), 'row 2, column "timestamp_ms": "" is not a number'),
-        ("timestamp_ms", "stamp", 'column "timestamp_ms" is missing'),
+        ("timestamp_ms", "stamp", '"timestamp_ms" or "timestamp_us" or "timestamp_s" is missing'),
         (",200,", ",200100,", "row 3: track_id 1 moves by 1.06 m in 200 s, but by its speeds by 2121 m"),
         ("psi_rad", "yaw", 'column "psi_rad" is missing'),
     ], "1")

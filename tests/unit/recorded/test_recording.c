@@ -342,16 +342,23 @@ static void damaged_recordings_are_refused(void **state)
         {HEADER ",1,100,car,0,0,0,0,0,4,2\n",
          "row 2, column \"track_id\": \"\"; expected 1 to 1024 printable ASCII characters"},
         {"track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi,length,width\n",
-         "column \"psi_rad\" is missing; the header is: track_id, frame_id, timestamp_ms, "
-         "agent_type, x, y, vx, vy, psi, length, width"},
-        {"track_id,agent_type,x,y,vx,vy\n", "column \"timestamp_ms\" is missing; the header is: "
-                                            "track_id, agent_type, x, y, vx, vy"},
+         "column \"psi_rad\" is missing for a table of INTERACTION, the nearest layout; the header "
+         "is: "
+         "track_id, frame_id, timestamp_ms, agent_type, x, y, vx, vy, psi, length, width"},
+        {"track_id,agent_type,x,y,vx,vy\n",
+         "column \"timestamp_ms\" or \"timestamp_us\" or \"timestamp_s\" is missing for a table of "
+         "INTERACTION, the nearest layout; the header is: track_id, agent_type, x, y, vx, vy"},
+        {"id,x,y,width,height,class\n",
+         "columns \"frame\", \"xVelocity\", \"yVelocity\" are missing for a table of highD, the "
+         "nearest layout; the header is: id, x, y, width, height, class"},
+        {"foo,bar\n", "no column is one that a layout needs; the header is: foo, bar"},
         {SUMO "1;v;0;0;0;passenger;0\n0.5;v;0;0;0;passenger;0\n",
          "row 3: 0.5 s after a step of 1 s; expected a later time, by at most 1e6 s"},
         {SUMO "1;v;0;0;north;passenger;0\n",
          "row 2, column \"vehicle_angle\": \"north\" is not a number"},
-        {"timestep_time;vehicle_x\n", "column \"vehicle_id\" is missing; the header is: "
-                                      "timestep_time, vehicle_x"},
+        {"timestep_time;vehicle_id;vehicle_x;vehicle_angle\n",
+         "column \"vehicle_y\" is missing for a table of SUMO, the nearest layout; the header is: "
+         "timestep_time, vehicle_id, vehicle_x, vehicle_angle"},
         {HEADER, "--ego: \"1\" is no track_id"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
