@@ -82,6 +82,14 @@ double recorded_row_seconds(int64_t time_ns);
  * frames are UTF-8, and the encoding of a table is unknown. */
 bool recorded_row_name_fits(const char *name);
 
+/* The time of an instant, counted from begin_ns. A recording may last longer than an int64_t has
+ * nanoseconds, but not longer than a uint64_t. */
+int64_t recorded_row_instant_ns(int64_t begin_ns, int64_t number, double rate_hz);
+
+/* Refuses two different rows of one road user at one time; returns -1. */
+int recorded_row_refuse_second(const struct recorded_format *format, const char *id,
+                               int64_t time_ns, size_t place, size_t other, struct diag *diag);
+
 /* ---- readers ---- */
 
 /* Opens a CSV table of any layout (recorded_layouts.h): reads the header, and takes over the input.
@@ -97,9 +105,3 @@ struct recorded_reader recorded_sumo_open(struct input *input, struct arena *are
 struct recorded_reader recorded_commonroad_open(struct input *input, struct arena *arena);
 struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, const char **host,
                                          struct arena *arena, struct diag *diag);
-
-/* Reads all rows of a reader into memory and closes it. The new reader gives them in the order of
- * time and marks steps; its format is NULL after a message. A row takes 64 bytes; a step, a track
- * and a size of a body some hundred each. Yaw rates are kept to 24 bits, speeds are not kept. */
-struct recorded_reader recorded_row_store(struct recorded_reader reader, struct arena *arena,
-                                          struct diag *diag);

@@ -93,14 +93,47 @@ static void place_object(struct recorded_state *state, const struct recorded_sta
     object->y_m -= state->ahead_m * heading.y;
 }
 
-static int refuse_second(const struct recorded_steps *steps, const struct recorded_step *step,
-                         const struct recorded_state *states, struct diag *diag)
+/* True if two states of a road user do not differ in what their rows state; what the first one
+ * leaves open is then that of the other. */
+static bool agree(struct recorded_state *state, const struct recorded_state *other)
 {
-    const struct recorded_format *format = steps->reader.format;
-    size_t one = states[0].place, other = states[1].place;
-    return diag_fail(diag, DIAG_DATA, "%s %zu: %s %s at %.12g s is in %s %zu already",
-                     format->place, one > other ? one : other, format->id_name, states->object.id,
-                     recorded_row_seconds(step->time_ns), format->place, one > other ? other : one);
+#define MEMBER(name) offsetof(struct recorded_state, name)
+    static const size_t members[] = {
+        MEMBER(object.x_m),      MEMBER(object.y_m),     MEMBER(object.yaw_rad),
+        MEMBER(object.vx_mps),   MEMBER(object.vy_mps),  MEMBER(object.yaw_rate_radps),
+        MEMBER(object.length_m), MEMBER(object.width_m), MEMBER(object.height_m),
+        MEMBER(direction_rad),   MEMBER(ahead_m),        MEMBER(speed_mps)};
+#undef MEMBER
+    for (size_t i = 0; i < sizeof members / sizeof members[0]; i++) {
+        double *mine = (double *)((char *)state + members[i]);
+        double its = *(const double *)((const char *)other + members[i]);
+        if (isnan(*mine))
+            *mine = its;
+        else if (!isnan(its) && its != *mine)
+            return false;
+    }
+    return strcmp(state->object.class, other->object.class) == 0;
+}
+
+/* Sorts the states. Of a row that stands twice unchanged one is left; different rows of one road
+ * user are refused. */
+static int sort_states(const struct recorded_steps *steps, struct recorded_step *step,
+                       struct diag *diag)
+{
+    struct recorded_state *states = step->states.items;
+    size_t kept = 0;
+    sort_list(&step->states, frame_order_names, &step->arena);
+    for (size_t i = 0; i < step->states.count; i++) {
+        struct recorded_state *last = kept > 0 ? &states[kept - 1] : NULL;
+        bool again = last != NULL && strcmp(last->object.id, states[i].object.id) == 0;
+        if (again && !agree(last, &states[i]))
+            return recorded_row_refuse_second(steps->reader.format, last->object.id, step->time_ns,
+                                              last->place, states[i].place, diag);
+        if (!again)
+            states[kept++] = states[i];
+    }
+    step->states.count = kept;
+    return 0;
 }
 
 /* Sorts the states and links each to the state with its id in the step before, unless it moved
@@ -111,12 +144,11 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
     const struct recorded_format *format = steps->reader.format;
     struct recorded_step *last = steps->read > 0 ? step_at(steps, steps->read - 1) : NULL;
     double length_s = last != NULL ? seconds_between(last, step) : 0;
-    sort_list(&step->states, frame_order_names, &step->arena);
+    if (sort_states(steps, step, diag) != 0)
+        return -1;
     for (size_t i = 0, j = 0; i < step->states.count; i++) {
         struct recorded_state *state = &step->states.items[i], *named = NULL;
         const char *id = state->object.id;
-        if (i > 0 && strcmp(state[-1].object.id, id) == 0)
-            return refuse_second(steps, step, state - 1, diag);
         while (last != NULL && j < last->states.count &&
                strcmp(last->states.items[j].object.id, id) < 0)
             j++;
@@ -226,9 +258,7 @@ static void read_step(struct recorded_steps *steps)
 
 /* ---- what the rows leave open ---- */
 
-/* The slope, at the middle of three places, of the parabola through them. before and after are the
- * rises to and from the middle; their times are 0 if there is no such place. NAN without both. */
-static double slope(double before, double before_s, double after, double after_s)
+double recorded_steps_slope(double before, double before_s, double after, double after_s)
 {
     if (before_s > 0 && after_s > 0)
         return (before * after_s * after_s + after * before_s * before_s) /
@@ -245,8 +275,8 @@ static void find_velocity(struct recorded_state *state, const struct recorded_st
     struct object *object = &state->object;
     struct vec2 at_m = state->at_m, from_m = before != NULL ? before->at_m : at_m;
     struct vec2 to_m = after != NULL ? after->at_m : at_m;
-    object->vx_mps = slope(at_m.x - from_m.x, before_s, to_m.x - at_m.x, after_s);
-    object->vy_mps = slope(at_m.y - from_m.y, before_s, to_m.y - at_m.y, after_s);
+    object->vx_mps = recorded_steps_slope(at_m.x - from_m.x, before_s, to_m.x - at_m.x, after_s);
+    object->vy_mps = recorded_steps_slope(at_m.y - from_m.y, before_s, to_m.y - at_m.y, after_s);
     if (before != NULL || after != NULL)
         return;
     bool known = !isnan(state->speed_mps) && !isnan(object->yaw_rad);
@@ -265,7 +295,7 @@ static void find_yaw_rate(struct object *object, const struct recorded_state *be
         right_rad = units_wrap_rad(after->object.yaw_rad - object->yaw_rad);
     else
         after_s = 0;
-    double rate_radps = slope(left_rad, before_s, right_rad, after_s);
+    double rate_radps = recorded_steps_slope(left_rad, before_s, right_rad, after_s);
     object->yaw_rate_radps = isnan(rate_radps) ? 0 : rate_radps;
 }
 

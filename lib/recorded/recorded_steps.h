@@ -72,6 +72,10 @@ struct recorded_steps {
 int recorded_steps_next(struct recorded_steps *steps, const struct recorded_step **step,
                         struct diag *diag);
 
+/* The slope, at the middle of three places, of the parabola through them. before and after are the
+ * rises to and from the middle; their times are 0 if there is no such place. NAN without both. */
+double recorded_steps_slope(double before, double before_s, double after, double after_s);
+
 /* The state of an id, or NULL. */
 const struct recorded_state *recorded_steps_find(const struct recorded_step *step, const char *id);
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "frame/frame_check.h"
+#include "recorded/recorded_store.h"
 #include "recorded/sumo_types.h"
 #include "traffic/scenario.h"
 
@@ -89,7 +90,8 @@ static int prepare(struct recording *recording, struct diag *diag)
         recording_conditions(options, &recording->conditions, recording->arena, diag) != 0)
         return -1;
     if (!steps->reader.format->by_time)
-        steps->reader = recorded_row_store(steps->reader, recording->arena, diag);
+        steps->reader =
+            recorded_store_open(steps->reader, options->rate_hz, recording->arena, diag);
     if (steps->reader.format == NULL ||
         recorded_classes_begin(&steps->classes, steps->reader.format, options->class_map,
                                options->class_default, recording->arena, diag) != 0)

@@ -4,12 +4,11 @@
 #include "base/units.h"
 #include "geometry/motion.h"
 
-/* A recording may last longer than an int64_t has nanoseconds, but not longer than a uint64_t. */
 static int64_t next_instant_ns(const struct resampling *resampling)
 {
-    double number = (double)resampling->first + (double)resampling->made_count;
-    uint64_t since_begin = (uint64_t)round(number * 1e9 / resampling->rate_hz);
-    return (int64_t)((uint64_t)resampling->begin_ns + since_begin);
+    return recorded_row_instant_ns(resampling->begin_ns,
+                                   resampling->first + (int64_t)resampling->made_count,
+                                   resampling->rate_hz);
 }
 
 /* Finds the first instant that is made; the quotient finds it but for rounding. */
@@ -25,8 +24,8 @@ static void begin(struct resampling *resampling, int64_t begin_ns)
         resampling->first++;
 }
 
-static struct object object_between(const struct object *a, const struct object *b, double length_s,
-                                    double share)
+struct object resampling_between(const struct object *a, const struct object *b, double length_s,
+                                 double share)
 {
     struct object object = *a;
     struct vec2 place_m, velocity_mps, acceleration_mps2;
@@ -55,8 +54,8 @@ static void interpolate(const struct resampling *resampling, struct recorded_ste
         if (between && (from == NULL || state.before == SIZE_MAX))
             continue;
         if (between)
-            state.object = object_between(&from->states.items[state.before].object, &state.object,
-                                          length_s, share);
+            state.object = resampling_between(&from->states.items[state.before].object,
+                                              &state.object, length_s, share);
         state.object.id = arena_text(&made->arena, state.object.id, strlen(state.object.id));
         *list_add(&made->states, &made->arena) = state;
     }

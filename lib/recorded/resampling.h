@@ -20,6 +20,10 @@ struct resampling {
     struct diag fault; /* that ended it */
 };
 
+/* The object at a share in [0, 1] of the time between two of its states. */
+struct object resampling_between(const struct object *a, const struct object *b, double length_s,
+                                 double share);
+
 /* The next instant as a step: 1; 0 at the end; -1 after a message. It is valid until the next
  * call. */
 int resampling_next(struct resampling *resampling, const struct recorded_step **step,
