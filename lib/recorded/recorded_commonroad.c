@@ -397,6 +397,11 @@ static int next_event(void *state, struct recorded_row *row, struct diag *diag)
 {
     struct document *document = state;
     int event = xml_rows_next(&document->xml, row, diag);
+    if (event == RECORDED_END && document->steps.list.count == 0 && document->stills.count > 0)
+        return diag_fail(diag, DIAG_DATA,
+                         "nothing moves: all %zu obstacles are static, and no state of another "
+                         "gives a time; expected a dynamic obstacle",
+                         document->stills.count);
     if (event != RECORDED_END || document->steps.list.count == 0 ||
         document->still_given == document->stills.count)
         return event;

@@ -2,60 +2,16 @@
 
 #include <math.h>
 
-#include "base/intern.h"
 #include "base/sort.h"
 #include "base/units.h"
+#include "recorded/recorded_memory.h"
 #include "recorded/resampling.h"
 
-/* ---- rows in memory ---- */
-
-enum { CHUNK = 4096 };
-
-static const uint32_t NONE = UINT32_MAX;
-
-enum { X_M, Y_M, YAW_RAD, VX_MPS, VY_MPS };
-
-struct stored_row {
-    double values[5]; /* X_M, Y_M, YAW_RAD, VX_MPS, VY_MPS */
-    float yaw_rate_radps;
-    uint32_t body;
-    uint32_t place; /* rows that are the same up to this member are one row that stands twice */
-    uint32_t stamp; /* its number in the order of time */
-    uint32_t next;  /* row of the same stamp; NONE */
-    uint32_t after; /* row of the same road user, at the same time or later; NONE */
-};
-
-_Static_assert(sizeof(struct stored_row) <= 64, "the header says so");
-
-/* Values that many rows share, interned by their bytes. */
-struct body {
-    double length_m, width_m, height_m, ahead, direction_rad;
-    uint32_t id, class; /* names */
-};
-
-struct stamp {
-    int64_t time_ns;
-    uint32_t first; /* row; NONE */
-    uint32_t step;  /* its number */
-};
-
-/* A road user. */
-struct track {
-    uint32_t first, last; /* rows; NONE */
-    uint32_t at;          /* its last row up to the present instant */
-    uint32_t step;        /* the last one formed with it; NONE */
-    int64_t most_ns;      /* between two rows of one visit */
-};
+enum { USUAL_ROWS = 4096, ENOUGH = 3 };
 
 struct store {
     struct recorded_format format;
-    struct arena *arena;
-    LIST_OF(struct stored_row *) chunks;
-    uint32_t rows;
-    struct intern names, bodies, times;
-    LIST_OF(struct stamp) stamps;
-    struct track *tracks;     /* by the number of the id's name */
-    LIST_OF(uint32_t) order;  /* numbers of the tracks by their first stamps */
+    struct recorded_memory memory;
     LIST_OF(int64_t) step_ns; /* times of the steps */
     double rate_hz;           /* of the instants; 0: the steps are those of the rows */
     /* What the reader gives next. */
@@ -65,235 +21,168 @@ struct store {
     size_t begun, given;    /* numbers of tracks of the order and of live */
 };
 
-static struct stored_row *row_at(const struct store *store, uint32_t number)
-{
-    return &store->chunks.items[number / CHUNK][number % CHUNK];
-}
-
-static struct stamp *stamp_of(struct store *store, int64_t time_ns)
-{
-    uint32_t number = intern_number(&store->times, &time_ns, sizeof time_ns, store->arena);
-    if (number == store->stamps.count)
-        *list_add(&store->stamps, store->arena) = (struct stamp){time_ns, NONE, 0};
-    return &store->stamps.items[number];
-}
-
-static void store_row(struct store *store, const struct recorded_row *row)
-{
-    struct arena *arena = store->arena;
-    if (store->rows % CHUNK == 0)
-        *list_add(&store->chunks, arena) = arena_get(arena, CHUNK * sizeof(struct stored_row));
-    uint32_t number = store->rows++;
-    struct stamp *stamp = stamp_of(store, row->time_ns);
-    struct body body = {row->length_m,
-                        row->width_m,
-                        row->height_m,
-                        row->ahead,
-                        row->direction_rad,
-                        intern_word(&store->names, row->id, arena),
-                        intern_word(&store->names, row->class, arena)};
-    *row_at(store, number) = (struct stored_row){
-        {row->x_m, row->y_m, row->yaw_rad, row->vx_mps, row->vy_mps},
-        (float)row->yaw_rate_radps,
-        intern_number(&store->bodies, &body, sizeof body, arena),
-        (uint32_t)row->place,
-        NONE,
-        stamp->first,
-        NONE,
-    };
-    stamp->first = number;
-}
-
-static struct body body_of(const struct store *store, const struct stored_row *row)
-{
-    struct body body;
-    memcpy(&body, intern_text(&store->bodies, row->body), sizeof body);
-    return body;
-}
-
-static void unpack(const struct store *store, const struct stored_row *stored,
-                   struct recorded_row *row)
-{
-    struct body body = body_of(store, stored);
-    *row = recorded_row_unsaid;
-    row->id = intern_text(&store->names, body.id);
-    row->class = intern_text(&store->names, body.class);
-    row->x_m = stored->values[X_M];
-    row->y_m = stored->values[Y_M];
-    row->yaw_rad = stored->values[YAW_RAD];
-    row->vx_mps = stored->values[VX_MPS];
-    row->vy_mps = stored->values[VY_MPS];
-    row->yaw_rate_radps = (double)stored->yaw_rate_radps;
-    row->ahead = body.ahead;
-    row->direction_rad = body.direction_rad;
-    row->length_m = body.length_m;
-    row->width_m = body.width_m;
-    row->height_m = body.height_m;
-    row->place = stored->place;
-}
-
 /* ---- steps ---- */
 
-static struct track *track_of(const struct store *store, const struct stored_row *row)
-{
-    return &store->tracks[body_of(store, row).id];
-}
-
-static int64_t time_of(const struct store *store, const struct stored_row *row)
-{
-    return store->stamps.items[row->stamp].time_ns;
-}
-
-static const struct stored_row *after_of(const struct store *store, const struct stored_row *row)
-{
-    return row->after != NONE ? row_at(store, row->after) : NULL;
-}
-
-/* Links the rows of each road user in the order of time. */
-static void link_tracks(struct store *store)
-{
-    size_t count = store->names.list.count;
-    store->tracks = arena_room(store->arena, count * sizeof *store->tracks);
-    for (size_t i = 0; i < count; i++)
-        store->tracks[i] = (struct track){NONE, NONE, NONE, NONE, 0};
-    for (uint32_t i = 0; i < store->stamps.count; i++) {
-        for (uint32_t at = store->stamps.items[i].first; at != NONE; at = row_at(store, at)->next) {
-            struct stored_row *row = row_at(store, at);
-            struct track *track = track_of(store, row);
-            row->stamp = i;
-            if (track->first == NONE)
-                *list_add(&store->order, store->arena) = (uint32_t)(track - store->tracks);
-            if (track->first == NONE)
-                track->first = at;
-            else
-                row_at(store, track->last)->after = at;
-            track->last = at;
-        }
-    }
-}
-
-/* Finds the usual step of each road user, and returns that of all; 0 if nobody has two times. */
-static double usual_step_ns(struct store *store)
+/* The lower quartile of the times between the first rows of a road user, so that absences do not
+ * count; 0 if it has one row. *known is the number of these times. */
+static double usual_step_ns(const struct recorded_memory *memory,
+                            const struct recorded_track *track, double *times_ns, size_t *known)
 {
     struct arena scratch = {0};
-    double *all = arena_room(&scratch, store->rows * sizeof *all);
-    size_t count = 0;
-    for (size_t i = 0; i < store->order.count; i++) {
-        struct track *track = &store->tracks[store->order.items[i]];
-        size_t begin = count;
-        const struct stored_row *row = row_at(store, track->first), *after;
-        for (; (after = after_of(store, row)) != NULL; row = after)
-            if (after->stamp != row->stamp)
-                all[count++] = (double)(time_of(store, after) - time_of(store, row));
-        sort_numbers(all + begin, count - begin, &scratch);
-        if (count > begin)
-            track->most_ns = (int64_t)(1.5 * all[begin + (count - begin - 1) / 2]);
+    uint32_t row = track->first, after;
+    *known = 0;
+    for (; (after = recorded_memory_next(memory, row)) != RECORDED_NONE; row = after) {
+        uint64_t between_ns = recorded_memory_between_ns(memory, row, after);
+        if (between_ns > 0)
+            times_ns[(*known)++] = (double)between_ns;
+        if (*known == USUAL_ROWS)
+            break;
     }
-    sort_numbers(all, count, &scratch);
-    double usual_ns = count > 0 ? all[(count - 1) / 2] : 0;
+    sort_numbers(times_ns, *known, &scratch);
     arena_free(&scratch);
-    return usual_ns;
+    return *known > 0 ? times_ns[(*known - 1) / 4] : 0;
 }
 
+/* Finds what is usual for each road user; returns the median of all, 0 if nobody has two times. A
+ * road user with fewer times than ENOUGH has the usual step of all. */
+static double find_usual_steps(struct recorded_memory *memory)
+{
+    struct arena scratch = {0};
+    double *times_ns = arena_room(&scratch, USUAL_ROWS * sizeof *times_ns);
+    double *all_ns = arena_room(&scratch, memory->order.count * sizeof *all_ns);
+    size_t count = 0;
+    for (size_t i = 0; i < memory->order.count; i++) {
+        struct recorded_track *track = &memory->tracks[memory->order.items[i]];
+        size_t known;
+        double usual_ns = usual_step_ns(memory, track, times_ns, &known);
+        track->most_ns = known < ENOUGH ? 0 : (uint64_t)(1.5 * usual_ns);
+        if (known > 0)
+            all_ns[count++] = usual_ns;
+    }
+    sort_numbers(all_ns, count, &scratch);
+    double median_ns = count > 0 ? all_ns[(count - 1) / 2] : 0;
+    for (size_t i = 0; i < memory->order.count; i++) {
+        struct recorded_track *track = &memory->tracks[memory->order.items[i]];
+        if (track->most_ns == 0)
+            track->most_ns = (uint64_t)(1.5 * median_ns);
+    }
+    arena_free(&scratch);
+    return median_ns;
+}
+
+/* What the steps tell about the recording. */
+struct step_counts {
+    size_t moved;       /* stamps that differ from the time of their step */
+    size_t pairs, torn; /* successive rows of a visit, and those with steps of others in between */
+};
+
 /* True if a road user of the stamp is in the step already. */
-static bool is_in_step(const struct store *store, const struct stamp *stamp, uint32_t step)
+static bool is_in_step(const struct recorded_memory *memory, const struct recorded_stamp *stamp,
+                       uint32_t step)
 {
     bool found = false;
-    for (uint32_t at = stamp->first; at != NONE && !found; at = row_at(store, at)->next)
-        found = track_of(store, row_at(store, at))->step == step;
+    for (uint32_t row = stamp->first; row != RECORDED_NONE && !found;
+         row = recorded_memory_next(memory, row)) {
+        const struct recorded_track *track = recorded_memory_track(memory, row);
+        found = track->stamp != RECORDED_NONE && memory->stamps.items[track->stamp].step == step;
+    }
     return found;
 }
 
-/* Puts the rows of the stamp into the step; returns their number. */
-static size_t join_step(struct store *store, struct stamp *stamp, uint32_t step)
+/* Puts the rows of a stamp into its step; returns their number. */
+static size_t join_step(struct recorded_memory *memory, const struct recorded_stamp *stamp,
+                        struct step_counts *counts)
 {
+    const struct recorded_stamp *stamps = memory->stamps.items;
     size_t rows = 0;
-    stamp->step = step;
-    for (uint32_t at = stamp->first; at != NONE; at = row_at(store, at)->next, rows++)
-        track_of(store, row_at(store, at))->step = step;
+    for (uint32_t row = stamp->first; row != RECORDED_NONE;
+         row = recorded_memory_next(memory, row), rows++) {
+        struct recorded_track *track = recorded_memory_track(memory, row);
+        const struct recorded_stamp *before =
+            track->stamp != RECORDED_NONE ? &stamps[track->stamp] : stamp;
+        track->stamp = (uint32_t)(stamp - stamps);
+        if (before == stamp ||
+            (uint64_t)stamp->time_ns - (uint64_t)before->time_ns > track->most_ns)
+            continue;
+        counts->pairs++;
+        counts->torn += stamp->step - before->step > 1;
+    }
     return rows;
 }
 
-/* Makes steps of the stamps; returns true if a row has another stamp than its step. */
-static bool form_steps(struct store *store, double usual_ns)
+/* Makes steps of the stamps. */
+static struct step_counts form_steps(struct store *store, double usual_ns)
 {
     const uint64_t tolerance_ns = (uint64_t)(RECORDED_STORE_STEP_SHARE * usual_ns);
+    struct recorded_memory *memory = &store->memory;
+    struct step_counts counts = {0};
     int64_t first_ns = 0;
     size_t most = 0;
-    for (size_t i = 0; i < store->stamps.count; i++) {
-        struct stamp *stamp = &store->stamps.items[i];
+    for (size_t i = 0; i < memory->stamps.count; i++) {
+        struct recorded_stamp *stamp = &memory->stamps.items[i];
         uint32_t last = (uint32_t)store->step_ns.count - 1;
         if (i == 0 || (uint64_t)stamp->time_ns - (uint64_t)first_ns > tolerance_ns ||
-            is_in_step(store, stamp, last)) {
-            *list_add(&store->step_ns, store->arena) = first_ns = stamp->time_ns;
+            is_in_step(memory, stamp, last)) {
+            *list_add(&store->step_ns, memory->arena) = first_ns = stamp->time_ns;
             most = 0;
             last++;
         }
-        size_t rows = join_step(store, stamp, last);
+        stamp->step = last;
+        size_t rows = join_step(memory, stamp, &counts);
         if (rows > most)
             store->step_ns.items[last] = stamp->time_ns;
         most = rows > most ? rows : most;
     }
-    return store->step_ns.count < store->stamps.count;
-}
-
-/* Counts successive rows of one visit, and those that have a step of others between them. */
-static void count_torn(const struct store *store, size_t *pairs, size_t *torn)
-{
-    for (size_t i = 0; i < store->order.count; i++) {
-        const struct track *track = &store->tracks[store->order.items[i]];
-        const struct stored_row *row = row_at(store, track->first), *after;
-        for (; (after = after_of(store, row)) != NULL; row = after) {
-            int64_t between_ns = time_of(store, after) - time_of(store, row);
-            const struct stamp *stamps = store->stamps.items;
-            bool pair = between_ns > 0 && between_ns <= track->most_ns;
-            *pairs += pair;
-            *torn += pair && stamps[after->stamp].step - stamps[row->stamp].step > 1;
-        }
-    }
+    counts.moved = memory->stamps.count - store->step_ns.count;
+    return counts;
 }
 
 /* ---- rows at other times than their own ---- */
 
 /* Time between two rows of a road user; 0 if one is missing or they are those of two visits. */
-static double seconds_between(const struct store *store, const struct track *track,
-                              const struct stored_row *from, const struct stored_row *to)
+static double seconds_between(const struct recorded_memory *memory,
+                              const struct recorded_track *track, uint32_t from, uint32_t to)
 {
-    if (from == NULL || to == NULL || time_of(store, to) - time_of(store, from) > track->most_ns)
+    if (from == RECORDED_NONE || to == RECORDED_NONE ||
+        recorded_memory_between_ns(memory, from, to) > track->most_ns)
         return 0;
-    return (double)(time_of(store, to) - time_of(store, from)) * 1e-9;
+    return (double)recorded_memory_between_ns(memory, from, to) * 1e-9;
 }
 
-static double rise(const struct stored_row *from, const struct stored_row *to, size_t value)
+static double rise(const struct recorded_memory *memory, uint32_t from, uint32_t to, size_t value)
 {
-    return from != NULL && to != NULL ? to->values[value] - from->values[value] : 0;
+    if (from == RECORDED_NONE || to == RECORDED_NONE)
+        return 0;
+    return recorded_memory_row(memory, to)->values[value] -
+           recorded_memory_row(memory, from)->values[value];
 }
 
 /* Finds the velocities and yaw rates that the rows of a road user lack. */
-static void find_rates(struct store *store, const struct track *track)
+static void find_rates(struct recorded_memory *memory, const struct recorded_track *track)
 {
-    struct stored_row *before = NULL, *row = row_at(store, track->first), *after;
-    for (; row != NULL; before = row, row = after) {
-        after = row->after != NONE ? row_at(store, row->after) : NULL;
-        double before_s = seconds_between(store, track, before, row);
-        double after_s = seconds_between(store, track, row, after);
-        if (isnan(row->values[VX_MPS])) {
-            for (size_t i = 0; i < 2; i++)
-                row->values[VX_MPS + i] = recorded_steps_slope(rise(before, row, i), before_s,
-                                                               rise(row, after, i), after_s);
-        }
+    for (uint32_t before = RECORDED_NONE, at = track->first, after; at != RECORDED_NONE;
+         before = at, at = after) {
+        struct recorded_memory_row *row = recorded_memory_row(memory, at);
+        after = row->next;
+        double before_s = seconds_between(memory, track, before, at);
+        double after_s = seconds_between(memory, track, at, after);
+        for (size_t i = 0; isnan(row->values[RECORDED_VX_MPS + i]) && i < 2; i++)
+            row->values[RECORDED_VX_MPS + i] = recorded_steps_slope(
+                rise(memory, before, at, i), before_s, rise(memory, at, after, i), after_s);
         if (isnan(row->yaw_rate_radps))
-            row->yaw_rate_radps =
-                (float)recorded_steps_slope(units_wrap_rad(rise(before, row, YAW_RAD)), before_s,
-                                            units_wrap_rad(rise(row, after, YAW_RAD)), after_s);
+            row->yaw_rate_radps = (float)recorded_steps_slope(
+                units_wrap_rad(rise(memory, before, at, RECORDED_YAW_RAD)), before_s,
+                units_wrap_rad(rise(memory, at, after, RECORDED_YAW_RAD)), after_s);
     }
 }
 
 /* Moves a row to a time near its own, as far as its velocity and yaw rate are known. */
-static void move(struct recorded_row *row, int64_t own_ns, int64_t time_ns)
+static void move(struct recorded_row *row, int64_t time_ns)
 {
-    double length_s = (double)(time_ns - own_ns) * 1e-9;
-    if (own_ns == time_ns || isnan(row->vx_mps))
+    double length_s = (double)(time_ns - row->time_ns) * 1e-9;
+    bool moves = row->time_ns != time_ns && !isnan(row->vx_mps);
+    row->time_ns = time_ns;
+    if (!moves)
         return;
     row->x_m += length_s * row->vx_mps;
     row->y_m += length_s * row->vy_mps;
@@ -327,45 +216,46 @@ static void interpolate(struct recorded_row *row, const struct recorded_row *aft
 
 /* Leaves one of rows that stand twice unchanged, and refuses different ones of one time, as the
  * steps of other recordings do. */
-static int drop_repeats(struct store *store, const struct track *track, struct diag *diag)
+static int drop_repeats(const struct store *store, const struct recorded_track *track,
+                        struct diag *diag)
 {
-    struct stored_row *row = row_at(store, track->first), *after;
-    for (; row->after != NONE; row = after) {
-        after = row_at(store, row->after);
-        if (after->stamp != row->stamp)
+    const struct recorded_memory *memory = &store->memory;
+    for (uint32_t at = track->first; at != RECORDED_NONE;) {
+        struct recorded_memory_row *row = recorded_memory_row(memory, at);
+        if (row->next == RECORDED_NONE || memory->stamp_at[row->next] != memory->stamp_at[at]) {
+            at = row->next;
             continue;
-        if (memcmp(after, row, offsetof(struct stored_row, place)) != 0)
-            return recorded_row_refuse_second(&store->format,
-                                              intern_text(&store->names, body_of(store, row).id),
-                                              time_of(store, row), row->place, after->place, diag);
-        row->after = after->after;
-        after = row; /* and the one after it */
+        }
+        const struct recorded_memory_row *again = recorded_memory_row(memory, row->next);
+        if (memcmp(again, row, offsetof(struct recorded_memory_row, place)) != 0) {
+            struct recorded_row named;
+            recorded_memory_get(memory, at, &named);
+            return recorded_row_refuse_second(&store->format, named.id, named.time_ns, row->place,
+                                              again->place, diag);
+        }
+        row->next = again->next;
     }
     return 0;
 }
 
 /* ---- the reader ---- */
 
-static int64_t last_ns(const struct store *store)
-{
-    return store->stamps.items[store->stamps.count - 1].time_ns;
-}
-
 /* The next row of a step, or its end. */
 static int next_row(struct store *store, struct recorded_row *row)
 {
-    const struct stamp *stamps = store->stamps.items;
-    for (; store->stamp < store->stamps.count; store->stamp++) {
-        const struct stamp *stamp = &stamps[store->stamp];
-        store->row = store->row == NONE ? stamp->first : row_at(store, store->row)->next;
-        row->time_ns = store->step_ns.items[stamp->step];
-        if (store->row != NONE) {
-            unpack(store, row_at(store, store->row), row);
-            row->time_ns = store->step_ns.items[stamp->step];
-            move(row, stamp->time_ns, row->time_ns);
+    const struct recorded_memory *memory = &store->memory;
+    for (; store->stamp < memory->stamps.count; store->stamp++) {
+        const struct recorded_stamp *stamp = &memory->stamps.items[store->stamp];
+        const int64_t step_ns = store->step_ns.items[stamp->step];
+        store->row =
+            store->row == RECORDED_NONE ? stamp->first : recorded_memory_next(memory, store->row);
+        row->time_ns = step_ns;
+        if (store->row != RECORDED_NONE) {
+            recorded_memory_get(memory, store->row, row);
+            move(row, step_ns);
             return RECORDED_ROW;
         }
-        if (store->stamp + 1 == store->stamps.count || stamp[1].step != stamp->step) {
+        if (store->stamp + 1 == memory->stamps.count || stamp[1].step != stamp->step) {
             store->stamp++;
             return RECORDED_STEP;
         }
@@ -376,58 +266,60 @@ static int next_row(struct store *store, struct recorded_row *row)
 /* Drops the tracks that end before the instant, and adds those that have begun. */
 static void begin_instant(struct store *store, int64_t time_ns)
 {
+    const struct recorded_memory *memory = &store->memory;
     size_t kept = 0;
     for (size_t i = 0; i < store->live.count; i++) {
         uint32_t number = store->live.items[i];
-        if (time_of(store, row_at(store, store->tracks[number].last)) >= time_ns)
+        if (recorded_memory_time_ns(memory, memory->tracks[number].last) >= time_ns)
             store->live.items[kept++] = number;
     }
     store->live.count = kept;
-    for (; store->begun < store->order.count; store->begun++) {
-        uint32_t number = store->order.items[store->begun];
-        struct track *track = &store->tracks[number];
-        if (time_of(store, row_at(store, track->first)) > time_ns)
+    for (; store->begun < memory->order.count; store->begun++) {
+        uint32_t number = memory->order.items[store->begun];
+        struct recorded_track *track = &memory->tracks[number];
+        if (recorded_memory_time_ns(memory, track->first) > time_ns)
             break;
         track->at = track->first;
-        *list_add(&store->live, store->arena) = number;
+        *list_add(&store->live, memory->arena) = number;
     }
 }
 
 /* The state of a road user at an instant; false if it is not there. */
-static bool state_at(const struct store *store, struct track *track, int64_t time_ns,
-                     struct recorded_row *row)
+static bool state_at(const struct recorded_memory *memory, struct recorded_track *track,
+                     int64_t time_ns, struct recorded_row *row)
 {
-    const struct stored_row *from = row_at(store, track->at), *to;
-    while ((to = after_of(store, from)) != NULL && time_of(store, to) <= time_ns) {
-        track->at = from->after;
-        from = to;
-    }
-    double length_s = seconds_between(store, track, from, to);
-    int64_t since_ns = time_ns - time_of(store, from);
-    if (since_ns > 0 && length_s == 0)
-        return false;
-    unpack(store, from, row);
-    row->time_ns = time_ns;
-    if (since_ns == 0)
+    uint32_t to;
+    while ((to = recorded_memory_next(memory, track->at)) != RECORDED_NONE &&
+           recorded_memory_time_ns(memory, to) <= time_ns)
+        track->at = to;
+    recorded_memory_get(memory, track->at, row);
+    if (row->time_ns == time_ns)
         return true;
+    double length_s = seconds_between(memory, track, track->at, to);
+    if (length_s == 0)
+        return false;
+    double since_s = (double)(time_ns - row->time_ns) * 1e-9;
     struct recorded_row after;
-    unpack(store, to, &after);
-    interpolate(row, &after, length_s, (double)since_ns * 1e-9 / length_s);
+    recorded_memory_get(memory, to, &after);
+    interpolate(row, &after, length_s, since_s / length_s);
+    row->time_ns = time_ns;
     return true;
 }
 
 /* The next road user of an instant, or its end. */
 static int next_state(struct store *store, struct recorded_row *row)
 {
-    int64_t time_ns = recorded_row_instant_ns(store->stamps.items[0].time_ns,
-                                              (int64_t)store->instant, store->rate_hz);
-    if (time_ns > last_ns(store))
+    const struct recorded_memory *memory = &store->memory;
+    const struct recorded_stamp *stamps = memory->stamps.items;
+    int64_t time_ns =
+        recorded_row_instant_ns(stamps[0].time_ns, (int64_t)store->instant, store->rate_hz);
+    if (time_ns > stamps[memory->stamps.count - 1].time_ns)
         return RECORDED_END;
     if (store->given == 0)
         begin_instant(store, time_ns);
     while (store->given < store->live.count) {
-        struct track *track = &store->tracks[store->live.items[store->given++]];
-        if (state_at(store, track, time_ns, row))
+        struct recorded_track *track = &memory->tracks[store->live.items[store->given++]];
+        if (state_at(memory, track, time_ns, row))
             return RECORDED_ROW;
     }
     store->given = 0;
@@ -440,7 +332,7 @@ static int next(void *state, struct recorded_row *row, struct diag *diag)
 {
     (void)diag;
     struct store *store = state;
-    if (store->stamps.count == 0)
+    if (store->memory.stamps.count == 0)
         return RECORDED_END;
     return store->rate_hz > 0 ? next_state(store, row) : next_row(store, row);
 }
@@ -450,38 +342,38 @@ void recorded_store_rewind(struct recorded_reader reader)
     struct store *store = reader.state;
     store->stamp = store->instant = store->begun = store->given = 0;
     store->live.count = 0;
-    store->row = NONE;
-}
-
-static int compare_times(const void *a, const void *b)
-{
-    const struct stamp *one = a, *other = b;
-    return (one->time_ns > other->time_ns) - (one->time_ns < other->time_ns);
+    store->row = RECORDED_NONE;
 }
 
 /* Makes steps of the rows, or instants if road users have times of their own. */
 static int choose_times(struct store *store, double rate_hz, struct diag *diag)
 {
-    link_tracks(store);
-    double usual_ns = usual_step_ns(store);
-    bool moved = form_steps(store, usual_ns);
-    size_t pairs = 0, torn = 0;
-    count_torn(store, &pairs, &torn);
-    bool apart = (double)torn > RECORDED_STORE_APART_SHARE * (double)pairs;
+    struct recorded_memory *memory = &store->memory;
+    recorded_memory_sort(memory);
+    recorded_memory_link_by_track(memory);
+    double usual_ns = find_usual_steps(memory);
+    recorded_memory_link_by_stamp(memory);
+    struct step_counts counts = form_steps(store, usual_ns);
+    bool apart = (double)counts.torn > RECORDED_STORE_APART_SHARE * (double)counts.pairs;
     if (apart && rate_hz <= 0)
         return diag_fail(diag, DIAG_DATA,
                          "the road users have times of their own: of %zu times between two rows of "
                          "a road user, %zu have a step of others in between; --rate-hz %.3g "
                          "interpolates each between its own rows",
-                         pairs, torn, 1e9 / usual_ns);
-    store->rate_hz = apart ? rate_hz : 0;
-    for (size_t i = 0; i < store->order.count; i++) {
-        struct track *track = &store->tracks[store->order.items[i]];
+                         counts.pairs, counts.torn, 1e9 / usual_ns);
+    if (!apart && counts.moved == 0)
+        return 0;
+    recorded_memory_link_by_track(memory);
+    for (size_t i = 0; i < memory->order.count; i++) {
+        const struct recorded_track *track = &memory->tracks[memory->order.items[i]];
         if (apart && drop_repeats(store, track, diag) != 0)
             return -1;
-        if (apart || moved)
-            find_rates(store, track);
+        find_rates(memory, track);
     }
+    if (apart)
+        store->rate_hz = rate_hz;
+    else
+        recorded_memory_link_by_stamp(memory);
     return 0;
 }
 
@@ -490,7 +382,7 @@ struct recorded_reader recorded_store_open(struct recorded_reader reader, double
 {
     struct store *store = arena_get(arena, sizeof *store);
     struct recorded_reader stored = {&store->format, store};
-    store->arena = arena;
+    store->memory.arena = arena;
     store->format = *reader.format;
     store->format.by_time = store->format.marks_steps = true;
     store->format.next = next;
@@ -499,11 +391,10 @@ struct recorded_reader recorded_store_open(struct recorded_reader reader, double
     int event;
     while ((event = reader.format->next(reader.state, &row, diag)) > 0) {
         if (event == RECORDED_ROW)
-            store_row(store, &row);
+            recorded_memory_add(&store->memory, &row);
     }
     if (reader.format->close != NULL)
         reader.format->close(reader.state);
-    sort_list(&store->stamps, compare_times, arena);
     if (event < 0 || choose_times(store, rate_hz, diag) != 0)
         return (struct recorded_reader){0};
     recorded_store_rewind(stored);

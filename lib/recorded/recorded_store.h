@@ -1,10 +1,11 @@
 /* Rows of a recording in memory, and the steps of these rows.
  *
- * The usual step is the median of the times between successive rows of one road user. Rows form a
- * step if their stamps lie within RECORDED_STORE_STEP_SHARE of it, from the first to the last: of a
- * chain of stamps, each near the next, that much is one step. The time of the step is the stamp of
- * most of its rows, the first one of equals. A row with another stamp is moved to that time by its
- * velocity and yaw rate. A step has no two stamps of one road user.
+ * The usual step of a road user is the lower quartile of the times between its rows, as it may be
+ * absent for longer; that of the recording is the median over its road users. Rows form a step if
+ * their stamps lie within RECORDED_STORE_STEP_SHARE of the recording's, from the first to the last:
+ * of a chain of stamps, each near the next, that much is one step. The time of the step is the
+ * stamp of most of its rows, the first one of equals. A row with another stamp is moved to that
+ * time by its velocity and yaw rate. A step has no two stamps of one road user.
  *
  * Road users have times of their own if more than RECORDED_STORE_APART_SHARE of their successive
  * rows have a step of others in between, absences aside. Then they are interpolated, each between
@@ -19,8 +20,7 @@
 
 /* Reads all rows of a reader and closes it. The new reader gives them in the order of time and
  * marks steps; its format is NULL after a message. Road users with times of their own are refused
- * if there is no rate (rate_hz <= 0). A row takes 64 bytes; a time, a track and a size of a body
- * some hundred each. Yaw rates are kept to 24 bits, speeds are not kept. */
+ * if there is no rate (rate_hz <= 0). Memory is that of recorded_memory.h. */
 struct recorded_reader recorded_store_open(struct recorded_reader reader, double rate_hz,
                                            struct arena *arena, struct diag *diag);
 

@@ -171,6 +171,11 @@ static void fill_grid(struct recording *recording)
         neighbour_grid_of(places, count, recording->options.radius_m, &recording->step_arena);
 }
 
+static bool is_moving(const struct object *object)
+{
+    return object->vx_mps != 0 || object->vy_mps != 0 || object->travelled_m > 0;
+}
+
 /* Reads the next step that has egos. */
 static int take_step(struct recording *recording, struct diag *diag)
 {
@@ -185,6 +190,9 @@ static int take_step(struct recording *recording, struct diag *diag)
         recording->ego = 0;
         if (recording->step->time_ns < recording->from_ns)
             continue;
+        recording->steps_taken++;
+        for (size_t i = 0; i < recording->step->states.count && !recording->moves; i++)
+            recording->moves = is_moving(&recording->step->states.items[i].object);
         for (uint32_t i = 0; i < recording->step->states.count; i++)
             if (is_ego(recording, &recording->step->states.items[i]))
                 *list_add(&recording->step_egos, &recording->step_arena) = i;
@@ -218,8 +226,13 @@ static struct recorded_ego *ego_of(struct recording *recording, const struct rec
         *list_add(&recording->egos, recording->arena) =
             (struct recorded_ego){.id = intern_text(&recording->ids, number)};
     struct recorded_ego *ego = &recording->egos.items[number];
+    size_t missed = recording->steps_taken - ego->step - 1;
+    ego->step = recording->steps_taken;
+    ego->moves = ego->moves || is_moving(object);
     if (ego->visits > 0 && ego->since_ns == state->since_ns)
         return ego;
+    ego->missed += ego->visits > 0 ? missed : 0;
+    ego->jumps += ego->visits > 0 && missed == 0;
     ego->visits++;
     ego->since_ns = state->since_ns;
     ego->frames = 0;
@@ -300,6 +313,50 @@ static void note_jumps(const struct recording *recording, struct diag *diag)
             recording->source, jumps->lanes, RECORDED_JUMP_S, jumps->angles);
 }
 
+/* Reports the first ego whose scenes are fragments, below what was reported before. */
+static void note_fragments(const struct recording *recording, struct diag *diag)
+{
+    const struct recorded_ego *first = NULL;
+    size_t count = 0;
+    for (size_t i = 0; i < recording->egos.count; i++) {
+        const struct recorded_ego *ego = &recording->egos.items[i];
+        if (ego->visits < 2)
+            continue;
+        first = count++ == 0 ? ego : first;
+    }
+    if (first == NULL)
+        return;
+    char missed[64] = "", jumps[64] = "", more[64] = "";
+    if (first->missed > 0)
+        snprintf(missed, sizeof missed, " is missing from %zu steps in between", first->missed);
+    if (first->jumps > 0)
+        snprintf(jumps, sizeof jumps, " jumps %zu times", first->jumps);
+    if (count > 1)
+        snprintf(more, sizeof more, "; %zu more egos have several scenes", count - 1);
+    size_t used = strlen(diag->text);
+    snprintf(diag->text + used, sizeof diag->text - used,
+             "%s%s: ego %.200s: %lld scenes, as it%s%s%s%s", used > 0 ? "; " : "",
+             recording->source, first->id, (long long)first->visits, missed,
+             first->missed > 0 && first->jumps > 0 ? " and" : "", jumps, more);
+}
+
+/* Reports that nothing moves, or else the first ego that was asked for by its id and does not. */
+static void note_standing(const struct recording *recording, struct diag *diag)
+{
+    size_t used = strlen(diag->text), room = sizeof diag->text - used;
+    const char *between = used > 0 ? "; " : "";
+    if (!recording->moves)
+        snprintf(diag->text + used, room, "%s%s: nothing moves", between, recording->source);
+    for (size_t i = 0; i < recording->egos.count && recording->moves && !recording->all; i++) {
+        const struct recorded_ego *ego = &recording->egos.items[i];
+        if (ego->moves)
+            continue;
+        snprintf(diag->text + used, room, "%s%s: ego %.200s does not move", between,
+                 recording->source, ego->id);
+        return;
+    }
+}
+
 int recording_next(struct recording *recording, struct frame *frame, struct diag *diag)
 {
     int more = 1;
@@ -307,8 +364,11 @@ int recording_next(struct recording *recording, struct frame *frame, struct diag
         more = take_step(recording, diag);
     if (more == 0)
         more = check_egos(recording, diag);
-    if (more == 0)
+    if (more == 0) {
         note_jumps(recording, diag);
+        note_fragments(recording, diag);
+        note_standing(recording, diag);
+    }
     if (more < 0)
         return diag_prefix(diag, "%s: ", recording->source);
     if (more > 0) {

@@ -40,6 +40,9 @@ struct recorded_ego {
     const char *scene;      /* of the visit */
     int64_t since_ns;       /* time when the visit began */
     int64_t visits, frames; /* number of visits so far, and of frames of the present one */
+    size_t step;            /* the last one that had it */
+    size_t missed, jumps;   /* steps without it between visits; visits that begin without such */
+    bool moves;
     struct vec2 origin_m;
 };
 
@@ -60,6 +63,8 @@ struct recording {
     struct conditions conditions;      /* changed by the options */
     struct arena *arena;
     const struct recorded_step *step; /* the present step */
+    size_t steps_taken;
+    bool moves; /* anybody, so far */
     struct arena step_arena;
     LIST_OF(uint32_t) step_egos; /* places of egos in the step's states */
     size_t ego;                  /* next one of step_egos */
