@@ -4,6 +4,7 @@
 
 #include "base/sort.h"
 #include "base/units.h"
+#include "geometry/motion.h"
 #include "recorded/recorded_memory.h"
 #include "recorded/resampling.h"
 
@@ -179,15 +180,21 @@ static void find_rates(struct recorded_memory *memory, const struct recorded_tra
 /* Moves a row to a time near its own, as far as its velocity and yaw rate are known. */
 static void move(struct recorded_row *row, int64_t time_ns)
 {
+    bool turns = !isnan(row->yaw_rate_radps), moves = !isnan(row->vx_mps);
     double length_s = (double)(time_ns - row->time_ns) * 1e-9;
-    bool moves = row->time_ns != time_ns && !isnan(row->vx_mps);
     row->time_ns = time_ns;
-    if (!moves)
+    if (length_s == 0 || !moves)
         return;
-    row->x_m += length_s * row->vx_mps;
-    row->y_m += length_s * row->vy_mps;
-    if (!isnan(row->yaw_rate_radps))
-        row->yaw_rad += length_s * row->yaw_rate_radps;
+    struct motion body = {{row->x_m, row->y_m},
+                          {row->vx_mps, row->vy_mps},
+                          row->yaw_rad,
+                          turns ? row->yaw_rate_radps : 0};
+    body = motion_after(body, length_s);
+    row->x_m = body.position_m.x;
+    row->y_m = body.position_m.y;
+    row->vx_mps = body.velocity_mps.x;
+    row->vy_mps = body.velocity_mps.y;
+    row->yaw_rad = body.yaw_rad;
 }
 
 static struct object object_of(const struct recorded_row *row)
