@@ -61,6 +61,14 @@ static const char *word_of(enum object_kind kind, int32_t number, struct arena *
             base->part != NULL ? &row->member : NULL                                               \
     }
 
+/* Makes the height of the centre that of the road. A pitch is positive with the nose down. */
+static void take_height(const Osi3__Base *base, struct recorded_row *row)
+{
+    row->z_m = base->position->has_z ? row->z_m - row->height_m / 2 : (double)NAN;
+    if (base->orientation != NULL)
+        row->pitch_rad = -base->orientation->pitch;
+}
+
 /* Takes the values that moving and stationary objects share; false after a message. */
 static bool take_body(const struct trace *trace, const char *kind, const Osi3__Identifier *id,
                       const Osi3__Base *base, struct recorded_row *row, struct diag *diag)
@@ -77,6 +85,7 @@ static bool take_body(const struct trace *trace, const char *kind, const Osi3__I
     } numbers[] = {
         NUMBER(position, x, -1e9, 1e9, x_m),
         NUMBER(position, y, -1e9, 1e9, y_m),
+        NUMBER(position, z, -1e9, 1e9, z_m),
         NUMBER(dimension, length, 0, 1e6, length_m),
         NUMBER(dimension, width, 0, 1e6, width_m),
         NUMBER(dimension, height, 0, 1e6, height_m),
@@ -96,6 +105,7 @@ static bool take_body(const struct trace *trace, const char *kind, const Osi3__I
                   numbers[i].high);
         return false;
     }
+    take_height(base, row);
     return true;
 }
 
@@ -155,6 +165,7 @@ static int keep_stills(struct trace *trace, struct diag *diag)
         row.id = arena_format(arena, "%" PRIu64, object->id->value);
         row.class = word;
         row.vx_mps = row.vy_mps = row.yaw_rate_radps = 0;
+        row.stands = true;
         *list_add(&trace->stills, arena) = row;
     }
     return 0;

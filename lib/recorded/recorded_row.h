@@ -27,9 +27,12 @@ struct recorded_row {
     double vx_mps, vy_mps; /* of the centre over ground; NAN: from the places */
     double yaw_rate_radps; /* NAN: from the yaws */
     double speed_mps;      /* along the yaw, for a road user with a single step */
+    double z_m;            /* height of the road below the body */
+    double pitch_rad;      /* of that road along the yaw, positive upward; 0 too: not known */
     double length_m, width_m, height_m; /* 0: that of the word, or of the class */
     size_t place;                       /* row, line or byte in the file, for messages */
     bool passenger;                     /* left out at the place of the vehicle in the row before */
+    bool stands;                        /* a thing, or an obstacle that the source calls static */
 };
 
 /* A row without any value: NAN, NULL and 0. */
@@ -100,6 +103,7 @@ struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, co
 
 /* Reads all rows of a reader into memory and closes it. The new reader gives them in the order of
  * time and marks steps; its format is NULL after a message. A row takes 64 bytes; a step, a track
- * and a size of a body some hundred each. Yaw rates are kept to 24 bits, speeds are not kept. */
+ * and a size of a body some hundred each. Yaw rates are kept to 24 bits. Speeds and heights are
+ * not kept: no format that is stored has them. */
 struct recorded_reader recorded_row_store(struct recorded_reader reader, struct arena *arena,
                                           struct diag *diag);

@@ -234,20 +234,64 @@ static void add_object(struct frame *frame, const struct recorded_state *state)
     object->y_m -= frame->origin_y_m;
 }
 
+/* Writes the numbers of the states within the radius of the ego; returns their count. */
+static size_t find_near(const struct recording *recording, const struct recorded_state *ego,
+                        uint32_t *found, struct arena *arena)
+{
+    size_t count = recording->step->states.count;
+    if (recording->options.radius_m >= 0)
+        return neighbour_grid_find(&recording->grid,
+                                   (struct vec2){ego->object.x_m, ego->object.y_m}, found, arena);
+    for (size_t i = 0; i < count; i++)
+        found[i] = (uint32_t)i;
+    return count;
+}
+
+static struct recorded_level level_of(const struct recorded_state *state)
+{
+    const struct object *object = &state->object;
+    return (struct recorded_level){.place_m = {object->x_m, object->y_m},
+                                   .heading = vec2_heading(object->yaw_rad),
+                                   .z_m = state->z_m,
+                                   .tall_m = state->stands ? object->height_m : 0,
+                                   .slope = state->slope};
+}
+
+/* Leaves only the bodies on the ego's road; returns their count, and counts the others. */
+static size_t leave_level(struct recording *recording, const struct recorded_state *ego,
+                          uint32_t *found, size_t count, struct arena *arena)
+{
+    const struct recorded_state *states = recording->step->states.items;
+    struct recorded_level *levels = arena_room(arena, count * sizeof *levels);
+    bool *on = arena_room(arena, count * sizeof *on);
+    size_t own = 0, left = 0;
+    for (size_t i = 0; i < count; i++) {
+        levels[i] = level_of(&states[found[i]]);
+        if (&states[found[i]] == ego)
+            own = i;
+    }
+    recorded_levels_mark(levels, count, own, on, arena);
+    for (size_t i = 0; i < count; i++) {
+        const char *id = states[found[i]].object.id;
+        if (on[i])
+            found[left++] = found[i];
+        else
+            intern_word(&recording->apart, id, recording->arena);
+    }
+    recording->apart_frames += left < count;
+    return left;
+}
+
 static void add_objects(struct recording *recording, const struct recorded_state *ego,
                         struct frame *frame)
 {
-    const struct recorded_step *step = recording->step;
-    if (recording->options.radius_m < 0) {
-        for (size_t i = 0; i < step->states.count; i++)
-            add_object(frame, &step->states.items[i]);
-        return;
-    }
-    struct vec2 place = {ego->object.x_m, ego->object.y_m};
-    uint32_t *found = arena_room(frame->arena, step->states.count * sizeof *found);
-    size_t count = neighbour_grid_find(&recording->grid, place, found, frame->arena);
+    const struct recorded_state *states = recording->step->states.items;
+    uint32_t *found = arena_room(frame->arena, recording->step->states.count * sizeof *found);
+    size_t count = find_near(recording, ego, found, frame->arena);
+    if (!isnan(ego->z_m))
+        count = leave_level(recording, ego, found, count, frame->arena);
     for (size_t i = 0; i < count; i++)
-        add_object(frame, &step->states.items[found[i]]);
+        add_object(frame, &states[found[i]]);
 }
 
 static void fill(struct recording *recording, const struct recorded_state *state,
@@ -298,6 +342,18 @@ static void note_jumps(const struct recording *recording, struct diag *diag)
             recording->source, jumps->lanes, RECORDED_JUMP_S, jumps->angles);
 }
 
+/* Reports the bodies on other roads, below what was reported before. */
+static void note_levels(const struct recording *recording, struct diag *diag)
+{
+    size_t used = strlen(diag->text);
+    if (recording->apart_frames > 0)
+        snprintf(diag->text + used, sizeof diag->text - used,
+                 "%s%s: %zu bodies are left out of %zu frames, because they are more than %d m "
+                 "above or below the road of the ego",
+                 used > 0 ? "; " : "", recording->source, recording->apart.list.count,
+                 recording->apart_frames, RECORDED_LEVELS_MOST_M);
+}
+
 int recording_next(struct recording *recording, struct frame *frame, struct diag *diag)
 {
     int more = 1;
@@ -307,6 +363,8 @@ int recording_next(struct recording *recording, struct frame *frame, struct diag
         more = check_egos(recording, diag);
     if (more == 0)
         note_jumps(recording, diag);
+    if (more == 0)
+        note_levels(recording, diag);
     if (more < 0)
         return diag_prefix(diag, "%s: ", recording->source);
     if (more > 0) {

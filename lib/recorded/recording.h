@@ -64,6 +64,8 @@ struct recording {
     LIST_OF(uint32_t) step_egos; /* places of egos in the step's states */
     size_t ego;                  /* next one of step_egos */
     struct neighbour_grid grid;
+    struct intern apart; /* ids of bodies that were left out, as they are on another road */
+    size_t apart_frames; /* number of frames in which one was */
 };
 
 /* Takes over the reader, which is closed with the recording and after a failure. */
