@@ -249,7 +249,6 @@ static void end_state(struct document *document)
     row.class = arena_text(arena, document->type, strlen(document->type));
     if (document->still) {
         row.vx_mps = row.vy_mps = row.yaw_rate_radps = 0;
-        row.stands = true;
         *list_add(&document->stills, arena) = row;
     } else {
         intern_number(&document->steps, &row.time_ns, sizeof row.time_ns, document->arena);

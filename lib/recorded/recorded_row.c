@@ -57,7 +57,6 @@ _Static_assert(sizeof(struct stored_row) <= 60, "with what lists take a row has 
 struct body {
     double length_m, width_m, height_m, ahead, direction_rad;
     uint32_t id, class; /* names */
-    uint64_t stands;    /* as wide as no padding needs */
 };
 
 struct stored_step {
@@ -101,8 +100,7 @@ static void store_row(struct store *store, const struct recorded_row *row)
                         row->ahead,
                         row->direction_rad,
                         intern_word(&store->names, row->id, arena),
-                        intern_word(&store->names, row->class, arena),
-                        row->stands};
+                        intern_word(&store->names, row->class, arena)};
     *row_at(store, number) = (struct stored_row){
         {row->x_m, row->y_m, row->yaw_rad, row->vx_mps, row->vy_mps},
         (float)row->yaw_rate_radps,
@@ -132,7 +130,6 @@ static void unpack(const struct store *store, const struct stored_row *stored,
     row->length_m = body.length_m;
     row->width_m = body.width_m;
     row->height_m = body.height_m;
-    row->stands = body.stands != 0;
     row->place = stored->place;
 }
 

@@ -41,7 +41,7 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
     if (word == NULL && row->likely != NULL)
         word = recorded_classes_find(&steps->classes, row->likely);
     if (word == NULL) {
-        recorded_classes_refuse(&steps->classes, row->class, diag);
+        recorded_classes_refuse(&steps->classes, row->class, row->untold, diag);
         return diag_prefix(diag, "%s %zu: ", steps->reader.format->place, row->place);
     }
     double length_m = row->length_m != 0 ? row->length_m : word->length_m;

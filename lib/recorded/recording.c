@@ -42,9 +42,13 @@ const struct record recording_options_record = {
 /* A comma ends an id, unless a backslash stands before it; two backslashes mean one. */
 static int choose_egos(struct recording *recording, const char *egos, struct diag *diag)
 {
-    if (egos == NULL)
+    if (egos == NULL && recording->host == NULL)
         return diag_fail(diag, DIAG_USAGE,
                          "a recording has no ego of its own; expected --ego ID, ID,ID,... or all");
+    if (egos == NULL) {
+        intern_word(&recording->wanted, recording->host, recording->arena);
+        return 0;
+    }
     recording->all = strcmp(egos, "all") == 0;
     struct text id = {0};
     for (const char *at = egos, *end = at + strlen(at); !recording->all && at <= end; at++) {

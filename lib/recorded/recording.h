@@ -47,7 +47,8 @@ struct recording {
     /* Set by the caller. source is the path, for messages and names of scenes. */
     const char *source;
     struct recording_options options;
-    bool live; /* no step waits for the next one (recorded_steps.h) */
+    bool live;        /* no step waits for the next one (recorded_steps.h) */
+    const char *host; /* id of the ego without --ego; NULL: the source names none */
     /* Set by the recording. */
     const char *name; /* of scenes, before the ego's name */
     bool all;         /* every vehicle is an ego */

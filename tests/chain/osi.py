@@ -196,9 +196,10 @@ def bad_input(folder):
         (moving(0, 4, 1, 1), "timestamp is missing; expected one in each"),
         (message(2, whole(1, 10**10)), "timestamp is 10000000000 s and 0 ns; expected seconds in [-9e9, 9e9]"),
         (message(2, whole(1, 1), whole(2, 10**9)), "timestamp is 1 s and 1000000000 ns; expected seconds in"),
-        (b"\xff" * 20, "a message of 20 bytes that is none of OSI; expected a GroundTruth behind its length"),
-        (stamp(STEP_NS)[:-1], "that is none of OSI"),
-        (stamp(STEP_NS) + message(5, message(1, whole(1, 5)), whole(2, 3)), "that is none of OSI"),
+        (b"\xff" * 20, "a message of 20 bytes without a ground truth; expected a GroundTruth, or a SensorView or SensorData with global_ground_truth, "
+         "behind its length"),
+        (stamp(STEP_NS)[:-1], " bytes without a ground truth; expected"),
+        (stamp(STEP_NS) + message(5, message(1, whole(1, 5)), whole(2, 3)), " bytes without a ground truth; expected"),
         (stamp(STEP_NS) + message(5, box(0, 0, 0, (1, 1, 1))), "moving_object: id is missing; expected one in each"),
         (stamp(STEP_NS) + message(5, message(1, whole(1, 5))), "moving_object: base.position is missing; expected one in each"),
         (stamp(STEP_NS) + moving(**car, x=nan, y=0),
@@ -217,7 +218,8 @@ def bad_input(folder):
         (stamp(STEP_NS) + stationary(6, 4, nan, 0), "stationary_object 6: base.position.x is nan; expected a number"),
         (stamp(STEP_NS) + moving(0, 4, 0, 0) + moving(0, 4, 1, 1), "id of an object 0 at 0.05 s is in byte "),
         (stamp(STEP_NS) + moving(0, 4, 0, 0) + stationary(0, 4, 1, 1), "id of an object 0 at 0.05 s is in byte "),
-        (stamp(STEP_NS) + moving(0, 0, 0, 0), 'unknown class "vehicle_0"; expected a word that --help lists'),
+        (stamp(STEP_NS) + moving(0, 0, 0, 0), "moving_object 0: vehicle_classification.type is missing or unknown; expected a type of vehicles; --class-map "
+         "unknown_vehicle=CLASS or --class-default CLASS names one"),
     ]
     for content, said in cases:
         path = save(folder, "bad.osi", first + trace_of(content))

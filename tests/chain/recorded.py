@@ -593,8 +593,10 @@ def types_come_from_several_files(folder):
                 check(got == sizes[part["id"]] and part["x_m"] == -got[1] / 2, f"{program} {words}: {part}")
     for program, source in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
         said, _ = run(program, source, "--ego", "a", "--types", two, fails=65)
-        check('--class-map a=CLASS or --class-default CLASS names one, but not its size, which is that of its vType: --types '
-              "FILE" in said, said)
+        check("--class-map a=CLASS or --class-default CLASS names one, but not its size, which is that of its vType, and no "
+              "file of --types has it" in said, said)
+        said, _ = run(program, source, "--ego", "a", fails=65)
+        check("but not its size, which is that of its vType: --types FILE" in said, said)
         for old, new, message in (
                 ('id="b"', "", 'line 1: id is ""; expected 1 to 1024 ASCII characters'),
                 ('id="b"', 'id="a"', 'line 1: id is "a", as that of a type above with another class or size; expected one'),
