@@ -25,11 +25,8 @@ static int traffic_osi_start(void *state, struct runner *runner)
     struct input *input = recording_source_input(state, runner);
     if (input == NULL)
         return -1;
-    const char *host = NULL;
     struct recorded_reader reader =
-        recorded_osi_open(input, own->rear_axle_velocity, &host, arena, diag);
-    if (recording->options.ego == NULL)
-        recording->options.ego = host;
+        recorded_osi_open(input, own->rear_axle_velocity, &recording->host, arena, diag);
     return recording_open(recording, reader, arena, diag);
 }
 
@@ -40,7 +37,9 @@ const struct stage stage_traffic_osi = {
     .name = "traffic-osi",
     .summary = "Play the ground truth of an OSI trace, frame by frame.",
     .details =
-        "A trace holds messages GroundTruth or SensorView, each after its length in four bytes.\n"
+        "A trace holds messages GroundTruth, or SensorView or SensorData with "
+        "global_ground_truth,\n"
+        "each after its length in four bytes; the traces of glint-osi are such.\n"
         "Without --ego the host vehicle is the ego, if the trace names it. Places are the centres\n"
         "of boxes; yaws count counter-clockwise from x. Velocities and yaw rates that the trace\n"
         "lacks are centred differences, which wait for the next message, or with --live "

@@ -87,6 +87,16 @@ static const struct recorded_word *first_of_class(const struct recorded_word *wo
     return words->word != NULL ? words : NULL;
 }
 
+/* Takes the sizes that a word lacks from another one, if there is one. */
+static void take_sizes(struct recorded_word *word, const struct recorded_word *from)
+{
+    if (from == NULL)
+        return;
+    word->length_m = word->length_m != 0 ? word->length_m : from->length_m;
+    word->width_m = word->width_m != 0 ? word->width_m : from->width_m;
+    word->height_m = word->height_m != 0 ? word->height_m : from->height_m;
+}
+
 static struct recorded_word answer_to(const struct recorded_classes *classes, const char *word,
                                       const struct recorded_word *found)
 {
@@ -98,13 +108,9 @@ static struct recorded_word answer_to(const struct recorded_classes *classes, co
         class = class_of(classes, found, word, length);
     }
     struct recorded_word answer = {.class = class != NULL ? class : classes->otherwise};
-    if (found == NULL && answer.class != NULL)
-        found = first_of_class(classes->format->words, answer.class);
-    if (found != NULL) {
-        answer.length_m = found->length_m;
-        answer.width_m = found->width_m;
-        answer.height_m = found->height_m;
-    }
+    take_sizes(&answer, found);
+    if (answer.class != NULL && (found == NULL || found->class == NULL))
+        take_sizes(&answer, first_of_class(classes->format->words, answer.class));
     return answer;
 }
 
@@ -126,32 +132,68 @@ bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word
     while (own->word != NULL && strcmp(own->word, type.class) != 0)
         own++;
     struct recorded_word meant = answer_to(classes, type.class, own->word != NULL ? own : NULL);
-    if (meant.class == NULL)
+    classes->has_types = true;
+    if (meant.class == NULL) {
+        *list_add(&classes->strange, classes->arena) = type;
+        type.class = NULL;
+        add(classes, &type);
         return true;
+    }
     type.class = meant.class;
-    type.length_m = type.length_m != 0 ? type.length_m : meant.length_m;
-    type.width_m = type.width_m != 0 ? type.width_m : meant.width_m;
-    type.height_m = type.height_m != 0 ? type.height_m : meant.height_m;
+    take_sizes(&type, &meant);
     if (before != NULL && before >= classes->words.items + classes->own_count)
-        return strcmp(before->class, type.class) == 0 && before->length_m == type.length_m &&
-               before->width_m == type.width_m && before->height_m == type.height_m;
+        return before->class != NULL && strcmp(before->class, type.class) == 0 &&
+               before->length_m == type.length_m && before->width_m == type.width_m &&
+               before->height_m == type.height_m;
     add(classes, &type);
     return true;
 }
 
-int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,
-                            struct diag *diag)
+/* The added type of this name, or of the part before "@", whose class is no word; NULL: none. */
+static const struct recorded_word *strange_type(const struct recorded_classes *classes,
+                                                const char *word)
+{
+    size_t whole = strlen(word), part = strcspn(word, "@");
+    for (size_t i = 0; i < classes->strange.count; i++) {
+        const struct recorded_word *type = &classes->strange.items[i];
+        if (text_is(word, whole, type->word) || text_is(word, part, type->word))
+            return type;
+    }
+    return NULL;
+}
+
+static int refuse_unknown(const struct recorded_classes *classes, const char *word,
+                          struct diag *diag)
 {
     struct suggestion meant = suggestion_begin(word, strlen(word));
     for (size_t i = 0; i < classes->words.count; i++)
         suggestion_offer(&meant, classes->words.items[i].word);
     for (size_t i = 0; i < classes->vehicles.names.count; i++)
         suggestion_offer(&meant, classes->vehicles.names.items[i]);
+    const char *sizes = "";
+    if (classes->format->of_sumo && classes->has_types)
+        sizes = ", but not its size, which is that of its vType, and no file of --types has it";
+    else if (classes->format->of_sumo)
+        sizes = ", but not its size, which is that of its vType: --types FILE";
     return diag_fail(
         diag, DIAG_DATA,
         "unknown class \"%.80s\"%s; expected a word that --help lists, or a name that glint --list "
         "vehicles lists; --class-map %.80s=CLASS or --class-default CLASS names one%s",
-        word, suggestion_question(&meant, ""), word,
-        classes->format->of_sumo ? ", but not its size, which is that of its vType: --types FILE"
-                                 : "");
+        word, suggestion_question(&meant, ""), word, sizes);
+}
+
+int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,
+                            const char *untold, struct diag *diag)
+{
+    const struct recorded_word *type = strange_type(classes, word);
+    if (untold != NULL)
+        return diag_fail(diag, DIAG_DATA,
+                         "%s; --class-map %s=CLASS or --class-default CLASS names one", untold,
+                         word);
+    if (type != NULL)
+        return diag_fail(diag, DIAG_DATA,
+                         "type \"%.80s\" has vClass \"%.80s\"; expected one that --help lists; "
+                         "--class-map %.80s=CLASS or --class-default CLASS names one",
+                         type->word, type->class, type->class);
+    return refuse_unknown(classes, word, diag);
 }

@@ -11,6 +11,8 @@ struct recorded_classes {
     struct intern known;                   /* words of the format, then added types */
     LIST_OF(struct recorded_word) words;   /* by the number of the word */
     size_t own_count;                      /* number of words of the format */
+    bool has_types;                        /* a type was added */
+    LIST_OF(struct recorded_word) strange; /* added types whose class is no word of the format */
     struct document_names vehicles;        /* all classes */
     struct intern asked;                   /* words looked up so far */
     LIST_OF(struct recorded_word) answers; /* by the number of the word; class NULL: none */
@@ -25,7 +27,8 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
 
 /* Adds a type; its class is another word of the format, whose class and sizes it takes, but for its
  * own sizes that are not 0. It replaces a word of the same name; false if that is an added type
- * with another class or size. */
+ * with another class or size. A type whose class is
+ * no such word has none, and is refused where it is used. */
 bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word type);
 
 /* The class of a word: by the map, else by the format's words, else the class of this name in
@@ -34,6 +37,7 @@ bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word
 const struct recorded_word *recorded_classes_find(struct recorded_classes *classes,
                                                   const char *word);
 
-/* Refuses the word in a message with the nearest known word; returns -1. */
+/* Refuses the word in a message; returns -1. The message says what the source lacks (untold), or
+ * which vClass the type has, or the nearest known word. */
 int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,
-                            struct diag *diag);
+                            const char *untold, struct diag *diag);

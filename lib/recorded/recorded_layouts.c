@@ -36,6 +36,7 @@
         PLACE(prefix "y", y_m, 1),                                                                 \
         VALUE(prefix "angle", yaw_rad, RECORDED_NEEDED, -1e3, 1e3, -PI / 180, -90),                \
         VALUE(prefix "speed", speed_mps, RECORDED_OPTIONAL, -1e4, 1e4, 1, 0),                      \
+        VALUE(prefix "z", z_m, RECORDED_OPTIONAL, -1e9, 1e9, 1, 0),                                \
         {.name = NULL}}
 SUMO_COLUMNS(sumo_vehicles, "vehicle_", "timestep_time");
 SUMO_COLUMNS(sumo_persons, "person_", "timestep_time");
@@ -153,6 +154,8 @@ static const struct recorded_column esmini_columns[] = {
     PLACE("World_Position_X [-]", x_m, 1),
     PLACE("World_Position_Y [m]", y_m, 1),
     PLACE("World_Position_Y [-]", y_m, 1),
+    VALUE("World_Position_Z [m]", z_m, RECORDED_OPTIONAL, -1e9, 1e9, 1, 0),
+    VALUE("World_Position_Z [-]", z_m, RECORDED_OPTIONAL, -1e9, 1e9, 1, 0),
     SPEED("Vel_X [m/s]", vx_mps, 1),
     SPEED("Vel_Y [m/s]", vy_mps, 1),
     VALUE("World_Heading_Angle [rad]", yaw_rad, RECORDED_NEEDED, -1e3, 1e3, 1, 0),

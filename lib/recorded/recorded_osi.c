@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "base/vec2.h"
-#include "recorded/recorded_osi.pb-c.h"
+#include "recorded/osi_message.h"
 #include "recorded/recorded_row.h"
 #include "text/file_format.h"
 #include "text/input.h"
@@ -25,8 +25,7 @@ struct trace {
     size_t place;      /* of the message in the file */
     struct text bytes; /* of the message */
     struct arena arena;
-    const Osi3__GroundTruth *truth; /* the message */
-    const Osi3__Identifier *host;
+    struct osi_message message;
     int64_t time_ns;
     size_t given;                        /* number of moving objects given, and then of stills */
     LIST_OF(struct recorded_row) stills; /* from the last message with stationary objects */
@@ -42,6 +41,8 @@ static const struct type {
 } types[] = {
 #define OSI(kind, number, word, class) {kind, number, word},
 #include "recorded/recorded_classes.def"
+    {MOVING, 0, "unknown"},        {MOVING, 1, "other"},        {VEHICLE, 0, "unknown_vehicle"},
+    {VEHICLE, 1, "other_vehicle"}, {VEHICLE, 20, "watercraft"}, {VEHICLE, 21, "aircraft"},
 };
 
 static const char *word_of(enum object_kind kind, int32_t number, struct arena *arena)
@@ -54,12 +55,35 @@ static const char *word_of(enum object_kind kind, int32_t number, struct arena *
                : arena_format(arena, "%s_%d", kind == MOVING ? "moving" : "vehicle", (int)number);
 }
 
+/* The reference of glint-osi among those of an object, or NULL: the id and the class of the object
+ * in glint's frames, of which OSI has only a number and a type. */
+static const Osi3__ExternalReference *own_reference(Osi3__ExternalReference *const *references,
+                                                    size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const Osi3__ExternalReference *one = references[i];
+        if (one->type != NULL && strcmp(one->type, "glint.object") == 0 && one->n_identifier == 2 &&
+            recorded_row_name_fits(one->identifier[0]) &&
+            recorded_row_name_fits(one->identifier[1]))
+            return one;
+    }
+    return NULL;
+}
+
 /* A number in a part of the base: 0 if the part lacks it, and not taken without the part. */
 #define NUMBER(part, number, low, high, member)                                                    \
     {                                                                                              \
 #part "." #number, base->part != NULL ? base->part->number : 0, low, high,                 \
             base->part != NULL ? &row->member : NULL                                               \
     }
+
+/* Makes the height of the centre that of the road. A pitch is positive with the nose down. */
+static void take_height(const Osi3__Base *base, struct recorded_row *row)
+{
+    row->z_m = base->position->has_z ? row->z_m - row->height_m / 2 : (double)NAN;
+    if (base->orientation != NULL)
+        row->pitch_rad = -base->orientation->pitch;
+}
 
 /* Takes the values that moving and stationary objects share; false after a message. */
 static bool take_body(const struct trace *trace, const char *kind, const Osi3__Identifier *id,
@@ -77,6 +101,7 @@ static bool take_body(const struct trace *trace, const char *kind, const Osi3__I
     } numbers[] = {
         NUMBER(position, x, -1e9, 1e9, x_m),
         NUMBER(position, y, -1e9, 1e9, y_m),
+        NUMBER(position, z, -1e9, 1e9, z_m),
         NUMBER(dimension, length, 0, 1e6, length_m),
         NUMBER(dimension, width, 0, 1e6, width_m),
         NUMBER(dimension, height, 0, 1e6, height_m),
@@ -96,6 +121,7 @@ static bool take_body(const struct trace *trace, const char *kind, const Osi3__I
                   numbers[i].high);
         return false;
     }
+    take_height(base, row);
     return true;
 }
 
@@ -113,15 +139,54 @@ static bool move_velocity(struct recorded_row *row, const Osi3__Vector3d *to_rea
     return true;
 }
 
+/* The id of an object: its number, but in a trace of glint-osi the name behind it. */
+static const char *name_of(const Osi3__Identifier *id, Osi3__ExternalReference *const *references,
+                           size_t count, struct arena *arena)
+{
+    const Osi3__ExternalReference *own = own_reference(references, count);
+    return own != NULL ? arena_text(arena, own->identifier[0], strlen(own->identifier[0]))
+                       : arena_format(arena, "%" PRIu64, id->value);
+}
+
+/* In a trace of glint-osi the class is glint's own, and the word is taken if it is not known. */
+static void take_own_class(Osi3__ExternalReference *const *references, size_t count,
+                           struct recorded_row *row, struct arena *arena)
+{
+    const Osi3__ExternalReference *own = own_reference(references, count);
+    if (own == NULL)
+        return;
+    row->likely = row->class;
+    row->class = arena_text(arena, own->identifier[1], strlen(own->identifier[1]));
+}
+
+/* An object of an unknown type with a classification of vehicles, which only vehicles have, is a
+ * vehicle. */
+static void set_class(const Osi3__MovingObject *object, struct recorded_row *row,
+                      struct arena *arena)
+{
+    const Osi3__MovingObject__VehicleClassification *vehicle = object->vehicle_classification;
+    bool is_vehicle = object->type == TYPE_VEHICLE || (object->type == 0 && vehicle != NULL);
+    int32_t type = object->type;
+    if (is_vehicle)
+        type = vehicle != NULL ? vehicle->type : 0;
+    row->class = word_of(is_vehicle ? VEHICLE : MOVING, type, arena);
+    if (type == 0)
+        row->untold = arena_format(
+            arena, "moving_object %s: %s is missing or unknown; expected %s", row->id,
+            is_vehicle ? "vehicle_classification.type" : "type",
+            is_vehicle
+                ? "a type of vehicles"
+                : "TYPE_VEHICLE, TYPE_PEDESTRIAN or TYPE_ANIMAL, or a vehicle_classification");
+}
+
 static int give_moving(struct trace *trace, const Osi3__MovingObject *object,
                        struct recorded_row *row, struct diag *diag)
 {
-    const Osi3__MovingObject__VehicleClassification *vehicle = object->vehicle_classification;
     const Osi3__MovingObject__VehicleAttributes *attributes = object->vehicle_attributes;
     struct arena *arena = &trace->arena;
     if (!take_body(trace, "moving_object", object->id, object->body, row, diag))
         return -1;
-    row->id = arena_format(arena, "%" PRIu64, object->id->value);
+    row->id = name_of(object->id, object->source_reference, object->n_source_reference, arena);
     if (trace->rear_axle && attributes != NULL && attributes->bbcenter_to_rear != NULL &&
         !move_velocity(row, attributes->bbcenter_to_rear))
         return diag_fail(diag, DIAG_DATA,
@@ -129,9 +194,8 @@ static int give_moving(struct trace *trace, const Osi3__MovingObject *object,
                          "numbers in [-1e3, 1e3]",
                          trace->place, row->id, attributes->bbcenter_to_rear->x,
                          attributes->bbcenter_to_rear->y);
-    row->class = object->type != TYPE_VEHICLE
-                     ? word_of(MOVING, object->type, arena)
-                     : word_of(VEHICLE, vehicle != NULL ? vehicle->type : 0, arena);
+    set_class(object, row, arena);
+    take_own_class(object->source_reference, object->n_source_reference, row, arena);
     return RECORDED_ROW;
 }
 
@@ -139,12 +203,12 @@ static int give_moving(struct trace *trace, const Osi3__MovingObject *object,
 static int keep_stills(struct trace *trace, struct diag *diag)
 {
     struct arena *arena = &trace->still_arena;
-    if (trace->truth->n_stationary_object > 0) {
+    if (trace->message.truth->n_stationary_object > 0) {
         arena_clear(arena);
         memset(&trace->stills, 0, sizeof trace->stills);
     }
-    for (size_t i = 0; i < trace->truth->n_stationary_object; i++) {
-        const Osi3__StationaryObject *object = trace->truth->stationary_object[i];
+    for (size_t i = 0; i < trace->message.truth->n_stationary_object; i++) {
+        const Osi3__StationaryObject *object = trace->message.truth->stationary_object[i];
         int32_t type = object->classification != NULL ? object->classification->type : 0;
         const char *word = word_of(STATIONARY, type, arena);
         struct recorded_row row;
@@ -152,26 +216,17 @@ static int keep_stills(struct trace *trace, struct diag *diag)
             continue;
         if (!take_body(trace, "stationary_object", object->id, object->body, &row, diag))
             return -1;
-        row.id = arena_format(arena, "%" PRIu64, object->id->value);
+        row.id = name_of(object->id, object->source_reference, object->n_source_reference, arena);
         row.class = word;
+        take_own_class(object->source_reference, object->n_source_reference, &row, arena);
         row.vx_mps = row.vy_mps = row.yaw_rate_radps = 0;
+        row.stands = true;
         *list_add(&trace->stills, arena) = row;
     }
     return 0;
 }
 
 /* ---- messages ---- */
-
-static void *arena_give(void *arena, size_t size)
-{
-    return arena_room(arena, size);
-}
-
-static void leave_to_arena(void *arena, void *memory)
-{
-    (void)arena;
-    (void)memory;
-}
 
 /* Reads count bytes into the trace's text. Returns their number, less at the end of the file; -1
  * after a message. */
@@ -201,36 +256,24 @@ static int fail_at_end(const struct trace *trace, struct diag *diag)
                      last);
 }
 
-/* Unpacks the message: a ground truth, or the view of a sensor, which holds one. */
 static int unpack(struct trace *trace, struct diag *diag)
 {
-    ProtobufCAllocator allocator = {arena_give, leave_to_arena, &trace->arena};
-    const uint8_t *bytes = (const uint8_t *)trace->bytes.bytes;
     size_t length = trace->bytes.length;
     arena_clear(&trace->arena);
-    trace->truth = osi3__ground_truth__unpack(&allocator, length, bytes);
-    if (trace->truth != NULL)
-        trace->host = trace->truth->host_vehicle_id;
-    if (trace->truth == NULL || trace->truth->n_moving_object == 0) {
-        const Osi3__SensorView *view = osi3__sensor_view__unpack(&allocator, length, bytes);
-        if (view != NULL && view->global_ground_truth != NULL) {
-            trace->truth = view->global_ground_truth;
-            trace->host = view->host_vehicle_id != NULL ? view->host_vehicle_id
-                                                        : trace->truth->host_vehicle_id;
-        }
-    }
-    return trace->truth != NULL
+    trace->message = osi_message_unpack(trace->bytes.bytes, length, &trace->arena);
+    return trace->message.truth != NULL
                ? 0
                : diag_fail(diag, DIAG_DATA,
-                           "byte %zu: a message of %zu bytes that is none of OSI; expected a "
-                           "GroundTruth behind its length",
+                           "byte %zu: a message of %zu bytes without a ground truth; expected a "
+                           "GroundTruth, or a SensorView or SensorData with global_ground_truth, "
+                           "behind its length",
                            trace->place, length);
 }
 
 static int read_time(struct trace *trace, struct diag *diag)
 {
     const int64_t most_s = 9000000000, second_ns = 1000000000;
-    const Osi3__Timestamp *time = trace->truth->timestamp;
+    const Osi3__Timestamp *time = trace->message.time;
     if (time == NULL)
         return diag_fail(diag, DIAG_DATA, "byte %zu: timestamp is missing; expected one in each",
                          trace->place);
@@ -296,10 +339,10 @@ static int next_event(void *state, struct recorded_row *row, struct diag *diag)
     int more = trace->ahead ? 1 : read_message(trace, diag);
     if (more <= 0)
         return more < 0 ? explain(trace, diag) : RECORDED_END;
-    size_t moving = trace->truth->n_moving_object, given = trace->given++;
+    size_t moving = trace->message.truth->n_moving_object, given = trace->given++;
     int event = RECORDED_ROW;
     if (given < moving)
-        event = give_moving(trace, trace->truth->moving_object[given], row, diag);
+        event = give_moving(trace, trace->message.truth->moving_object[given], row, diag);
     else if (given < moving + trace->stills.count)
         *row = trace->stills.items[given - moving];
     else
@@ -336,6 +379,18 @@ static const struct recorded_format format = {
     .close = close_trace,
 };
 
+/* The name of the host, if the message has one. */
+static const char *host_of(const struct osi_message *message, struct arena *arena)
+{
+    const Osi3__GroundTruth *truth = message->truth;
+    for (size_t i = 0; message->host != NULL && i < truth->n_moving_object; i++) {
+        const Osi3__MovingObject *one = truth->moving_object[i];
+        if (one->id != NULL && one->id->value == message->host->value)
+            return name_of(one->id, one->source_reference, one->n_source_reference, arena);
+    }
+    return message->host != NULL ? name_of(message->host, NULL, 0, arena) : NULL;
+}
+
 struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, const char **host,
                                          struct arena *arena, struct diag *diag)
 {
@@ -347,6 +402,6 @@ struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, co
         close_trace(trace);
         return (struct recorded_reader){0};
     }
-    *host = trace->host != NULL ? arena_format(arena, "%" PRIu64, trace->host->value) : NULL;
+    *host = host_of(&trace->message, arena);
     return (struct recorded_reader){&format, trace};
 }

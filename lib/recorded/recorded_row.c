@@ -9,7 +9,9 @@ const struct recorded_row recorded_row_unsaid = {.yaw_rad = (double)NAN,
                                                  .vx_mps = (double)NAN,
                                                  .vy_mps = (double)NAN,
                                                  .yaw_rate_radps = (double)NAN,
-                                                 .speed_mps = (double)NAN};
+                                                 .speed_mps = (double)NAN,
+                                                 .z_m = (double)NAN,
+                                                 .pitch_rad = (double)NAN};
 
 int64_t recorded_row_time_ns(double time, double unit_s)
 {

@@ -20,6 +20,7 @@ struct recorded_row {
     const char *id;
     const char *class;     /* a word of the format, known or not */
     const char *likely;    /* the word to take if the class is unknown; NULL: none */
+    const char *untold;    /* of a class that the source does not tell: what it lacks; NULL */
     double x_m, y_m;       /* y is to the left of x; of any size, UTM too */
     double ahead;          /* distance of the place ahead of the box's centre, in lengths */
     double yaw_rad;        /* NAN: along the velocity */
@@ -27,9 +28,12 @@ struct recorded_row {
     double vx_mps, vy_mps; /* of the centre over ground; NAN: from the places */
     double yaw_rate_radps; /* NAN: from the yaws */
     double speed_mps;      /* along the yaw, for a road user with a single step */
+    double z_m;            /* height of the road below the body */
+    double pitch_rad;      /* of that road along the yaw, positive upward; 0 too: not known */
     double length_m, width_m, height_m; /* 0: that of the word, or of the class */
     size_t place;                       /* row, line or byte in the file, for messages */
     bool passenger;                     /* left out at the place of the vehicle in the row before */
+    bool stands;                        /* a thing, of which any part may be on a road */
 };
 
 /* A row without any value: NAN, NULL and 0. */
@@ -57,7 +61,7 @@ struct recorded_format {
     const char *id_name; /* the format's word for an id, for messages: "track_id" */
     const char *place;   /* unit of recorded_row.place: "row", "byte" */
     double slow_mps;     /* no yaw follows from a slower velocity */
-    bool by_time;        /* rows come in ascending time; if not, the recording is stored whole */
+    bool by_time;        /* rows ascend in time; if not, all are stored, without their heights */
     /* SUMO's: sizes are those of types (sumo_types.h), vehicles may jump to another lane or angle
      * (recorded_jumps.c), and places are checked against speeds, as they may be in degrees. */
     bool of_sumo;
@@ -100,7 +104,7 @@ struct recorded_reader recorded_table_open(struct input *input, const char *path
 /* Open other formats, and take over the input. These readers need expat and protobuf-c, so they are
  * no part of libglint.a, but are linked to their stages. If rear_axle is set, velocities of an OSI
  * trace are those of rear axles. *host becomes the id of the host vehicle in the first message, or
- * NULL; format is NULL after a message. */
+ * NULL; format is NULL after a message. Ids and classes of a trace of glint-osi are glint's own. */
 struct recorded_reader recorded_sumo_open(struct input *input, struct arena *arena);
 struct recorded_reader recorded_commonroad_open(struct input *input, struct arena *arena);
 struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, const char **host,

@@ -41,7 +41,7 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
     if (word == NULL && row->likely != NULL)
         word = recorded_classes_find(&steps->classes, row->likely);
     if (word == NULL) {
-        recorded_classes_refuse(&steps->classes, row->class, diag);
+        recorded_classes_refuse(&steps->classes, row->class, row->untold, diag);
         return diag_prefix(diag, "%s %zu: ", steps->reader.format->place, row->place);
     }
     double length_m = row->length_m != 0 ? row->length_m : word->length_m;
@@ -65,6 +65,9 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
         .direction_rad = row->direction_rad,
         .ahead_m = row->ahead * length_m,
         .speed_mps = row->speed_mps,
+        .z_m = row->z_m,
+        .slope = recorded_levels_pitched(row->pitch_rad),
+        .stands = row->stands,
         .before = NONE,
         .after = NONE,
     };
@@ -311,6 +314,26 @@ static void travel(struct recorded_state *state, const struct recorded_state *be
     state->object.travelled_m = state->way_m + state->way_rest_m;
 }
 
+/* Finds the slope by the track up to this step; in the first step by that to the next. */
+static void climb(struct recorded_state *state, const struct recorded_state *before,
+                  const struct recorded_state *after)
+{
+    struct vec2 heading = vec2_heading(state->object.yaw_rad);
+    const struct recorded_state *from = state, *to = after;
+    if (before != NULL) {
+        from = before;
+        to = state;
+        state->climb = before->climb;
+    }
+    if (to == NULL || isnan(from->z_m) || isnan(to->z_m))
+        return;
+    double run_m = vec2_dot(vec2_sub(to->recorded_m, from->recorded_m), heading);
+    state->climb = recorded_levels_climb(state->climb, run_m, to->z_m - from->z_m);
+    double slope = recorded_levels_slope(state->climb);
+    if (!isnan(slope))
+        state->slope = slope;
+}
+
 /* Refuses a road user that hardly moves though it is fast at both ends of a long step: the times
  * are in another unit than that of their column. */
 static int check_way(const struct recorded_steps *steps, const struct recorded_state *state,
@@ -355,6 +378,8 @@ static int complete_step(struct recorded_steps *steps, size_t number, struct dia
             find_yaw_rate(&state->object, before, before_s, after, after_s);
         if (before != NULL)
             travel(state, before);
+        if (!isnan(state->z_m))
+            climb(state, before, after);
         if (before != NULL && check_way(steps, state, before, before_s, diag) != 0)
             return -1;
         state->leaves = !open && (after == NULL || closes);

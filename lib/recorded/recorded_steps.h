@@ -13,6 +13,7 @@
 #include "base/vec2.h"
 #include "frame/frame.h"
 #include "recorded/recorded_classes.h"
+#include "recorded/recorded_levels.h"
 
 enum { RECORDED_STEPS_RING = 3, RECORDED_STEPS_FASTEST_MPS = 200, RECORDED_JUMP_S = 3 };
 
@@ -42,6 +43,9 @@ struct recorded_state {
     double ahead_m;               /* distance of the place ahead of the centre */
     double speed_mps;             /* recorded_row.speed_mps */
     double way_m, way_rest_m;     /* path length of the visit, and its rounding error */
+    double z_m, slope;            /* recorded_row.z_m; slope by the track, or else by the row */
+    struct recorded_climb climb;  /* of the track */
+    bool stands;                  /* recorded_row.stands */
     size_t before, after;         /* place in the step before and after, or SIZE_MAX */
 };
 

@@ -33,6 +33,21 @@ static void begin_step(struct document *document, const char **attributes)
     }
 }
 
+/* Height and slope, in degrees, which networks with heights have; false after a message. */
+static bool read_height(struct document *document, const char **attributes,
+                        struct recorded_row *row)
+{
+    double slope_deg = 0;
+    if (xml_rows_attribute(attributes, "z") == NULL)
+        return true;
+    if (!read_number(document, attributes, "z", -1e9, 1e9, &row->z_m) ||
+        (xml_rows_attribute(attributes, "slope") != NULL &&
+         !read_number(document, attributes, "slope", -1e3, 1e3, &slope_deg)))
+        return false;
+    row->pitch_rad = slope_deg * (PI / 180);
+    return true;
+}
+
 static void add_row(struct document *document, const char **attributes, const char *type)
 {
     struct recorded_row row = recorded_row_unsaid;
@@ -53,6 +68,8 @@ static void add_row(struct document *document, const char **attributes, const ch
         !read_number(document, attributes, "angle", -1e3, 1e3, &angle_deg) ||
         (xml_rows_attribute(attributes, "speed") != NULL &&
          !read_number(document, attributes, "speed", -1e4, 1e4, &row.speed_mps)))
+        return;
+    if (!read_height(document, attributes, &row))
         return;
     const char *own_type = xml_rows_attribute(attributes, "type");
     if (own_type != NULL)

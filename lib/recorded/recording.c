@@ -1,9 +1,8 @@
 #include "recorded/recording.h"
 
-#include <stdio.h>
-
 #include "frame/frame_check.h"
 #include "recorded/recorded_store.h"
+#include "recorded/recording_notes.h"
 #include "recorded/sumo_types.h"
 #include "traffic/scenario.h"
 
@@ -43,9 +42,13 @@ const struct record recording_options_record = {
 /* A comma ends an id, unless a backslash stands before it; two backslashes mean one. */
 static int choose_egos(struct recording *recording, const char *egos, struct diag *diag)
 {
-    if (egos == NULL)
+    if (egos == NULL && recording->host == NULL)
         return diag_fail(diag, DIAG_USAGE,
                          "a recording has no ego of its own; expected --ego ID, ID,ID,... or all");
+    if (egos == NULL) {
+        intern_word(&recording->wanted, recording->host, recording->arena);
+        return 0;
+    }
     recording->all = strcmp(egos, "all") == 0;
     struct text id = {0};
     for (const char *at = egos, *end = at + strlen(at); !recording->all && at <= end; at++) {
@@ -249,20 +252,64 @@ static void add_object(struct frame *frame, const struct recorded_state *state)
     object->y_m -= frame->origin_y_m;
 }
 
+/* Writes the numbers of the states within the radius of the ego; returns their count. */
+static size_t find_near(const struct recording *recording, const struct recorded_state *ego,
+                        uint32_t *found, struct arena *arena)
+{
+    size_t count = recording->step->states.count;
+    if (recording->options.radius_m >= 0)
+        return neighbour_grid_find(&recording->grid,
+                                   (struct vec2){ego->object.x_m, ego->object.y_m}, found, arena);
+    for (size_t i = 0; i < count; i++)
+        found[i] = (uint32_t)i;
+    return count;
+}
+
+static struct recorded_level level_of(const struct recorded_state *state)
+{
+    const struct object *object = &state->object;
+    return (struct recorded_level){.place_m = {object->x_m, object->y_m},
+                                   .heading = vec2_heading(object->yaw_rad),
+                                   .z_m = state->z_m,
+                                   .tall_m = state->stands ? object->height_m : 0,
+                                   .slope = state->slope};
+}
+
+/* Leaves only the bodies on the ego's road; returns their count, and counts the others. */
+static size_t leave_level(struct recording *recording, const struct recorded_state *ego,
+                          uint32_t *found, size_t count, struct arena *arena)
+{
+    const struct recorded_state *states = recording->step->states.items;
+    struct recorded_level *levels = arena_room(arena, count * sizeof *levels);
+    bool *on = arena_room(arena, count * sizeof *on);
+    size_t own = 0, left = 0;
+    for (size_t i = 0; i < count; i++) {
+        levels[i] = level_of(&states[found[i]]);
+        if (&states[found[i]] == ego)
+            own = i;
+    }
+    recorded_levels_mark(levels, count, own, on, arena);
+    for (size_t i = 0; i < count; i++) {
+        const char *id = states[found[i]].object.id;
+        if (on[i])
+            found[left++] = found[i];
+        else
+            intern_word(&recording->apart, id, recording->arena);
+    }
+    recording->apart_frames += left < count;
+    return left;
+}
+
 static void add_objects(struct recording *recording, const struct recorded_state *ego,
                         struct frame *frame)
 {
-    const struct recorded_step *step = recording->step;
-    if (recording->options.radius_m < 0) {
-        for (size_t i = 0; i < step->states.count; i++)
-            add_object(frame, &step->states.items[i]);
-        return;
-    }
-    struct vec2 place = {ego->object.x_m, ego->object.y_m};
-    uint32_t *found = arena_room(frame->arena, step->states.count * sizeof *found);
-    size_t count = neighbour_grid_find(&recording->grid, place, found, frame->arena);
+    const struct recorded_state *states = recording->step->states.items;
+    uint32_t *found = arena_room(frame->arena, recording->step->states.count * sizeof *found);
+    size_t count = find_near(recording, ego, found, frame->arena);
+    if (!isnan(ego->z_m))
+        count = leave_level(recording, ego, found, count, frame->arena);
     for (size_t i = 0; i < count; i++)
-        add_object(frame, &step->states.items[found[i]]);
+        add_object(frame, &states[found[i]]);
 }
 
 static void fill(struct recording *recording, const struct recorded_state *state,
@@ -300,63 +347,6 @@ static int check_egos(const struct recording *recording, struct diag *diag)
     return 0;
 }
 
-/* Reports the jumps that were spread. */
-static void note_jumps(const struct recording *recording, struct diag *diag)
-{
-    const struct recorded_jump_counts *jumps = &recording->steps.jumps;
-    if (jumps->lanes + jumps->angles > 0)
-        snprintf(
-            diag->text, sizeof diag->text,
-            "%s: %zu jumps to another lane are spread over %d s, and %zu of the angle over the "
-            "way that the body needs to turn; sumo --lanechange.duration 3 or "
-            "--lateral-resolution 0.8 avoids jumps to another lane",
-            recording->source, jumps->lanes, RECORDED_JUMP_S, jumps->angles);
-}
-
-/* Reports the first ego whose scenes are fragments, below what was reported before. */
-static void note_fragments(const struct recording *recording, struct diag *diag)
-{
-    const struct recorded_ego *first = NULL;
-    size_t count = 0;
-    for (size_t i = 0; i < recording->egos.count; i++) {
-        const struct recorded_ego *ego = &recording->egos.items[i];
-        if (ego->visits < 2)
-            continue;
-        first = count++ == 0 ? ego : first;
-    }
-    if (first == NULL)
-        return;
-    char missed[64] = "", jumps[64] = "", more[64] = "";
-    if (first->missed > 0)
-        snprintf(missed, sizeof missed, " is missing from %zu steps in between", first->missed);
-    if (first->jumps > 0)
-        snprintf(jumps, sizeof jumps, " jumps %zu times", first->jumps);
-    if (count > 1)
-        snprintf(more, sizeof more, "; %zu more egos have several scenes", count - 1);
-    size_t used = strlen(diag->text);
-    snprintf(diag->text + used, sizeof diag->text - used,
-             "%s%s: ego %.200s: %lld scenes, as it%s%s%s%s", used > 0 ? "; " : "",
-             recording->source, first->id, (long long)first->visits, missed,
-             first->missed > 0 && first->jumps > 0 ? " and" : "", jumps, more);
-}
-
-/* Reports that nothing moves, or else the first ego that was asked for by its id and does not. */
-static void note_standing(const struct recording *recording, struct diag *diag)
-{
-    size_t used = strlen(diag->text), room = sizeof diag->text - used;
-    const char *between = used > 0 ? "; " : "";
-    if (!recording->moves)
-        snprintf(diag->text + used, room, "%s%s: nothing moves", between, recording->source);
-    for (size_t i = 0; i < recording->egos.count && recording->moves && !recording->all; i++) {
-        const struct recorded_ego *ego = &recording->egos.items[i];
-        if (ego->moves)
-            continue;
-        snprintf(diag->text + used, room, "%s%s: ego %.200s does not move", between,
-                 recording->source, ego->id);
-        return;
-    }
-}
-
 int recording_next(struct recording *recording, struct frame *frame, struct diag *diag)
 {
     int more = 1;
@@ -364,11 +354,8 @@ int recording_next(struct recording *recording, struct frame *frame, struct diag
         more = take_step(recording, diag);
     if (more == 0)
         more = check_egos(recording, diag);
-    if (more == 0) {
-        note_jumps(recording, diag);
-        note_fragments(recording, diag);
-        note_standing(recording, diag);
-    }
+    if (more == 0)
+        recording_notes(recording, diag);
     if (more < 0)
         return diag_prefix(diag, "%s: ", recording->source);
     if (more > 0) {

@@ -50,7 +50,8 @@ struct recording {
     /* Set by the caller. source is the path, for messages and names of scenes. */
     const char *source;
     struct recording_options options;
-    bool live; /* no step waits for the next one (recorded_steps.h) */
+    bool live;        /* no step waits for the next one (recorded_steps.h) */
+    const char *host; /* id of the ego without --ego; NULL: the source names none */
     /* Set by the recording. */
     const char *name; /* of scenes, before the ego's name */
     bool all;         /* every vehicle is an ego */
@@ -69,6 +70,8 @@ struct recording {
     LIST_OF(uint32_t) step_egos; /* places of egos in the step's states */
     size_t ego;                  /* next one of step_egos */
     struct neighbour_grid grid;
+    struct intern apart; /* ids of bodies that were left out, as they are on another road */
+    size_t apart_frames; /* number of frames in which one was */
 };
 
 /* Takes over the reader, which is closed with the recording and after a failure. */

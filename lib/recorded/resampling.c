@@ -53,9 +53,11 @@ static void interpolate(const struct resampling *resampling, struct recorded_ste
         struct recorded_state state = to->states.items[i];
         if (between && (from == NULL || state.before == SIZE_MAX))
             continue;
-        if (between)
-            state.object = resampling_between(&from->states.items[state.before].object,
-                                              &state.object, length_s, share);
+        if (between) {
+            const struct recorded_state *before = &from->states.items[state.before];
+            state.object = resampling_between(&before->object, &state.object, length_s, share);
+            state.z_m = before->z_m + share * (state.z_m - before->z_m);
+        }
         state.object.id = arena_text(&made->arena, state.object.id, strlen(state.object.id));
         *list_add(&made->states, &made->arena) = state;
     }

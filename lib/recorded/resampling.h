@@ -1,9 +1,9 @@
 /* Resamples a recording to another rate.
  *
  * Places and velocities follow the cubic Hermite curve between two steps, yaws the shorter arc; yaw
- * rates and distances travelled are linear; class and sizes stay. A road user is there from its
- * first step to its last. Instant 0 is the first step of the recording, whatever from_ns is, so
- * that parts that are cut by time have the instants of the whole. */
+ * rates, heights and distances travelled are linear; class and sizes stay. A road user is there
+ * from its first step to its last. Instant 0 is the first step of the recording, whatever from_ns
+ * is, so that parts that are cut by time have the instants of the whole. */
 #pragma once
 
 #include "recorded/recorded_steps.h"

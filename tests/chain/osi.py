@@ -106,6 +106,80 @@ def exactness(folder):
     check([part["id"] for part in frames[1]["objects"]] == ["0", "95"], "stationary objects stay until others come")
 
 
+def every_message_with_a_ground_truth_is_read(folder):
+    """Views and data of sensors; the time and the host of a message serve where its ground truth has none."""
+    def data(view):
+        return (VERSION + stamp(5 * STEP_NS) + message(5, whole(1, 3)) + message(6, vector(1, 1, 2, 3), vector(2, 0, 0, 1)) +
+                message(8, VERSION, stamp(0)) + message(8, view) + message(9, whole(1, 1)) + message(26, VERSION))
+    truths = list(own_trace())
+    for one in (truths, list(own_trace(zeros=False))):
+        compare(run(PROGRAM, save(folder, "data.osi", trace_of(*[data(sensor_view(truth)) for truth in one]))), own_states(), "8")
+    mixed = [truths[0], sensor_view(truths[1]), data(sensor_view(truths[2]))]
+    compare(run(PROGRAM, save(folder, "mixed.osi", trace_of(*mixed)), "--ego", "0"), own_states(3), "0")
+    car = moving(0, 4, 1, 2, 0.0)
+    untimed = [VERSION + stamp(i * STEP_NS) + message(7, message(3, b""), car) for i in range(2)]
+    frames = run(PROGRAM, save(folder, "untimed.osi", trace_of(*untimed)))
+    check([frame["time_s"] for frame in frames] == [0, 0.05] and frames[0]["ego"] == "0", f"time of the view: {frames}")
+    light = message(7, message(1, whole(1, 3)))  # a traffic light, where a view has its ground truth
+    compare(run(PROGRAM, save(folder, "lights.osi", trace_of(*[truth + light for truth in truths]))), own_states(), "0")
+    sensor = message(3, whole(1, 77)) + message(4, vector(1, 1.5, 0, 0.5))
+    for content in (stamp(0) + message(5, whole(1, 3)) + message(26, VERSION),
+                    stamp(0) + message(8, VERSION, stamp(0), sensor) + message(26, VERSION),
+                    VERSION + stamp(0) + message(26, VERSION), VERSION + stamp(0) + sensor,
+                    VERSION + stamp(0) + message(3, whole(1, 77)) + message(1001, b"")):
+        text, _ = run(PROGRAM, save(folder, "untrue.osi", trace_of(content)), "--ego", "0", fails=65)
+        check("without a ground truth; expected a GroundTruth, or a SensorView or SensorData with global_ground_truth" in text, text)
+
+
+def own_traces_are_read_back(folder):
+    """Frames through glint-osi come back with the ids, classes and motions of their objects."""
+    def pipe(*stages, data=None):
+        for stage in stages:
+            data = subprocess.run([os.path.join(BIN, stage[0]), *stage[1:]], input=data, capture_output=True, check=True,
+                                  timeout=PATIENCE_S).stdout
+        return data
+    objects = [{"id": name, "class": kind, "x_m": 30.0 * i, "y_m": 4.0 * i, "speed_mps": speed} for i, (name, kind, speed) in
+               enumerate((("all", "car", 15), ("a,b", "articulated_truck", 10), ("7", "pedestrian", 1), ("post 1", "post", 0),
+                          ("w", "wall", 0), ("bus", "bus", 12)))]
+    scene = {"origin": "made by hand", "ego": "all", "rate_hz": 20, "duration_s": 0.5, "objects": objects}
+    path = save(folder, "own.json", json.dumps(scene).encode())
+    lines = pipe(("glint-traffic", path), ("glint-extract",), ("glint-ideal", "--sensors", "lrr77-every-frame"),
+                 ("glint-sensor",), ("glint-noise", "--sections", "quality"))
+    frames = [json.loads(line) for line in lines.splitlines()]
+    back = run(PROGRAM, save(folder, "glint.osi", pipe(("glint-osi",), data=lines)))
+    check(len(back) == len(frames) and len(frames) > 9, f"{len(back)} frames of {len(frames)}")
+    for frame, own in zip(frames, back):
+        check(own["ego"] == "all" and abs(own["time_s"] - frame["time_s"]) < 1e-9, f"ego and time of {own}")
+        check([part["id"] for part in own["objects"]] == sorted(part["id"] for part in objects), f"who is there: {own}")
+        parts = {part["id"]: part for part in frame["objects"]}
+        for part in own["objects"]:
+            same = [key for key in part if key != "travelled_m" and part[key] != parts[part["id"]].get(key)]
+            check(not same, f"{part['id']}: {same} of {part}, {parts[part['id']]}")
+
+
+def a_type_that_is_missing_is_said(folder):
+    """A classification of vehicles makes a vehicle; without it the message names the field that is missing."""
+    name, place = message(1, whole(1, 5)), box(1, 2, 0.0, (4, 2, 1.5))
+    bus = message(6, whole(1, 12))
+    for kind in (b"", whole(3, 0)):
+        frame = run(PROGRAM, save(folder, "bus.osi", trace_of(stamp(0) + message(5, name, place, kind, bus))), "--ego", "5")[0]
+        check(frame["objects"][0]["class"] == "bus", f"a classification without a type: {frame}")
+    for parts, said in (
+            (b"", "moving_object 5: type is missing or unknown; expected TYPE_VEHICLE, TYPE_PEDESTRIAN or TYPE_ANIMAL, or a "
+             "vehicle_classification; --class-map unknown=CLASS or --class-default CLASS names one"),
+            (whole(3, 2), "moving_object 5: vehicle_classification.type is missing or unknown; expected a type of vehicles; "
+             "--class-map unknown_vehicle=CLASS or --class-default CLASS names one"),
+            (message(6, b""), "--class-map unknown_vehicle=CLASS or"),
+            (whole(3, 1), 'unknown class "other"'), (whole(3, 2) + message(6, whole(1, 1)), 'unknown class "other_vehicle"'),
+            (whole(3, 2) + message(6, whole(1, 20)), 'unknown class "watercraft"')):
+        path = save(folder, "typeless.osi", trace_of(stamp(0) + message(5, name, place, parts)))
+        text, _ = run(PROGRAM, path, "--ego", "5", fails=65)
+        check(f"{path}: byte 0: " in text and said in text, text)
+        word = re.search("--class-map ([a-z_]+)=CLASS", text)[1]
+        frame = run(PROGRAM, path, "--ego", "5", "--class-map", word + "=van")[0]
+        check(frame["objects"][0]["class"] == "van", f"--class-map {word}: {frame}")
+
+
 def shared_options(folder):
     path = os.path.join(folder, "own.osi")
     for words in ((), ("--radius-m", "25"), ("--rate-hz", "50"), ("--from-s", "0.1", "--to-s", "0.2")):
@@ -196,9 +270,10 @@ def bad_input(folder):
         (moving(0, 4, 1, 1), "timestamp is missing; expected one in each"),
         (message(2, whole(1, 10**10)), "timestamp is 10000000000 s and 0 ns; expected seconds in [-9e9, 9e9]"),
         (message(2, whole(1, 1), whole(2, 10**9)), "timestamp is 1 s and 1000000000 ns; expected seconds in"),
-        (b"\xff" * 20, "a message of 20 bytes that is none of OSI; expected a GroundTruth behind its length"),
-        (stamp(STEP_NS)[:-1], "that is none of OSI"),
-        (stamp(STEP_NS) + message(5, message(1, whole(1, 5)), whole(2, 3)), "that is none of OSI"),
+        (b"\xff" * 20, "a message of 20 bytes without a ground truth; expected a GroundTruth, or a SensorView or SensorData with global_ground_truth, "
+         "behind its length"),
+        (stamp(STEP_NS)[:-1], " bytes without a ground truth; expected"),
+        (stamp(STEP_NS) + message(5, message(1, whole(1, 5)), whole(2, 3)), " bytes without a ground truth; expected"),
         (stamp(STEP_NS) + message(5, box(0, 0, 0, (1, 1, 1))), "moving_object: id is missing; expected one in each"),
         (stamp(STEP_NS) + message(5, message(1, whole(1, 5))), "moving_object: base.position is missing; expected one in each"),
         (stamp(STEP_NS) + moving(**car, x=nan, y=0),
@@ -217,7 +292,8 @@ def bad_input(folder):
         (stamp(STEP_NS) + stationary(6, 4, nan, 0), "stationary_object 6: base.position.x is nan; expected a number"),
         (stamp(STEP_NS) + moving(0, 4, 0, 0) + moving(0, 4, 1, 1), "id of an object 0 at 0.05 s is in byte "),
         (stamp(STEP_NS) + moving(0, 4, 0, 0) + stationary(0, 4, 1, 1), "id of an object 0 at 0.05 s is in byte "),
-        (stamp(STEP_NS) + moving(0, 0, 0, 0), 'unknown class "vehicle_0"; expected a word that --help lists'),
+        (stamp(STEP_NS) + moving(0, 0, 0, 0), "moving_object 0: vehicle_classification.type is missing or unknown; expected a type of vehicles; --class-map "
+         "unknown_vehicle=CLASS or --class-default CLASS names one"),
     ]
     for content, said in cases:
         path = save(folder, "bad.osi", first + trace_of(content))
@@ -318,6 +394,9 @@ def the_interface_is_part_of_the_standard():
 with tempfile.TemporaryDirectory() as place:
     if os.path.exists(os.path.join(BIN, PROGRAM)):
         exactness(place)
+        every_message_with_a_ground_truth_is_read(place)
+        own_traces_are_read_back(place)
+        a_type_that_is_missing_is_said(place)
         shared_options(place)
         a_mirrored_world_is_mirrored(place)
         a_loop_in_lock_step_never_waits()

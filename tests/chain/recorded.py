@@ -569,6 +569,31 @@ def a_type_has_the_sizes_of_its_class(folder):
         check(frame["objects"][0]["length_m"] == length, f"length of {word}: {frame}")
 
 
+def a_class_that_is_none_of_glint_is_named(folder):
+    """The message names the vClass and the option for it, in XML and in tables; also of the copies of a type."""
+    types = os.path.join(folder, "strange.rou.xml")
+    xml, table = os.path.join(folder, "strange.xml"), os.path.join(folder, "strange.csv")
+    for kind in ("ignoring", "ship", "aircraft", "hovercraft"):
+        with open(types, "w", encoding="ascii") as file:
+            file.write(f'<routes><vType id="CarRed" vClass="{kind}" length="6.5"/><vType id="bus" vClass="{kind}"/></routes>')
+        for word, length in (("CarRed", 6.5), ("bus", 5), ("CarRed@7", 6.5)):
+            with open(xml, "w", encoding="ascii") as file:
+                file.write(f'<fcd-export><timestep time="0"><vehicle id="a" x="0" y="0" angle="90" type="{word}"/></timestep>'
+                           "</fcd-export>")
+            with open(table, "w", encoding="ascii") as file:
+                file.write(f"time;id;x;y;angle;type\n0;a;0;0;90;{word}\n")
+            for program, source in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
+                words = (source, "--ego", "a", "--types", types)
+                said, _ = run(program, *words, fails=65)
+                check(f'type "{word.split("@")[0]}" has vClass "{kind}"; expected one that --help lists; '
+                      f"--class-map {kind}=CLASS or --class-default CLASS names one" in said, said)
+                for more in (("--class-map", kind + "=car"), ("--class-default", "car")):
+                    part = run(program, *words, *more)[0]["objects"][0]
+                    check((part["class"], part["length_m"], part["width_m"]) == ("car", length, 1.8), f"{more}: {part}")
+                part = run(program, *words, "--class-map", word + "=car")[0]["objects"][0]
+                check((part["class"], part["width_m"]) == ("car", 1.8), f"{word}=car: {part}")
+
+
 def types_come_from_several_files(folder):
     """Each --types adds to those before, for XML and for tables. An id may come again with the same class and size only."""
     paths = [os.path.join(folder, name) for name in ("one.rou.xml", "two.add.xml", "fcd.csv", "fcd.xml")]
@@ -593,8 +618,10 @@ def types_come_from_several_files(folder):
                 check(got == sizes[part["id"]] and part["x_m"] == -got[1] / 2, f"{program} {words}: {part}")
     for program, source in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
         said, _ = run(program, source, "--ego", "a", "--types", two, fails=65)
-        check('--class-map a=CLASS or --class-default CLASS names one, but not its size, which is that of its vType: --types '
-              "FILE" in said, said)
+        check("--class-map a=CLASS or --class-default CLASS names one, but not its size, which is that of its vType, and no "
+              "file of --types has it" in said, said)
+        said, _ = run(program, source, "--ego", "a", fails=65)
+        check("but not its size, which is that of its vType: --types FILE" in said, said)
         for old, new, message in (
                 ('id="b"', "", 'line 1: id is ""; expected 1 to 1024 ASCII characters'),
                 ('id="b"', 'id="a"', 'line 1: id is "a", as that of a type above with another class or size; expected one'),
@@ -961,6 +988,7 @@ with tempfile.TemporaryDirectory() as place:
         early_ends(place)
         a_tag_has_an_end(place)
         a_type_has_the_sizes_of_its_class(place)
+        a_class_that_is_none_of_glint_is_named(place)
         types_come_from_several_files(place)
         bad_input(place)
         lane_changes_take_their_time()

@@ -73,12 +73,13 @@ def traffic():
 
 
 def floating_cars():
-    """SUMO's data of its test, whole and cut; with types, and as routes."""
+    """SUMO's data of its test, whole and cut; with types, as routes, and with heights."""
     text = re.search(r'^FCD = """(.*?)"""', open("tests/chain/recorded.py", encoding="utf-8").read(), re.S | re.M)[1]
     types = '<vTypeDistribution id="d"><vType id="bus" vClass="coach" length="13" width="2"/></vTypeDistribution>'
     steps = text.split("</timestep>")
     texts = ["</timestep>".join(steps[:count]) + "</timestep></fcd-export>" for count in range(1, len(steps))]
-    texts += [text.replace("<fcd-export>", "<fcd-export>" + types), f"<routes>{types}</routes>"]
+    texts += [text.replace("<fcd-export>", "<fcd-export>" + types), f"<routes>{types}</routes>",
+              text.replace(" angle=", ' z="6.5" slope="3.4" angle=')]
     return [(text + " " * pad).encode() for text in texts for pad in range(4)]
 
 
@@ -89,7 +90,7 @@ def scenarios():
 
 
 def traces():
-    """Traces of OSI, whole and cut; with ids of 0 or without, said and not said, a view of a sensor, other fields."""
+    """Traces of OSI, whole and cut; with ids of 0 or without, said and not said, a view and data of a sensor, other fields."""
     sys.path.insert(0, "tests/support")
     from osi_messages import LANE, VERSION, message, moving, stamp, stationary, trace_of, whole
     made = []
@@ -98,7 +99,8 @@ def traces():
                  + moving(0, 4, i, 0, 0.1, velocity=(20, 1), rate=0.3, rear=(-1.4, 0, -0.3), zeros=zeros)
                  + moving(7, 8, 9 + i, 3.0, size=(0, 0, 0), zeros=zeros) + moving(8, "pedestrian", 5, 5, 0.0) for i in range(4)]
         view = stamp(0) + message(7, steps[0]) + message(8, whole(1, 7))
-        made += [trace_of(*steps), trace_of(*steps)[:-9], trace_of(view, steps[1]), trace_of(*steps[:2])]
+        data = stamp(0) + message(8, view) + message(9, whole(1, 1)) + message(26, VERSION)
+        made += [trace_of(*steps), trace_of(*steps)[:-9], trace_of(view, steps[1]), trace_of(*steps[:2]), trace_of(data, view)]
     return [trace + bytes(pad) for trace in made for pad in range(4)]
 
 
