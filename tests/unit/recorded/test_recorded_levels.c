@@ -75,6 +75,17 @@ static void who_drives_up_a_ramp_has_left_the_road_below(void **state)
     assert_on(bodies, "x.xx.");
 }
 
+static void between_two_slopes_any_rise_is_that_of_a_road(void **state)
+{
+    (void)state;
+    const double heights_m[] = {9.1, 8.9, -2.9, -3.1};
+    for (size_t i = 0; i < 4; i++) {
+        const struct recorded_level bodies[] = {body(0, 0, 0, 0.06, false),
+                                                body(100, 0, heights_m[i], 0, false)};
+        assert_on(bodies, i == 1 || i == 2 ? "xx" : "x.");
+    }
+}
+
 static void vehicles_lead_over_a_crest(void **state)
 {
     (void)state;
@@ -85,6 +96,8 @@ static void vehicles_lead_over_a_crest(void **state)
     assert_on(crest, "xxxxx");
     const struct recorded_level alone[] = {crest[0], crest[4]};
     assert_on(alone, "x.");
+    const struct recorded_level in_any_order[] = {crest[0], crest[4], crest[2], crest[3], crest[1]};
+    assert_on(in_any_order, "xxxxx");
     /* Farther bodies change nothing. */
     const struct recorded_level nearer[] = {crest[0], crest[1], crest[2]};
     assert_on(nearer, "xxx");
@@ -99,6 +112,9 @@ static void a_queue_that_has_never_moved_leads_up_a_hill(void **state)
     assert_on(queue, "xxxxxxxxxxxxxxxxxxxx");
     queue[10].z_m += 6;
     assert_on(queue, "xxxxxxxxxx.xxxxxxxxx");
+    for (size_t i = 0; i < 20; i++)
+        queue[i] = body(25 * (double)i, 0, 2.9 * (double)i, unknown, false);
+    assert_on(queue, "xxxxxxxxxxxxxxxxxxxx");
 }
 
 static void a_ramp_does_not_lead_to_the_bridge_over_the_ego(void **state)
@@ -129,6 +145,10 @@ static void of_a_thing_any_part_may_be_on_the_road(void **state)
     lamp.tall_m = 4;
     const struct recorded_level bodies[] = {body(0, 0, 0, 0, false), cellar, lamp};
     assert_on(bodies, "xx.");
+    struct recorded_level mast = body(100, 2, 0, unknown, false);
+    mast.tall_m = 8;
+    const struct recorded_level no_way_up[] = {bodies[0], mast, body(100, 4, 6, 0, true)};
+    assert_on(no_way_up, "xx.");
 }
 
 static void the_slope_is_that_of_the_last_metres(void **state)
@@ -168,6 +188,7 @@ int main(void)
         cmocka_unit_test(a_bridge_at_6_m_keeps_none),
         cmocka_unit_test(a_bridge_over_a_hill_keeps_none),
         cmocka_unit_test(who_drives_up_a_ramp_has_left_the_road_below),
+        cmocka_unit_test(between_two_slopes_any_rise_is_that_of_a_road),
         cmocka_unit_test(vehicles_lead_over_a_crest),
         cmocka_unit_test(a_queue_that_has_never_moved_leads_up_a_hill),
         cmocka_unit_test(a_ramp_does_not_lead_to_the_bridge_over_the_ego),
