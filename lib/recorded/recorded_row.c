@@ -69,7 +69,8 @@ struct store {
     uint32_t rows;
     struct intern names, bodies, times;
     LIST_OF(struct stored_step) steps;
-    size_t step; /* that is given out; its rows leave its list */
+    size_t step;  /* that is given out */
+    uint32_t row; /* the last one of it that was given; NONE */
 };
 
 static struct stored_row *row_at(const struct store *store, uint32_t number)
@@ -137,17 +138,14 @@ static int next(void *state, struct recorded_row *row, struct diag *diag)
     struct store *store = state;
     if (store->step == store->steps.count)
         return RECORDED_END;
-    struct stored_step *step = &store->steps.items[store->step];
-    row->time_ns = step->time_ns;
-    if (step->first == NONE) {
+    const struct stored_step *step = &store->steps.items[store->step];
+    store->row = store->row == NONE ? step->first : row_at(store, store->row)->next;
+    if (store->row == NONE)
         store->step++;
-        return RECORDED_STEP;
-    }
-    const struct stored_row *stored = row_at(store, step->first);
-    unpack(store, stored, row);
+    else
+        unpack(store, row_at(store, store->row), row);
     row->time_ns = step->time_ns;
-    step->first = stored->next;
-    return RECORDED_ROW;
+    return store->row == NONE ? RECORDED_STEP : RECORDED_ROW;
 }
 
 static int compare_times(const void *a, const void *b)
@@ -176,5 +174,13 @@ struct recorded_reader recorded_row_store(struct recorded_reader reader, struct 
     if (event < 0)
         return (struct recorded_reader){0};
     sort_list(&store->steps, compare_times, arena);
+    store->row = NONE;
     return (struct recorded_reader){&store->format, store};
+}
+
+void recorded_row_rewind(struct recorded_reader reader)
+{
+    struct store *store = reader.state;
+    store->step = 0;
+    store->row = NONE;
 }

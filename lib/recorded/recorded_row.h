@@ -58,8 +58,8 @@ struct recorded_format {
     const char *place;   /* unit of recorded_row.place: "row", "byte" */
     double slow_mps;     /* no yaw follows from a slower velocity */
     bool by_time;        /* rows come in ascending time; if not, the recording is stored whole */
-    /* SUMO's: sizes are those of types (sumo_types.h), vehicles may jump to another lane or angle
-     * (recorded_jumps.c), and places are checked against speeds, as they may be in degrees. */
+    /* SUMO's: sizes are those of types (sumo_types.h), and vehicles may jump to another lane or
+     * angle (recorded_jumps.c). */
     bool of_sumo;
     bool marks_steps; /* gives RECORDED_STEP; if not, a step ends where the time changes */
     const struct recorded_word *words; /* ends with a word NULL */
@@ -103,3 +103,6 @@ struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, co
  * and a size of a body some hundred each. Yaw rates are kept to 24 bits, speeds are not kept. */
 struct recorded_reader recorded_row_store(struct recorded_reader reader, struct arena *arena,
                                           struct diag *diag);
+
+/* A reader of recorded_row_store gives all rows again. */
+void recorded_row_rewind(struct recorded_reader reader);
