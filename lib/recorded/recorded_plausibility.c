@@ -21,12 +21,15 @@ struct recorded_track recorded_plausibility_begin(const struct recorded_row *row
     };
     track.from_m = track.at_m;
     track.from_yaw_rad = track.yaw_rad;
+    track.reversible = !vector && !isnan(row->yaw_rad) && !isnan(row->speed_mps);
+    if (track.reversible)
+        track.velocity_mps = vec2_scale(row->speed_mps, vec2_heading(row->yaw_rad));
     return track;
 }
 
 /* By how much the way leads beyond what the speeds allow; NAN without speeds. The mean of velocities
- * that change from one into the other lies in the circle that has the two as ends of a diameter,
- * and a body that stops on the way has a share of it. */
+ * that turn from one into the other lies in the circle that has the two as ends of a diameter, and a
+ * body that stops on the way has a share of it. */
 static double deviation_m(const struct recorded_track *now, const struct recorded_track *before,
                           struct vec2 way_m, double length_s)
 {
@@ -39,8 +42,9 @@ static double deviation_m(const struct recorded_track *now, const struct recorde
     struct vec2 change_mps = vec2_sub(now->velocity_mps, before->velocity_mps);
     struct vec2 said_m = vec2_scale(length_s / 2, sum_mps);
     double square = vec2_dot(said_m, said_m), share = 0;
+    double least = now->reversible ? -1 : 0;
     if (square > 0)
-        share = elementary_min(elementary_max(vec2_dot(way_m, said_m) / square, 0), 1);
+        share = elementary_min(elementary_max(vec2_dot(way_m, said_m) / square, least), 1);
     double aside_m = vec2_length(vec2_sub(way_m, vec2_scale(share, said_m)));
     return elementary_max(aside_m - length_s / 2 * vec2_length(change_mps), 0);
 }
@@ -67,23 +71,6 @@ static void note_place(struct recorded_plausibility *plausibility, const struct 
 {
     if (plausibility->place == 0)
         plausibility->place = now->place;
-}
-
-static void deny(struct recorded_plausibility *plausibility, const struct recorded_track *now,
-                 double way_m, double fastest_mps, double said_m)
-{
-    if (isnan(fastest_mps)) {
-        plausibility->fast++;
-        return;
-    }
-    note_place(plausibility, now);
-    plausibility->leaps.ways++;
-    plausibility->leaps.moved_m += way_m;
-    plausibility->leaps.said_m += said_m;
-    if (fastest_mps < STANDS_MPS)
-        plausibility->standing++;
-    else
-        plausibility->driving++;
 }
 
 /* ---- stretches ---- */
@@ -114,20 +101,27 @@ static void count_yaw(struct recorded_slants *slants, const struct recorded_trac
         double mean_rad = from_rad + units_wrap_rad(to_rad - from_rad) / 2;
         double off_rad = fabs(units_wrap_rad(2 * (mean_rad - direction_rad))) / 2;
         slants->off_rad[i] += off_rad;
-        if (i == RECORDED_YAW_STATED && off_rad > SLANT_RAD)
-            slants->contradicting++;
+        if (i != RECORDED_YAW_STATED)
+            continue;
+        slants->contradicting += off_rad > SLANT_RAD;
+        if (off_rad <= slants->most_rad)
+            continue;
+        slants->most_rad = off_rad;
+        slants->yaw_rad = now->yaw_rad;
+        slants->place = now->place;
     }
 }
 
 static void judge_yaw(struct recorded_plausibility *plausibility, struct recorded_track *now)
 {
+    if (isnan(now->yaw_rad) || isnan(now->from_yaw_rad))
+        return;
     uint64_t contradicting = plausibility->all.contradicting;
     count_yaw(&plausibility->all, now);
     if (fabs(now->yaw_rad) > 2 * PI)
         count_yaw(&plausibility->far, now);
     if (plausibility->all.contradicting == contradicting)
         return;
-    note_place(plausibility, now);
     plausibility->slanted += !now->slanted;
     now->slanted = true;
 }
@@ -170,9 +164,46 @@ static void end_stretch(struct recorded_plausibility *plausibility, struct recor
         return;
     if (whole && timely && stated)
         judge_length(plausibility, now, moved_m);
-    if (whole && timely && moved_m >= STRETCH_M && !isnan(now->yaw_rad + now->from_yaw_rad))
+    if (whole && timely && moved_m >= STRETCH_M)
         judge_yaw(plausibility, now);
     begin_stretch(now);
+}
+
+/* Counts a denied way. The directions of such ways are judged, too: where yaws are wrong and
+ * velocities follow them, all ways may be denied. */
+static void deny(struct recorded_plausibility *plausibility, struct recorded_track *now,
+                 const struct recorded_track *before, double far_m, double fastest_mps,
+                 double said_m)
+{
+    if (plausibility->standing + plausibility->driving + plausibility->fast == 0)
+        plausibility->first = now->place;
+    if (isnan(fastest_mps))
+        plausibility->fast++;
+    else if (fastest_mps < STANDS_MPS)
+        plausibility->standing++;
+    else
+        plausibility->driving++;
+    if (plausibility->learned || isnan(fastest_mps))
+        return;
+    note_place(plausibility, now);
+    plausibility->leaps.ways++;
+    plausibility->leaps.moved_m += far_m;
+    plausibility->leaps.said_m += said_m;
+    now->from_m = before->at_m;
+    now->from_yaw_rad = before->yaw_rad;
+    if (far_m >= STRETCH_M)
+        judge_yaw(plausibility, now);
+    begin_stretch(now);
+}
+
+static void continue_stretch(struct recorded_track *now, const struct recorded_track *before,
+                             double said_m, double length_s)
+{
+    now->from_m = before->from_m;
+    now->from_yaw_rad = before->from_yaw_rad;
+    now->lasts_s = before->lasts_s + length_s;
+    now->said_m = before->said_m + said_m;
+    now->ways = before->ways + 1;
 }
 
 bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
@@ -181,53 +212,50 @@ bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
 {
     struct vec2 way_m = vec2_sub(now->at_m, before->at_m);
     double far_m = vec2_length(way_m), beyond_m = deviation_m(now, before, way_m, length_s);
-    double fastest_mps = elementary_max(now->speed_mps, before->speed_mps);
+    double fastest_mps = isnan(beyond_m) ? (double)NAN
+                                         : elementary_max(now->speed_mps, before->speed_mps);
     double said_m = (now->speed_mps + before->speed_mps) / 2 * length_s;
-    double bound_m =
-        BOUND_M + length_s * (BOUND_MPS2 * length_s + BOUND_SHARE * fastest_mps);
-    bool fast = far_m > RECORDED_FASTEST_MPS * length_s;
-    bool denied = beyond_m > bound_m &&
+    double bound_m = BOUND_M + length_s * (BOUND_MPS2 * length_s + BOUND_SHARE * fastest_mps);
+    bool denied = !explained && beyond_m > bound_m &&
                   beyond_m > bound_m + BOUND_SCATTERS * scatter_m(plausibility);
-    if (far_m > 0 && !explained && !isnan(beyond_m) && !plausibility->learned)
+    denied = denied || far_m > RECORDED_FASTEST_MPS * length_s;
+    bool learns = !plausibility->learned;
+    if (learns && far_m > 0 && !explained && !isnan(beyond_m))
         count_deviation(plausibility, beyond_m);
-    if (fast || (denied && !explained)) {
-        deny(plausibility, now, far_m, isnan(beyond_m) ? (double)NAN : fastest_mps, said_m);
+    now->slanted = before->slanted;
+    if (denied) {
+        deny(plausibility, now, before, far_m, fastest_mps, said_m);
         return false;
     }
-    if (plausibility->learned)
-        return true;
-    now->from_m = before->from_m;
-    now->from_yaw_rad = before->from_yaw_rad;
-    now->lasts_s = before->lasts_s + length_s;
-    now->said_m = before->said_m + said_m;
-    now->ways = before->ways + 1;
-    now->slanted = before->slanted;
-    end_stretch(plausibility, now);
+    continue_stretch(now, before, said_m, length_s);
+    if (learns)
+        end_stretch(plausibility, now);
     return true;
 }
 
 /* ---- the verdict ---- */
 
-/* What the speeds would be in, or what else would explain it, by the ratio of the length by the
- * speeds to that by the places; NULL if nothing we know does. */
+/* What explains the length by the speeds as a multiple of that by the places; NULL if nothing that
+ * we know does. */
 static const char *unit_of(double ratio)
 {
     static const struct {
         double low, high;
         const char *unit;
     } units[] = {
-        {1.87, 2.02, "speeds in knots"},
-        {2.15, 2.33, "speeds in miles per hour"},
-        {3.15, 3.43, "speeds in feet per second"},
-        {3.44, 3.78, "speeds in kilometres per hour"},
-        {95, 105, "speeds in centimetres per second"},
-        {950, 1050, "speeds in millimetres per second, or times in another unit than their column's"},
-        {1.5e4, 1.2e5, "places in degrees"},
-        {9.5e5, 1.05e6, "times in another unit than their column's"},
+        {0, 1e-7, "speeds that are left at 0"},
+        {0.95e-6, 1.05e-6, "times in another unit than that of their column"},
+        {0.95e-3, 1.05e-3, "places in mm, or times in another unit than that of their column"},
+        {0.95e-2, 1.05e-2, "places in cm"},
         {0.29, 0.32, "places in feet"},
-        {0.0095, 0.0105, "places in centimetres"},
-        {0.00095, 0.00105, "places in millimetres, or times in another unit than their column's"},
-        {0.95e-6, 1.05e-6, "times in another unit than their column's"},
+        {1.87, 2.02, "speeds in knots"},
+        {2.15, 2.33, "speeds in miles/h"},
+        {3.15, 3.43, "speeds in feet/s"},
+        {3.44, 3.78, "speeds in km/h"},
+        {0.95e2, 1.05e2, "speeds in cm/s"},
+        {0.95e3, 1.05e3, "speeds in mm/s, or times in another unit than that of their column"},
+        {0.95e6, 1.05e6, "times in another unit than that of their column"},
+        {1.5e4, INFINITY, "places in degrees"},
     };
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (ratio >= units[i].low && ratio <= units[i].high)
@@ -235,34 +263,38 @@ static const char *unit_of(double ratio)
     return NULL;
 }
 
-/* Refuses speeds. If ways are too short and too long, nine to one, it is a matter of units. */
+static int refuse_units(const struct recorded_contradiction *ways, size_t place,
+                        const struct recorded_format *format, struct diag *diag)
+{
+    double ratio = ways->said_m / ways->moved_m;
+    const char *unit = unit_of(ratio), *advice = "";
+    if (format->of_sumo && ratio > 100)
+        advice = ": run sumo without --fcd-output.geo";
+    return diag_fail(diag, DIAG_DATA,
+                     "%s %zu: from here on road users move by %.3g m where their speeds say %.3g m, "
+                     "%.3g times as far%s%s; expected places in m and speeds in m/s%s",
+                     format->place, place, ways->moved_m, ways->said_m, ratio,
+                     unit != NULL ? ", as with " : "", unit != NULL ? unit : "", advice);
+}
+
+/* It is a matter of units if nine of ten ways contradict in the same sense. */
 static int refuse_speeds(const struct recorded_plausibility *plausibility,
                          const struct recorded_format *format, struct diag *diag)
 {
     const struct recorded_contradiction *rests = &plausibility->rests;
     const struct recorded_contradiction *leaps = &plausibility->leaps;
     const struct recorded_contradiction *most = rests->ways > leaps->ways ? rests : leaps;
-    const char *advice = "";
-    if (10 * most->ways < 9 * (rests->ways + leaps->ways)) {
-        if (format->of_sumo)
-            advice = "; SUMO's mesoscopic model gives the places of segments: run sumo without "
-                     "--mesosim";
-        return diag_fail(diag, DIAG_DATA,
-                         "%s %zu: from here on road users move by %.3g m where their speeds say "
-                         "%.3g m, and by %.3g m where these say %.3g m; expected places that move "
-                         "as the speeds say%s",
-                         format->place, plausibility->place, rests->moved_m, rests->said_m,
-                         leaps->moved_m, leaps->said_m, advice);
-    }
-    double ratio = most->said_m / most->moved_m;
-    const char *unit = unit_of(ratio);
-    if (format->of_sumo && ratio > 100)
-        advice = ": run sumo without --fcd-output.geo";
+    if (10 * most->ways >= 9 * (rests->ways + leaps->ways))
+        return refuse_units(most, plausibility->place, format, diag);
     return diag_fail(diag, DIAG_DATA,
-                     "%s %zu: from here on road users move by %.3g m, and by their speeds by %.3g "
-                     "m, %.3g times as far%s%s; expected places in m and speeds in m/s%s",
-                     format->place, plausibility->place, most->moved_m, most->said_m, ratio,
-                     unit != NULL ? ", as with " : "", unit != NULL ? unit : "", advice);
+                     "%s %zu: from here on road users move by %.3g m where their speeds say %.3g m, "
+                     "and by %.3g m where these say %.3g m; expected places that move as the speeds "
+                     "say%s",
+                     format->place, plausibility->place, rests->moved_m, rests->said_m,
+                     leaps->moved_m, leaps->said_m,
+                     format->of_sumo ? "; SUMO's mesoscopic model gives the places of segments: run "
+                                       "sumo without --mesosim"
+                                     : "");
 }
 
 /* True if another meaning of the yaws explains the directions: its angles are on the mean less than
@@ -273,23 +305,23 @@ static bool explains(const struct recorded_slants *slants, enum recorded_yaw mea
     return 3 * slants->off_rad[meaning] + spare_rad < slants->off_rad[RECORDED_YAW_STATED];
 }
 
-static int refuse_yaws(const struct recorded_plausibility *plausibility,
-                       const struct recorded_slants *slants, const struct recorded_format *format,
+static int refuse_yaws(const struct recorded_slants *slants, const struct recorded_format *format,
                        struct diag *diag)
 {
     static const char *const meanings[RECORDED_YAWS] = {
-        "", ", but not if they are in degrees", ", but not if they are in radians",
-        ", but not if they turn clockwise from north"};
+        "", ", as with degrees that are taken for radians",
+        ", as with radians that are taken for degrees", ", as with yaws clockwise from north"};
     enum recorded_yaw meaning = RECORDED_YAW_STATED;
     for (enum recorded_yaw i = RECORDED_YAW_STATED + 1; i < RECORDED_YAWS; i++)
         if (meaning == RECORDED_YAW_STATED && explains(slants, i))
             meaning = i;
-    double off_deg =
-        slants->off_rad[RECORDED_YAW_STATED] / (double)slants->stretches * (180 / PI);
+    double off_rad = slants->off_rad[RECORDED_YAW_STATED] / (double)slants->stretches;
     return diag_fail(diag, DIAG_DATA,
-                     "%s %zu: from here on yaws lie at %.3g degrees on the mean to the direction of "
-                     "motion%s; expected the unit of their column, counter-clockwise from x",
-                     format->place, plausibility->place, off_deg, meanings[meaning]);
+                     "%s %zu: the yaw is %.6g rad, %.3g degrees off the direction of motion, as all "
+                     "yaws are by %.3g degrees on the mean%s; expected yaws in the unit of their "
+                     "column, counter-clockwise from x",
+                     format->place, slants->place, slants->yaw_rad,
+                     slants->most_rad * (180 / PI), off_rad * (180 / PI), meanings[meaning]);
 }
 
 int recorded_plausibility_check(const struct recorded_plausibility *plausibility,
@@ -305,12 +337,12 @@ int recorded_plausibility_check(const struct recorded_plausibility *plausibility
     if (against > plausibility->agreeing && enough && (ended || against >= SURE_WAYS))
         return refuse_speeds(plausibility, format, diag);
     if (far->stretches >= SURE_SLANTED && explains(far, RECORDED_YAW_DEGREES))
-        return refuse_yaws(plausibility, far, format, diag);
+        return refuse_yaws(far, format, diag);
     if (all->stretches >= SURE_SLANTED && explains(all, RECORDED_YAW_RADIANS))
-        return refuse_yaws(plausibility, all, format, diag);
+        return refuse_yaws(all, format, diag);
     bool slanted = 3 * all->contradicting > 2 * all->stretches &&
                    all->stretches >= (ended ? SURE_YAWS : SURE_WAYS);
     return slanted && plausibility->slanted >= SURE_SLANTED
-               ? refuse_yaws(plausibility, all, format, diag)
+               ? refuse_yaws(all, format, diag)
                : 0;
 }

@@ -25,15 +25,16 @@
 /* What the source states of a road user in a step, and the stretch that ends there. */
 struct recorded_track {
     struct vec2 at_m;
-    struct vec2 velocity_mps; /* NAN: not stated */
+    struct vec2 velocity_mps; /* speed along the yaw if only that is stated; NAN: not stated */
     double speed_mps;         /* at least 0; NAN: not stated */
+    bool reversible;          /* the velocity may as well be the opposite one */
     double yaw_rad;           /* not wrapped; NAN: not stated */
     size_t place;             /* in the file */
     struct vec2 from_m;       /* where the stretch began, and with which yaw */
     double from_yaw_rad;
     double lasts_s, said_m; /* its time, and its length by the speeds */
     unsigned ways;          /* in it */
-    bool slanted;           /* a yaw of this visit has contradicted a direction */
+    bool slanted;           /* a yaw of the road user has contradicted a direction */
 };
 
 /* Ways that contradict the speeds in the same sense. */
@@ -51,10 +52,12 @@ enum recorded_yaw {
     RECORDED_YAWS,
 };
 
-/* Stretches with yaws. */
+/* Angles between the yaws and the directions of stretches, modulo pi. */
 struct recorded_slants {
     uint64_t stretches, contradicting;
-    double off_rad[RECORDED_YAWS]; /* sums of the angles between yaw and direction, modulo pi */
+    double off_rad[RECORDED_YAWS]; /* sums */
+    double most_rad, yaw_rad;      /* the largest angle as stated, and the yaw that has it */
+    size_t place;                  /* of that yaw */
 };
 
 enum { RECORDED_FASTEST_MPS = 200, RECORDED_SCATTER_BINS = 200 };
@@ -67,11 +70,12 @@ struct recorded_plausibility {
     struct recorded_contradiction rests, leaps; /* too short ways; too long and denied ways */
     double stretches_m;                         /* length of the stretches among these */
     struct recorded_slants all, far;            /* far: yaws beyond 2 pi */
-    uint64_t slanted;                           /* visits */
+    uint64_t slanted;                           /* road users */
     size_t place;                               /* of the first contradiction */
     /* Denied ways: of bodies that stand by their speeds, of bodies that drive; and ways faster than
      * RECORDED_FASTEST_MPS where no speed is stated. */
     size_t standing, driving, fast;
+    size_t first; /* place of the first of these */
 };
 
 /* The track of a road user that comes. */

@@ -43,7 +43,7 @@ enum { CHUNK = 4096 };
 static const uint32_t NONE = UINT32_MAX;
 
 struct stored_row {
-    double values[5]; /* x_m, y_m, yaw_rad, vx_mps, vy_mps */
+    double values[5]; /* x_m, y_m, yaw_rad, vx_mps, vy_mps; or the speed and NAN for the last two */
     float yaw_rate_radps;
     uint32_t body, place;
     uint32_t next; /* of the same step; NONE */
@@ -92,6 +92,7 @@ static void store_row(struct store *store, const struct recorded_row *row)
     if (store->rows % CHUNK == 0)
         *list_add(&store->chunks, arena) = arena_get(arena, CHUNK * sizeof(struct stored_row));
     uint32_t number = store->rows++;
+    bool vector = !isnan(row->vy_mps);
     struct stored_step *step = step_of(store, row->time_ns);
     struct body body = {row->length_m,
                         row->width_m,
@@ -101,7 +102,7 @@ static void store_row(struct store *store, const struct recorded_row *row)
                         intern_word(&store->names, row->id, arena),
                         intern_word(&store->names, row->class, arena)};
     *row_at(store, number) = (struct stored_row){
-        {row->x_m, row->y_m, row->yaw_rad, row->vx_mps, row->vy_mps},
+        {row->x_m, row->y_m, row->yaw_rad, vector ? row->vx_mps : row->speed_mps, row->vy_mps},
         (float)row->yaw_rate_radps,
         intern_number(&store->bodies, &body, sizeof body, arena),
         (uint32_t)row->place,
@@ -121,8 +122,11 @@ static void unpack(const struct store *store, const struct stored_row *stored,
     row->x_m = stored->values[0];
     row->y_m = stored->values[1];
     row->yaw_rad = stored->values[2];
-    row->vx_mps = stored->values[3];
     row->vy_mps = stored->values[4];
+    if (isnan(row->vy_mps))
+        row->speed_mps = stored->values[3];
+    else
+        row->vx_mps = stored->values[3];
     row->yaw_rate_radps = (double)stored->yaw_rate_radps;
     row->ahead = body.ahead;
     row->direction_rad = body.direction_rad;

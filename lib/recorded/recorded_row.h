@@ -26,7 +26,7 @@ struct recorded_row {
     double direction_rad;  /* yaw at rest; NAN: that of the step before */
     double vx_mps, vy_mps; /* of the centre over ground; NAN: from the places */
     double yaw_rate_radps; /* NAN: from the yaws */
-    double speed_mps;      /* along the yaw, for a road user with a single step */
+    double speed_mps;      /* along the yaw; stated instead of vx_mps and vy_mps */
     double length_m, width_m, height_m; /* 0: that of the word, or of the class */
     size_t place;                       /* row, line or byte in the file, for messages */
     bool passenger;                     /* left out at the place of the vehicle in the row before */
@@ -100,7 +100,7 @@ struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, co
 
 /* Reads all rows of a reader into memory and closes it. The new reader gives them in the order of
  * time and marks steps; its format is NULL after a message. A row takes 64 bytes; a step, a track
- * and a size of a body some hundred each. Yaw rates are kept to 24 bits, speeds are not kept. */
+ * and a size of a body some hundred each. Yaw rates are kept to 24 bits, speeds only of rows without velocities. */
 struct recorded_reader recorded_row_store(struct recorded_reader reader, struct arena *arena,
                                           struct diag *diag);
 

@@ -299,6 +299,21 @@ static void note_jumps(const struct recording *recording, struct diag *diag)
             recording->source, jumps->lanes, RECORDED_JUMP_S, jumps->angles);
 }
 
+/* Reports the denied ways, below what was reported before. */
+static void note_denied(const struct recording *recording, struct diag *diag)
+{
+    const struct recorded_plausibility *ways = &recording->steps.plausibility;
+    size_t used = strlen(diag->text);
+    if (ways->standing + ways->driving + ways->fast > 0)
+        snprintf(diag->text + used, sizeof diag->text - used,
+                 "%s%s: a body leaves and comes back as a new visit where it moves by metres "
+                 "though it stands by its speed (%zu times), farther than its speed allows (%zu) "
+                 "or, without a stated speed, faster than %d m/s (%zu); first in %s %zu",
+                 used > 0 ? "; " : "", recording->source, ways->standing, ways->driving,
+                 RECORDED_FASTEST_MPS, ways->fast, recording->steps.reader.format->place,
+                 ways->first);
+}
+
 int recording_next(struct recording *recording, struct frame *frame, struct diag *diag)
 {
     int more = 1;
@@ -308,6 +323,8 @@ int recording_next(struct recording *recording, struct frame *frame, struct diag
         more = check_egos(recording, diag);
     if (more == 0)
         note_jumps(recording, diag);
+    if (more == 0)
+        note_denied(recording, diag);
     if (more < 0)
         return diag_prefix(diag, "%s: ", recording->source);
     if (more > 0) {
