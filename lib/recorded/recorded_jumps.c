@@ -36,7 +36,7 @@ bool recorded_jumps_explain(const struct recorded_state *state, const struct rec
 {
     if (before->jumps == NULL)
         return false;
-    struct vec2 way_m = vec2_sub(state->recorded_m, before->recorded_m);
+    struct vec2 way_m = vec2_sub(state->track->at_m, before->track->at_m);
     struct vec2 jump_m = jump_of(state, before, way_m, length_s);
     return jump_m.x != 0 || jump_m.y != 0;
 }
@@ -82,7 +82,7 @@ void recorded_jumps_spread(struct recorded_state *state, const struct recorded_s
     jumps->along = vec2_heading(object->yaw_rad);
     if (before == NULL || before->jumps == NULL)
         return;
-    struct vec2 way_m = vec2_sub(state->recorded_m, before->recorded_m);
+    struct vec2 way_m = vec2_sub(state->track->at_m, before->track->at_m);
     struct vec2 jump_m = jump_of(state, before, way_m, length_s);
     bool jumped = jump_m.x != 0 || jump_m.y != 0;
     way_m = vec2_sub(way_m, jump_m);

@@ -1,10 +1,12 @@
 #include "recorded/recorded_plausibility.h"
 
+#include <stdio.h>
+
 #include "base/units.h"
 
 static const double BOUND_M = 2, BOUND_MPS2 = 1, BOUND_SHARE = 0.25, BOUND_SCATTERS = 3,
                     BIN_M = 0.1, STRETCH_M = 3, STRETCH_S = 3, ALIKE = 1.5, STANDS_MPS = 0.1,
-                    SLANT_RAD = PI / 6;
+                    SLANT_RAD = PI / 6, REST_M = 50, REST_SHARE = 5e-3;
 enum { SURE_WAYS = 200, SURE_DENIED = 8, SURE_M = 10, SURE_SLANTED = 3, SURE_YAWS = 20 };
 
 /* ---- ways ---- */
@@ -196,6 +198,17 @@ static void deny(struct recorded_plausibility *plausibility, struct recorded_tra
     begin_stretch(now);
 }
 
+static void note_rest(struct recorded_plausibility *plausibility, const struct recorded_track *now,
+                      const struct recorded_track *before, double far_m, double length_s)
+{
+    double said_m = elementary_min(now->speed_mps, before->speed_mps) * length_s;
+    if (plausibility->rest.ways > 0 || !(said_m >= REST_M) || far_m > REST_SHARE * said_m)
+        return;
+    plausibility->rest = (struct recorded_contradiction){1, far_m, said_m};
+    plausibility->rest_s = length_s;
+    plausibility->rest_place = now->place;
+}
+
 static void continue_stretch(struct recorded_track *now, const struct recorded_track *before,
                              double said_m, double length_s)
 {
@@ -228,8 +241,10 @@ bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
         return false;
     }
     continue_stretch(now, before, said_m, length_s);
-    if (learns)
+    if (learns) {
+        note_rest(plausibility, now, before, far_m, length_s);
         end_stretch(plausibility, now);
+    }
     return true;
 }
 
@@ -277,21 +292,33 @@ static int refuse_units(const struct recorded_contradiction *ways, size_t place,
                      unit != NULL ? ", as with " : "", unit != NULL ? unit : "", advice);
 }
 
-/* It is a matter of units if nine of ten ways contradict in the same sense. */
+static int refuse_rest(const struct recorded_plausibility *plausibility,
+                       const struct recorded_format *format, struct diag *diag)
+{
+    return diag_fail(diag, DIAG_DATA,
+                     "%s %zu: a road user moves by %.3g m in %.6g s where its speeds say %.0f m; "
+                     "expected times in the unit of their column, and places in m",
+                     format->place, plausibility->rest_place, plausibility->rest.moved_m,
+                     plausibility->rest_s, plausibility->rest.said_m);
+}
+
+/* It is a matter of units if nine of ten ways contradict in the same sense and are not all 0. */
 static int refuse_speeds(const struct recorded_plausibility *plausibility,
                          const struct recorded_format *format, struct diag *diag)
 {
     const struct recorded_contradiction *rests = &plausibility->rests;
     const struct recorded_contradiction *leaps = &plausibility->leaps;
     const struct recorded_contradiction *most = rests->ways > leaps->ways ? rests : leaps;
-    if (10 * most->ways >= 9 * (rests->ways + leaps->ways))
+    char longer[80] = "";
+    if (most->moved_m > 0 && 10 * most->ways >= 9 * (rests->ways + leaps->ways))
         return refuse_units(most, plausibility->place, format, diag);
+    if (leaps->ways > 0)
+        snprintf(longer, sizeof longer, ", and by %.3g m where these say %.3g m", leaps->moved_m,
+                 leaps->said_m);
     return diag_fail(diag, DIAG_DATA,
-                     "%s %zu: from here on road users move by %.3g m where their speeds say %.3g m, "
-                     "and by %.3g m where these say %.3g m; expected places that move as the speeds "
-                     "say%s",
-                     format->place, plausibility->place, rests->moved_m, rests->said_m,
-                     leaps->moved_m, leaps->said_m,
+                     "%s %zu: from here on road users move by %.3g m where their speeds say %.3g "
+                     "m%s; expected places in m that move as the speeds say%s",
+                     format->place, plausibility->place, rests->moved_m, rests->said_m, longer,
                      format->of_sumo ? "; SUMO's mesoscopic model gives the places of segments: run "
                                        "sumo without --mesosim"
                                      : "");
@@ -334,6 +361,8 @@ int recorded_plausibility_check(const struct recorded_plausibility *plausibility
     bool enough = plausibility->stretches_m >= SURE_M || denied >= SURE_DENIED;
     if (plausibility->learned)
         return 0;
+    if (plausibility->rest.ways > 0)
+        return refuse_rest(plausibility, format, diag);
     if (against > plausibility->agreeing && enough && (ended || against >= SURE_WAYS))
         return refuse_speeds(plausibility, format, diag);
     if (far->stretches >= SURE_SLANTED && explains(far, RECORDED_YAW_DEGREES))

@@ -72,6 +72,9 @@ struct recorded_plausibility {
     struct recorded_slants all, far;            /* far: yaws beyond 2 pi */
     uint64_t slanted;                           /* road users */
     size_t place;                               /* of the first contradiction */
+    struct recorded_contradiction rest; /* a way of a long time on which a fast body rests, or 0 */
+    double rest_s;
+    size_t rest_place;
     /* Denied ways: of bodies that stand by their speeds, of bodies that drive; and ways faster than
      * RECORDED_FASTEST_MPS where no speed is stated. */
     size_t standing, driving, fast;
@@ -88,7 +91,8 @@ bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
                                   double length_s, bool explained);
 
 /* Refuses a recording that contradicts itself. At its end, stretches of 10 m or 8 denied ways are
- * enough for that; before, it takes contradictions of 200 ways. */
+ * enough for that; before, it takes contradictions of 200 ways. A single way is enough if a body
+ * that is fast at both of its ends should have moved by 50 m and has moved by a 200th of that. */
 int recorded_plausibility_check(const struct recorded_plausibility *plausibility,
                                 const struct recorded_format *format, bool ended,
                                 struct diag *diag);

@@ -45,6 +45,8 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
         return diag_prefix(diag, "%s %zu: ", steps->reader.format->place, row->place);
     }
     double length_m = row->length_m != 0 ? row->length_m : word->length_m;
+    struct recorded_track *track = arena_get(&step->arena, sizeof *track);
+    *track = recorded_plausibility_begin(row);
     *list_add(&step->states, &step->arena) = (struct recorded_state){
         .object = {.id = arena_text(&step->arena, row->id, strlen(row->id)),
                    .class = word->class,
@@ -61,11 +63,10 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
         .passenger = row->passenger,
         .place = row->place,
         .at_m = {row->x_m, row->y_m},
-        .recorded_m = {row->x_m, row->y_m},
         .direction_rad = row->direction_rad,
         .ahead_m = row->ahead * length_m,
         .speed_mps = row->speed_mps,
-        .track = recorded_plausibility_begin(row),
+        .track = track,
         .before = NONE,
         .after = NONE,
     };
@@ -116,8 +117,8 @@ static struct recorded_state *visit_before(struct recorded_steps *steps,
         state->jumps = arena_get(&step->arena, sizeof *state->jumps);
     bool explained = jumps && named != NULL && recorded_jumps_explain(state, named, length_s);
     struct recorded_state *before = named;
-    if (named != NULL && !recorded_plausibility_follow(&steps->plausibility, &state->track,
-                                                       &named->track, length_s, explained))
+    if (named != NULL && !recorded_plausibility_follow(&steps->plausibility, state->track,
+                                                       named->track, length_s, explained))
         before = NULL;
     if (jumps)
         recorded_jumps_spread(state, before, length_s, &steps->jumps);

@@ -37,13 +37,12 @@ struct recorded_state {
     bool passenger;               /* recorded_row.passenger */
     bool leaves;                  /* not in the next step, or there is none */
     size_t place;                 /* row, line or byte in the file */
-    struct vec2 recorded_m;       /* place in the file */
     struct recorded_jumps *jumps; /* NULL: none */
     struct vec2 at_m;             /* place whose differences are velocities */
     double direction_rad;         /* recorded_row.direction_rad */
     double ahead_m;               /* distance of the place ahead of the centre */
     double speed_mps;             /* recorded_row.speed_mps */
-    struct recorded_track track;  /* what its rows state */
+    struct recorded_track *track; /* what its rows state */
     double way_m, way_rest_m;     /* path length of the visit, and its rounding error */
     size_t before, after;         /* place in the step before and after, or SIZE_MAX */
 };

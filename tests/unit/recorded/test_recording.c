@@ -212,9 +212,9 @@ static void the_distance_travelled_adds_up_from_place_to_place(void **state)
 {
     struct recording_options options;
     struct played *played = play(*state,
-                                 HEADER "a,3,300,car,503,5000000,0,0,0,4,2\n"
-                                        "a,2,200,car,503,5000004,0,0,0,4,2\n"
-                                        "a,1,100,car,500,5000000,0,0,0,4,2\n",
+                                 HEADER "a,3,300,car,503,5000000,0,-40,0,4,2\n"
+                                        "a,2,200,car,503,5000004,30,0,0,4,2\n"
+                                        "a,1,100,car,500,5000000,30,80,0,4,2\n",
                                  options_for(&options, "a"));
     assert_close(object_at(played, 0.1, "a")->travelled_m, 0, 0);
     assert_close(object_at(played, 0.2, "a")->travelled_m, 5, 0);
@@ -229,7 +229,7 @@ static void many_short_steps_are_not_lost(void **state)
     enum { STEPS = 4000 };
     char *text = malloc(STEPS * 64);
     assert_non_null(text);
-    size_t used = (size_t)sprintf(text, WALKERS "a,0,0,car,0,1e8,0,0\na,0,900000000,car,0,0,0,0\n");
+    size_t used = (size_t)sprintf(text, WALKERS "a,0,0,car,0,1e8,0,-222\na,0,900000000,car,0,0,0,0\n");
     for (int i = 1; i <= STEPS; i++)
         used += (size_t)sprintf(text + used, "a,0,%d,car,%de-9,0,0,0\n", 900000000 + i, i);
     struct recording_options options;
