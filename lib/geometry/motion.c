@@ -84,6 +84,20 @@ void motion_hermite(struct vec2 from_m, struct vec2 from_mps, struct vec2 to_m, 
     *acceleration_mps2 = vec2_scale(1 / duration_s, gained_mps);
 }
 
+double motion_monotone_share(double from_mps, double to_mps, double mean_mps)
+{
+    if (!(mean_mps > 0))
+        return from_mps == 0 && to_mps == 0 ? 1 : 0;
+    double from = from_mps / mean_mps, to = to_mps / mean_mps;
+    /* The speed along the curve is a parabola. If its least value lies between the ends, it is the
+     * last of these terms. */
+    bool dips = from + to > 2 && 2 * from + to > 3 && from + 2 * to > 3;
+    double turn = 2 * from + to - 3;
+    if (!dips || from - turn * turn / (3 * (from + to - 2)) >= 0)
+        return 1;
+    return 3 / elementary_hypot(from, to);
+}
+
 void motion_box_outline(const struct box *box, struct vec2 corner[4])
 {
     /* The places that motion_box_place gives, from the same four products. */

@@ -2,9 +2,10 @@
  *
  * A jump is what the place moves beyond its speed: sideways by more than JUMP_LEAST_M and faster
  * than JUMP_LEAST_MPS, but by no more than JUMP_MOST_M, which is wider than a lane; what is longer
- * is a teleport and stays. The body goes on from where it is: its distance to the recorded place
- * falls to 0 along a cubic within RECORDED_JUMP_S, an ordinary time of a lane change (4.0 s with a
- * standard deviation of 2.3 s in NGSIM: Thiemann, Treiber and Kesting, TRR 2088, 2008).
+ * is a teleport (recorded_plausibility.h). The body goes on from where it is: its distance to the
+ * recorded place falls to 0 along a cubic within RECORDED_JUMP_S, an ordinary time of a lane change
+ * (4.0 s with a standard deviation of 2.3 s in NGSIM: Thiemann, Treiber and Kesting, TRR 2088,
+ * 2008).
  *
  * A body turns about the middle of its front bumper, which the recording places. Where that moves
  * at an angle to the body, and the body turns at 2 v / l times the sine of that angle, the centre
@@ -29,6 +30,16 @@ static struct vec2 jump_of(const struct recorded_state *state, const struct reco
     bool unsaid = vec2_dot(way_m, way_m) > said_m * said_m + JUMP_LEAST_M * JUMP_LEAST_M;
     bool known = said_m * fabs(turn_rad) <= JUMP_LEAST_M && vec2_length(jump_m) <= JUMP_MOST_M;
     return sideways && unsaid && known ? jump_m : (struct vec2){0, 0};
+}
+
+bool recorded_jumps_explain(const struct recorded_state *state, const struct recorded_state *before,
+                            double length_s)
+{
+    if (before->jumps == NULL)
+        return false;
+    struct vec2 way_m = vec2_sub(state->stretch->at_m, before->stretch->at_m);
+    struct vec2 jump_m = jump_of(state, before, way_m, length_s);
+    return jump_m.x != 0 || jump_m.y != 0;
 }
 
 /* Sets what is still left, length_s later, of the jumps before. */
@@ -72,7 +83,7 @@ void recorded_jumps_spread(struct recorded_state *state, const struct recorded_s
     jumps->along = vec2_heading(object->yaw_rad);
     if (before == NULL || before->jumps == NULL)
         return;
-    struct vec2 way_m = vec2_sub(state->recorded_m, before->recorded_m);
+    struct vec2 way_m = vec2_sub(state->stretch->at_m, before->stretch->at_m);
     struct vec2 jump_m = jump_of(state, before, way_m, length_s);
     bool jumped = jump_m.x != 0 || jump_m.y != 0;
     way_m = vec2_sub(way_m, jump_m);

@@ -27,6 +27,7 @@ void recorded_memory_add(struct recorded_memory *memory, const struct recorded_r
             arena_get(arena, RECORDED_MEMORY_CHUNK * sizeof(struct recorded_memory_row));
     uint32_t number = memory->rows++;
     struct recorded_stamp *stamp = stamp_of(memory, row->time_ns);
+    bool vector = !isnan(row->vy_mps);
     struct body body = {row->length_m,
                         row->width_m,
                         row->height_m,
@@ -35,7 +36,7 @@ void recorded_memory_add(struct recorded_memory *memory, const struct recorded_r
                         intern_word(&memory->names, row->id, arena),
                         intern_word(&memory->names, row->class, arena)};
     *recorded_memory_row(memory, number) = (struct recorded_memory_row){
-        {row->x_m, row->y_m, row->yaw_rad, row->vx_mps, row->vy_mps},
+        {row->x_m, row->y_m, row->yaw_rad, vector ? row->vx_mps : row->speed_mps, row->vy_mps},
         (float)row->yaw_rate_radps,
         intern_number(&memory->bodies, &body, sizeof body, arena),
         (uint32_t)row->place,
@@ -63,8 +64,11 @@ void recorded_memory_get(const struct recorded_memory *memory, uint32_t number,
     row->x_m = stored->values[RECORDED_X_M];
     row->y_m = stored->values[RECORDED_Y_M];
     row->yaw_rad = stored->values[RECORDED_YAW_RAD];
-    row->vx_mps = stored->values[RECORDED_VX_MPS];
     row->vy_mps = stored->values[RECORDED_VY_MPS];
+    if (isnan(row->vy_mps))
+        row->speed_mps = stored->values[RECORDED_VX_MPS];
+    else
+        row->vx_mps = stored->values[RECORDED_VX_MPS];
     row->yaw_rate_radps = (double)stored->yaw_rate_radps;
     row->ahead = body.ahead;
     row->direction_rad = body.direction_rad;

@@ -3,7 +3,7 @@
  * Rows have numbers in the order in which they come, stamps in the order of time. A row is linked
  * to others: to those of its stamp, or to the next one of its road user, at the same time or later.
  * A row takes 64 bytes with its links; a stamp, a track and a size of a body some hundred each. Yaw
- * rates are kept to 24 bits, speeds are not kept. */
+ * rates are kept to 24 bits, speeds only of rows without velocities. */
 #pragma once
 
 #include "base/intern.h"
@@ -16,7 +16,7 @@ enum recorded_memory_value {
     RECORDED_X_M,
     RECORDED_Y_M,
     RECORDED_YAW_RAD,
-    RECORDED_VX_MPS,
+    RECORDED_VX_MPS, /* the speed, where the next one is NAN */
     RECORDED_VY_MPS,
     RECORDED_VALUES
 };

@@ -27,7 +27,7 @@ struct recorded_row {
     double direction_rad;  /* yaw at rest; NAN: that of the step before */
     double vx_mps, vy_mps; /* of the centre over ground; NAN: from the places */
     double yaw_rate_radps; /* NAN: from the yaws */
-    double speed_mps;      /* along the yaw, for a road user with a single step */
+    double speed_mps;      /* along the yaw; stated instead of vx_mps and vy_mps */
     double z_m;            /* height of the road below the body */
     double pitch_rad;      /* of that road along the yaw, positive upward; 0 too: not known */
     double length_m, width_m, height_m; /* 0: that of the word, or of the class */
@@ -62,8 +62,8 @@ struct recorded_format {
     const char *place;   /* unit of recorded_row.place: "row", "byte" */
     double slow_mps;     /* no yaw follows from a slower velocity */
     bool by_time;        /* rows ascend in time; if not, all are stored, without their heights */
-    /* SUMO's: sizes are those of types (sumo_types.h), vehicles may jump to another lane or angle
-     * (recorded_jumps.c), and places are checked against speeds, as they may be in degrees. */
+    /* SUMO's: sizes are those of types (sumo_types.h), and vehicles may jump to another lane or
+     * angle (recorded_jumps.c). */
     bool of_sumo;
     bool marks_steps; /* gives RECORDED_STEP; if not, a step ends where the time changes */
     const struct recorded_word *words; /* ends with a word NULL */

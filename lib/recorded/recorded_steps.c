@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
+#include "recorded/recorded_store.h"
 
 static const size_t NONE = SIZE_MAX;
 
@@ -45,6 +46,8 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
         return diag_prefix(diag, "%s %zu: ", steps->reader.format->place, row->place);
     }
     double length_m = row->length_m != 0 ? row->length_m : word->length_m;
+    struct recorded_stretch *stretch = arena_get(&step->arena, sizeof *stretch);
+    *stretch = recorded_plausibility_begin(row);
     *list_add(&step->states, &step->arena) = (struct recorded_state){
         .object = {.id = arena_text(&step->arena, row->id, strlen(row->id)),
                    .class = word->class,
@@ -61,13 +64,13 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
         .passenger = row->passenger,
         .place = row->place,
         .at_m = {row->x_m, row->y_m},
-        .recorded_m = {row->x_m, row->y_m},
         .direction_rad = row->direction_rad,
         .ahead_m = row->ahead * length_m,
         .speed_mps = row->speed_mps,
         .z_m = row->z_m,
         .slope = recorded_levels_pitched(row->pitch_rad),
         .stands = row->stands,
+        .stretch = stretch,
         .before = NONE,
         .after = NONE,
     };
@@ -139,12 +142,29 @@ static int sort_states(const struct recorded_steps *steps, struct recorded_step 
     return 0;
 }
 
-/* Sorts the states and links each to the state with its id in the step before, unless it moved
- * faster than RECORDED_STEPS_FASTEST_MPS (a new visit). Sums path lengths for check_speeds, spreads
- * jumps, and places objects whose rows give yaw or velocity. */
+/* The state of the same visit in the step before: that of the id, unless the way from it is denied.
+ * Spreads jumps. */
+static struct recorded_state *visit_before(struct recorded_steps *steps, struct recorded_step *step,
+                                           struct recorded_state *state,
+                                           struct recorded_state *named, double length_s)
+{
+    bool jumps = steps->reader.format->of_sumo && !state->passenger;
+    if (jumps)
+        state->jumps = arena_get(&step->arena, sizeof *state->jumps);
+    bool explained = jumps && named != NULL && recorded_jumps_explain(state, named, length_s);
+    struct recorded_state *before = named;
+    if (named != NULL && !recorded_plausibility_follow(&steps->plausibility, state->stretch,
+                                                       named->stretch, length_s, explained))
+        before = NULL;
+    if (jumps)
+        recorded_jumps_spread(state, before, length_s, &steps->jumps);
+    return before;
+}
+
+/* Sorts the states and links each to the state of its visit in the step before. Places objects
+ * whose rows give yaw or velocity. */
 static int link_states(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
 {
-    const struct recorded_format *format = steps->reader.format;
     struct recorded_step *last = steps->read > 0 ? step_at(steps, steps->read - 1) : NULL;
     double length_s = last != NULL ? seconds_between(last, step) : 0;
     if (sort_states(steps, step, diag) != 0)
@@ -158,19 +178,9 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
         if (last != NULL && j < last->states.count &&
             strcmp(last->states.items[j].object.id, id) == 0)
             named = &last->states.items[j];
-        double way =
-            named != NULL ? vec2_length(vec2_sub(state->recorded_m, named->recorded_m)) : 0;
-        struct recorded_state *before = way > RECORDED_STEPS_FASTEST_MPS * length_s ? NULL : named;
-        if (before != NULL && !isnan(state->speed_mps)) {
-            steps->moved_m += way;
-            steps->said_m += fabs(state->speed_mps) * length_s;
-        }
-        if (format->of_sumo && !state->passenger) {
-            state->jumps = arena_get(&step->arena, sizeof *state->jumps);
-            recorded_jumps_spread(state, before, length_s, &steps->jumps);
-        }
+        struct recorded_state *before = visit_before(steps, step, state, named, length_s);
         if (!isnan(state->object.yaw_rad) || !isnan(state->object.vx_mps)) {
-            place_object(state, named, format->slow_mps);
+            place_object(state, named, steps->reader.format->slow_mps);
             state->at_m = (struct vec2){state->object.x_m, state->object.y_m};
         }
         if (before == NULL)
@@ -180,19 +190,6 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
         state->since_ns = before->since_ns;
     }
     return 0;
-}
-
-/* Refuses a recording whose road users hardly move although their speeds add up to a long way: 10 m
- * in all at the end, or 1 km before it. On such ways jumps and stops do not matter. */
-static int check_speeds(const struct recorded_steps *steps, struct diag *diag)
-{
-    bool far = steps->said_m >= (steps->ended ? 10 : 1e3);
-    if (!steps->reader.format->of_sumo || !far || steps->moved_m > 1e-3 * steps->said_m)
-        return 0;
-    return diag_fail(diag, DIAG_DATA,
-                     "%s %zu: all road users together have moved by %.3g m, and by their speeds "
-                     "by %.0f m; expected coordinates in metres: run sumo without --fcd-output.geo",
-                     steps->reader.format->place, steps->row.place, steps->moved_m, steps->said_m);
 }
 
 /* ---- reading a step ---- */
@@ -255,7 +252,9 @@ static void read_step(struct recorded_steps *steps)
         steps->read++;
     if (more < 0 || step->time_ns > steps->to_ns)
         steps->ended = true;
-    if (check_speeds(steps, &steps->fault) != 0)
+    if (steps->fault.code == DIAG_OK &&
+        recorded_plausibility_check(&steps->plausibility, steps->reader.format, steps->ended,
+                                    &steps->fault) != 0)
         steps->ended = true;
 }
 
@@ -327,33 +326,14 @@ static void climb(struct recorded_state *state, const struct recorded_state *bef
     }
     if (to == NULL || isnan(from->z_m) || isnan(to->z_m))
         return;
-    double run_m = vec2_dot(vec2_sub(to->recorded_m, from->recorded_m), heading);
+    double run_m = vec2_dot(vec2_sub(to->stretch->at_m, from->stretch->at_m), heading);
     state->climb = recorded_levels_climb(state->climb, run_m, to->z_m - from->z_m);
     double slope = recorded_levels_slope(state->climb);
     if (!isnan(slope))
         state->slope = slope;
 }
 
-/* Refuses a road user that hardly moves though it is fast at both ends of a long step: the times
- * are in another unit than that of their column. */
-static int check_way(const struct recorded_steps *steps, const struct recorded_state *state,
-                     const struct recorded_state *before, double length_s, struct diag *diag)
-{
-    const struct recorded_format *format = steps->reader.format;
-    const struct object *now = &state->object, *then = &before->object;
-    double speed_mps = elementary_min(elementary_hypot(now->vx_mps, now->vy_mps),
-                                      elementary_hypot(then->vx_mps, then->vy_mps));
-    double moved_m = state->way_m - before->way_m, said_m = speed_mps * length_s;
-    return said_m < 50 || moved_m > 5e-3 * said_m
-               ? 0
-               : diag_fail(diag, DIAG_DATA,
-                           "%s %zu: %s %s moves by %.3g m in %.6g s, but by its speeds by %.0f m; "
-                           "expected times in the unit of their column",
-                           format->place, state->place, format->id_name, now->id, moved_m, length_s,
-                           said_m);
-}
-
-static int complete_step(struct recorded_steps *steps, size_t number, struct diag *diag)
+static void complete_step(struct recorded_steps *steps, size_t number)
 {
     struct recorded_step *step = step_at(steps, number), *last = NULL, *next = NULL;
     if (number > 0)
@@ -380,11 +360,28 @@ static int complete_step(struct recorded_steps *steps, size_t number, struct dia
             travel(state, before);
         if (!isnan(state->z_m))
             climb(state, before, after);
-        if (before != NULL && check_way(steps, state, before, before_s, diag) != 0)
-            return -1;
         state->leaves = !open && (after == NULL || closes);
     }
-    return 1;
+}
+
+int recorded_steps_judge(struct recorded_steps *steps, struct diag *diag)
+{
+    struct recorded_plausibility *plausibility = &steps->plausibility;
+    const int64_t to_ns = steps->to_ns;
+    steps->to_ns = INT64_MAX;
+    while (!steps->ended)
+        read_step(steps);
+    if (recorded_plausibility_check(plausibility, steps->reader.format, true, diag) != 0)
+        return -1;
+    recorded_store_rewind(steps->reader);
+    plausibility->learned = true;
+    plausibility->standing = plausibility->driving = plausibility->fast = 0;
+    steps->to_ns = to_ns;
+    steps->read = 0;
+    steps->jumps = (struct recorded_jump_counts){0};
+    steps->fault = (struct diag){0};
+    steps->ended = false;
+    return 0;
 }
 
 int recorded_steps_next(struct recorded_steps *steps, const struct recorded_step **step,
@@ -395,7 +392,8 @@ int recorded_steps_next(struct recorded_steps *steps, const struct recorded_step
         read_step(steps);
     if (steps->read > steps->given && step_at(steps, steps->given)->time_ns <= steps->to_ns) {
         *step = step_at(steps, steps->given);
-        return complete_step(steps, steps->given++, diag);
+        complete_step(steps, steps->given++);
+        return 1;
     }
     if (steps->fault.code == DIAG_OK)
         return 0;

@@ -6,16 +6,18 @@
  * one. Live, they are differences to the step before, and no step waits.
  *
  * A road user that is missing from a step has left; if its id comes again, a new visit begins. A
- * new visit also begins if a road user moves faster than RECORDED_STEPS_FASTEST_MPS from one step
- * to the next, as after a teleport of SUMO. Memory is that of three steps. */
+ * new visit also begins behind a way that its speeds deny, as after a teleport of SUMO
+ * (recorded_plausibility.h). No velocity, yaw rate or distance is that of two visits. Memory is
+ * that of three steps. */
 #pragma once
 
 #include "base/vec2.h"
 #include "frame/frame.h"
 #include "recorded/recorded_classes.h"
 #include "recorded/recorded_levels.h"
+#include "recorded/recorded_plausibility.h"
 
-enum { RECORDED_STEPS_RING = 3, RECORDED_STEPS_FASTEST_MPS = 200, RECORDED_JUMP_S = 3 };
+enum { RECORDED_STEPS_RING = 3, RECORDED_JUMP_S = 3 };
 
 /* The state of a vehicle's jumps to another lane or angle (recorded_jumps.c). */
 struct recorded_jumps {
@@ -31,22 +33,22 @@ struct recorded_jump_counts {
 };
 
 struct recorded_state {
-    struct object object;         /* in the source's coordinates */
-    int64_t since_ns;             /* time when its visit began */
-    bool passenger;               /* recorded_row.passenger */
-    bool leaves;                  /* not in the next step, or there is none */
-    size_t place;                 /* row, line or byte in the file */
-    struct vec2 recorded_m;       /* place in the file */
-    struct recorded_jumps *jumps; /* NULL: none */
-    struct vec2 at_m;             /* place whose differences are velocities */
-    double direction_rad;         /* recorded_row.direction_rad */
-    double ahead_m;               /* distance of the place ahead of the centre */
-    double speed_mps;             /* recorded_row.speed_mps */
-    double way_m, way_rest_m;     /* path length of the visit, and its rounding error */
-    double z_m, slope;            /* recorded_row.z_m; slope by the track, or else by the row */
-    struct recorded_climb climb;  /* of the track */
-    bool stands;                  /* recorded_row.stands */
-    size_t before, after;         /* place in the step before and after, or SIZE_MAX */
+    struct object object;             /* in the source's coordinates */
+    int64_t since_ns;                 /* time when its visit began */
+    bool passenger;                   /* recorded_row.passenger */
+    bool leaves;                      /* not in the next step, or there is none */
+    size_t place;                     /* row, line or byte in the file */
+    struct recorded_jumps *jumps;     /* NULL: none */
+    struct vec2 at_m;                 /* place whose differences are velocities */
+    double direction_rad;             /* recorded_row.direction_rad */
+    double ahead_m;                   /* distance of the place ahead of the centre */
+    double speed_mps;                 /* recorded_row.speed_mps */
+    struct recorded_stretch *stretch; /* what its rows state */
+    double way_m, way_rest_m;         /* path length of the visit, and its rounding error */
+    double z_m, slope;                /* recorded_row.z_m; slope by the track, or else by the row */
+    struct recorded_climb climb;      /* of the track */
+    bool stands;                      /* recorded_row.stands */
+    size_t before, after;             /* place in the step before and after, or SIZE_MAX */
 };
 
 struct recorded_step {
@@ -64,12 +66,16 @@ struct recorded_steps {
     struct recorded_step ring[RECORDED_STEPS_RING];
     size_t read, given; /* numbers of steps */
     struct recorded_jump_counts jumps;
-    double moved_m, said_m; /* path lengths of all, by their places and by their speeds */
+    struct recorded_plausibility plausibility;
     struct recorded_row row;
     bool row_waits; /* the row belongs to the next step */
     bool ended;     /* all is read, or there was a fault */
     struct diag fault;
 };
+
+/* Judges a recording that is stored (recorded_row_store) as a whole before its first step is given:
+ * -1 after the message that refuses it. Faults of its rows are left to recorded_steps_next. */
+int recorded_steps_judge(struct recorded_steps *steps, struct diag *diag);
 
 /* The next step: 1; 0 at the end; -1 after a message. It and the step before it stay valid until
  * the next call. All steps before a fault of the source come first. */
@@ -82,6 +88,10 @@ double recorded_steps_slope(double before, double before_s, double after, double
 
 /* The state of an id, or NULL. */
 const struct recorded_state *recorded_steps_find(const struct recorded_step *step, const char *id);
+
+/* True if the way from the state before, length_s earlier, is a jump that is spread. */
+bool recorded_jumps_explain(const struct recorded_state *state, const struct recorded_state *before,
+                            double length_s);
 
 /* Spreads a jump of the place over RECORDED_JUMP_S, and a jump of the angle over the distance that
  * the body needs to turn. The state has the place and angle of its row; before is the state of the

@@ -167,7 +167,8 @@ static void find_rates(struct recorded_memory *memory, const struct recorded_tra
         after = row->next;
         double before_s = seconds_between(memory, track, before, at);
         double after_s = seconds_between(memory, track, at, after);
-        for (size_t i = 0; isnan(row->values[RECORDED_VX_MPS + i]) && i < 2; i++)
+        bool vector = !isnan(row->values[RECORDED_VY_MPS]);
+        for (size_t i = 0; i < 2 && !vector; i++)
             row->values[RECORDED_VX_MPS + i] = recorded_steps_slope(
                 rise(memory, before, at, i), before_s, rise(memory, at, after, i), after_s);
         if (isnan(row->yaw_rate_radps))

@@ -92,7 +92,8 @@ static int prepare(struct recording *recording, struct diag *diag)
     if (choose_egos(recording, options->ego, diag) != 0 || check_options(recording, diag) != 0 ||
         recording_conditions(options, &recording->conditions, recording->arena, diag) != 0)
         return -1;
-    if (!steps->reader.format->by_time)
+    bool stored = !steps->reader.format->by_time;
+    if (stored)
         steps->reader =
             recorded_store_open(steps->reader, options->rate_hz, recording->arena, diag);
     if (steps->reader.format == NULL ||
@@ -102,7 +103,7 @@ static int prepare(struct recording *recording, struct diag *diag)
     for (size_t i = 0; i < options->types.count; i++)
         if (sumo_types_read(&steps->classes, options->types.items[i], diag) != 0)
             return -1;
-    return 0;
+    return stored ? recorded_steps_judge(steps, diag) : 0;
 }
 
 int recording_conditions(const struct recording_options *options, struct conditions *changes,

@@ -33,6 +33,19 @@ static void note_jumps(const struct recording *recording, struct diag *diag)
              jumps->lanes, RECORDED_JUMP_S, jumps->angles);
 }
 
+static void note_denied(const struct recording *recording, struct diag *diag)
+{
+    const struct recorded_plausibility *ways = &recording->steps.plausibility;
+    if (ways->standing + ways->driving + ways->fast > 0)
+        note(
+            recording, diag,
+            "a body leaves and comes back as a new visit where it moves by metres though it stands "
+            "by its speed (%zu times), farther than its speed allows (%zu) or, without a stated "
+            "speed, faster than %d m/s (%zu); first in %s %zu",
+            ways->standing, ways->driving, RECORDED_FASTEST_MPS, ways->fast,
+            recording->steps.reader.format->place, ways->first);
+}
+
 static void note_levels(const struct recording *recording, struct diag *diag)
 {
     if (recording->apart_frames > 0)
@@ -84,6 +97,7 @@ static void note_standing(const struct recording *recording, struct diag *diag)
 void recording_notes(const struct recording *recording, struct diag *diag)
 {
     note_jumps(recording, diag);
+    note_denied(recording, diag);
     note_levels(recording, diag);
     note_fragments(recording, diag);
     note_standing(recording, diag);

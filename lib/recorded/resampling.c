@@ -24,13 +24,31 @@ static void begin(struct resampling *resampling, int64_t begin_ns)
         resampling->first++;
 }
 
+/* The distance travelled, on the cubic through those of the steps with the speeds as its slopes. */
+static double travelled_between(const struct object *a, const struct object *b, double from_mps,
+                                double to_mps, double length_s, double share)
+{
+    struct vec2 at_m, speed_mps, gain_mps2;
+    double way_m = b->travelled_m - a->travelled_m;
+    double limit = motion_monotone_share(from_mps, to_mps, way_m / length_s);
+    motion_hermite((struct vec2){0, 0}, (struct vec2){limit * from_mps, 0}, (struct vec2){way_m, 0},
+                   (struct vec2){limit * to_mps, 0}, length_s, share, &at_m, &speed_mps,
+                   &gain_mps2);
+    return a->travelled_m + at_m.x;
+}
+
 struct object resampling_between(const struct object *a, const struct object *b, double length_s,
                                  double share)
 {
     struct object object = *a;
+    struct vec2 from_m = {a->x_m, a->y_m}, from_mps = {a->vx_mps, a->vy_mps};
+    struct vec2 to_m = {b->x_m, b->y_m}, to_mps = {b->vx_mps, b->vy_mps};
     struct vec2 place_m, velocity_mps, acceleration_mps2;
-    motion_hermite((struct vec2){a->x_m, a->y_m}, (struct vec2){a->vx_mps, a->vy_mps},
-                   (struct vec2){b->x_m, b->y_m}, (struct vec2){b->vx_mps, b->vy_mps}, length_s,
+    double from = vec2_length(from_mps), to = vec2_length(to_mps), limit = 1;
+    object.travelled_m = travelled_between(a, b, from, to, length_s, share);
+    if (vec2_dot(from_mps, to_mps) >= 0)
+        limit = motion_monotone_share(from, to, vec2_length(vec2_sub(to_m, from_m)) / length_s);
+    motion_hermite(from_m, vec2_scale(limit, from_mps), to_m, vec2_scale(limit, to_mps), length_s,
                    share, &place_m, &velocity_mps, &acceleration_mps2);
     object.x_m = place_m.x;
     object.y_m = place_m.y;
@@ -38,7 +56,6 @@ struct object resampling_between(const struct object *a, const struct object *b,
     object.vy_mps = velocity_mps.y;
     object.yaw_rad = units_wrap_rad(a->yaw_rad + share * units_wrap_rad(b->yaw_rad - a->yaw_rad));
     object.yaw_rate_radps += share * (b->yaw_rate_radps - a->yaw_rate_radps);
-    object.travelled_m += share * (b->travelled_m - a->travelled_m);
     return object;
 }
 

@@ -1,9 +1,12 @@
 /* Resamples a recording to another rate.
  *
- * Places and velocities follow the cubic Hermite curve between two steps, yaws the shorter arc; yaw
- * rates, heights and distances travelled are linear; class and sizes stay. A road user is there
- * from its first step to its last. Instant 0 is the first step of the recording, whatever from_ns
- * is, so that parts that are cut by time have the instants of the whole. */
+ * Places and velocities follow the cubic Hermite curve between two steps, and distances travelled
+ * the cubic that has the speeds as its slopes; yaws follow the shorter arc, yaw rates and heights
+ * are linear; class and sizes stay. Where the velocities of the two steps point into the same half
+ * plane, they are reduced between the steps so that nobody rolls back (motion_monotone_share).
+ * Distances travelled never fall. A road user is there from its first step to its last. Instant 0
+ * is the first step of the recording, whatever from_ns is, so that parts that are cut by time have
+ * the instants of the whole. */
 #pragma once
 
 #include "recorded/recorded_steps.h"

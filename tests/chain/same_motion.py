@@ -491,4 +491,5 @@ def main():
     print(f"same_motion: {recorded.checks} checks of {written} formats hold")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -495,7 +495,7 @@ def bad_input(folder):
         (row, row.replace("1,1,", ",1,"), 'row 2, column "track_id": ""; expected 1 to 1024 printable'),
         (row, row.replace(",100,", ",,"), 'row 2, column "timestamp_ms": "" is not a number'),
         ("timestamp_ms", "stamp", '"timestamp_ms" or "timestamp_us" or "timestamp_s" is missing'),
-        (",200,", ",200100,", "row 3: track_id 1 moves by 1.06 m in 200 s, but by its speeds by 2121 m"),
+        (",200,", ",200100,", "row 3: a road user moves by 1.06 m in 200 s where its speeds say 2121 m"),
         ("psi_rad", "yaw", 'column "psi_rad" is missing'),
     ], "1")
     row = SUMO["fcd.csv"].splitlines()[1]

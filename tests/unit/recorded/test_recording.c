@@ -212,9 +212,9 @@ static void the_distance_travelled_adds_up_from_place_to_place(void **state)
 {
     struct recording_options options;
     struct played *played = play(*state,
-                                 HEADER "a,3,300,car,503,5000000,0,0,0,4,2\n"
-                                        "a,2,200,car,503,5000004,0,0,0,4,2\n"
-                                        "a,1,100,car,500,5000000,0,0,0,4,2\n",
+                                 HEADER "a,3,300,car,503,5000000,0,-40,0,4,2\n"
+                                        "a,2,200,car,503,5000004,30,0,0,4,2\n"
+                                        "a,1,100,car,500,5000000,30,80,0,4,2\n",
                                  options_for(&options, "a"));
     assert_close(object_at(played, 0.1, "a")->travelled_m, 0, 0);
     assert_close(object_at(played, 0.2, "a")->travelled_m, 5, 0);
@@ -229,7 +229,7 @@ static void many_short_steps_are_not_lost(void **state)
     enum { STEPS = 4000 };
     char *text = malloc(STEPS * 64);
     assert_non_null(text);
-    size_t used = (size_t)sprintf(text, WALKERS "a,0,0,car,0,1e8,0,0\na,0,900000000,car,0,0,0,0\n");
+    size_t used = (size_t)sprintf(text, WALKERS "a,0,0,car,0,1e8,0,-222\na,0,900000000,car,0,0,0,0\n");
     for (int i = 1; i <= STEPS; i++)
         used += (size_t)sprintf(text + used, "a,0,%d,car,%de-9,0,0,0\n", 900000000 + i, i);
     struct recording_options options;
@@ -283,6 +283,91 @@ static void a_recording_begins_and_ends_at_given_times(void **state)
     assert_close(played->frames[2].time_s, 0.4, 0);
     assert_true(played->frames[2].last && !played->frames[1].last);
     assert_close(played->frames[0].objects.items[0].travelled_m, 1, 0);
+}
+
+/* Braking from 20 m/s at 1 m/s^2 and 2 s steps: at 1 s the place is at 19.5 m, and so is the
+ * distance travelled, where the mean of the steps would be 19. */
+static void the_distance_travelled_is_resampled_like_the_place(void **state)
+{
+    struct recording_options options;
+    options_for(&options, "a");
+    options.rate_hz = 4;
+    struct played *played = play(*state,
+                                 WALKERS "a,0,0,car,0,0,20,0\na,0,2000,car,38,0,18,0\n"
+                                         "a,0,4000,car,72,0,16,0\n",
+                                 &options);
+    assert_int_equal(played->count, 17);
+    for (size_t i = 0; i < 17; i++) {
+        double time_s = played->frames[i].time_s;
+        const struct object *only = &played->frames[i].objects.items[0];
+        assert_close(only->travelled_m, 20 * time_s - time_s * time_s / 2, 1e-12);
+        assert_close(only->travelled_m, only->x_m, 1e-12);
+    }
+}
+
+/* A car stops within a second: at 12 m both at 2 s and 3 s, though the slope at 2 s is 1 m/s. A
+ * plain cubic is at 12.15 m at 2.33 s and rolls back at 0.33 m/s. */
+static void resampling_rolls_nobody_back(void **state)
+{
+    struct recording_options options;
+    options_for(&options, "v");
+    options.rate_hz = 20;
+    struct played *played = play(*state,
+                                 SUMO "0;v;0;0;90;passenger;10\n1;v;10;0;90;passenger;10\n"
+                                      "2;v;12;0;90;passenger;2\n3;v;12;0;90;passenger;0\n"
+                                      "4;v;12;0;90;passenger;0\n5;v;13;0;90;passenger;1\n",
+                                 &options);
+    assert_int_equal(played->count, 101);
+    for (size_t i = 1; i < 101; i++) {
+        const struct object *only = &played->frames[i].objects.items[0], *last = only;
+        last = &played->frames[i - 1].objects.items[0];
+        assert_true(only->vx_mps >= 0 && only->x_m >= last->x_m - 1e-12);
+        assert_true(only->travelled_m >= last->travelled_m - 1e-12);
+    }
+    assert_close(object_at(played, 2, "v")->vx_mps, 1, 1e-12);
+}
+
+/* A body that reverses does so between the steps, too: from 1 m/s to -1 m/s within 1 s. */
+static void resampling_lets_who_reverses_reverse(void **state)
+{
+    struct recording_options options;
+    options_for(&options, "a");
+    options.rate_hz = 2;
+    struct played *played =
+        play(*state, WALKERS "a,0,0,car,0,0,1,0\na,0,1000,car,0,0,-1,0\n", &options);
+    assert_close(played->frames[1].objects.items[0].x_m, 0.25, 1e-12);
+}
+
+/* A parked van is set 6.4 m aside: no frame between the steps has it, and no velocity or distance
+ * is that of the gap. */
+static void nothing_crosses_a_denied_way(void **state)
+{
+    struct recording_options options;
+    options_for(&options, "all");
+    options.rate_hz = 10;
+    struct played *played = play(*state,
+                                 SUMO "0;e;0;0;90;passenger;9\n0;v;60;0;90;passenger;0\n"
+                                      "1;e;9;0;90;passenger;9\n1;v;60;0;90;passenger;0\n"
+                                      "2;e;18;0;90;passenger;9\n2;v;60;6.4;90;passenger;0\n"
+                                      "3;e;27;0;90;passenger;9\n3;v;60;6.4;90;passenger;0\n",
+                                 &options);
+    size_t there = 0;
+    for (size_t i = 0; i < played->count; i++) {
+        const struct frame *frame = &played->frames[i];
+        const struct object *van = frame_object(frame, "v");
+        if (strcmp(frame->ego, "e") != 0 || van == NULL)
+            continue;
+        there++;
+        assert_close(van->vy_mps, 0, 0);
+        assert_close(van->travelled_m, 0, 0);
+        assert_close(van->y_m, frame->time_s < 1.5 ? 0 : 6.4, 1e-12);
+    }
+    assert_int_equal(there, 11 + 11);
+    const char *scenes[] = {"tracks/v", "tracks/v/2"};
+    for (size_t i = 0, k = 0; i < played->count; i++)
+        if (strcmp(played->frames[i].ego, "v") == 0 && played->frames[i].last)
+            assert_string_equal(played->frames[i].scene, scenes[k++]);
+    assert_non_null(strstr(played->diag.text, "though it stands by its speed (1 times)"));
 }
 
 /* The neighbours within a radius are those that a plain search finds, at all scales. */
@@ -413,6 +498,10 @@ int main(void)
         cmocka_unit_test(many_short_steps_are_not_lost),
         cmocka_unit_test(a_visit_ends_where_its_road_user_is_missing_or_jumps),
         cmocka_unit_test(a_recording_begins_and_ends_at_given_times),
+        cmocka_unit_test(the_distance_travelled_is_resampled_like_the_place),
+        cmocka_unit_test(resampling_rolls_nobody_back),
+        cmocka_unit_test(resampling_lets_who_reverses_reverse),
+        cmocka_unit_test(nothing_crosses_a_denied_way),
         cmocka_unit_test(neighbours_are_those_within_the_radius),
         cmocka_unit_test(damaged_recordings_are_refused),
         cmocka_unit_test(a_recorded_motorway_is_read),
