@@ -2,7 +2,7 @@
 # them all fused.
 #
 #   make            everything, into build/bin
-#   make check      unit tests and house checks     make test   all of scripts/test
+#   make check      unit tests and house checks; scripts/test runs all tests
 #   make SAN=1 ...  the same under address and undefined-behaviour sanitizers, in build-san/
 #   make CC=clang CXX=clang++ BUILD=build-clang
 #   make install    PREFIX=/usr/local DESTDIR=      make uninstall   with the same two
