@@ -99,7 +99,7 @@ def a_share_that_a_part_tells_counts_more_than_its_seconds(_):
 def a_part_that_lasts_goes_on_lasting(_):
     """It is overdue: it is not about to end in a second."""
     found = told(["alone 12 runs 200 -"])
-    return None if found >= 20 else f"{found} s left"
+    return None if found >= 50 else f"{found} s left"
 
 
 def items_of_python_follow_the_same_law(_):
@@ -112,7 +112,7 @@ def items_of_python_follow_the_same_law(_):
                 spent, running = sum(took[:done]), part * took[done]
                 left = sum(took) - spent - running
                 found = progress.left_s(costs, done, spent, running)
-                if (spent + running) / sum(took) > EARLY and left > 30 and not left / 2 < found < left * 2:
+                if (spent + running) / sum(took) > EARLY and left > 0.02 * sum(took) and not left / 2 < found < left * 2:
                     return f"{found:.0f} s left where {left:.0f} s are, at a pace of {pace}"
     return None
 

@@ -38,12 +38,15 @@ def line_of(unit, count, elapsed_s, share):
 
 def left_s(costs, done, spent_s, running_s, share=0):
     """The time left of items with these costs, of which so many took spent_s, and the next has run for running_s and is
-    done to that share (0: unknown). The costs alone say it at first; a hundredth of them counts as kept."""
+    done to that share (0: unknown). The costs alone say it at first; a hundredth of them counts as kept. An item that
+    runs for longer than it should counts, too, and is thought to last for a quarter of its time yet."""
     whole, ready, next_cost = sum(costs), sum(costs[:done]), costs[done] if done < len(costs) else 0
-    known = ready + share * next_cost
-    spent_s += running_s if share > 0 else 0
-    pace = (whole / 100 + spent_s) / (whole / 100 + known)
-    rest = (1 - share) * next_cost * pace if share > 0 else max(next_cost * pace - running_s, running_s / 10)
+    kept = whole / 100
+    pace = (kept + spent_s) / (kept + ready)
+    late = share == 0 and running_s > next_cost * pace
+    if share > 0 or late:
+        pace = (kept + spent_s + running_s) / (kept + ready + (1 if late else share) * next_cost)
+    rest = (1 - share) * next_cost * pace if share > 0 else max(next_cost * pace - running_s, running_s / 4)
     return rest + pace * (whole - ready - next_cost)
 
 

@@ -28,7 +28,7 @@ progress_tell() { # DONE EXPECTED
 # The time left of parts by what they cost. Standard input has a line for each: alone or beside, its seconds by a table,
 # waits, runs or ended, the seconds for which it ran, and the share that it tells, or -. The pace of this machine is what
 # parts took beside what they should have taken; 10 s of the table count as kept, so that a first short part says little.
-# A part that runs for longer than it should counts, too, and is thought to last for a tenth of its time yet. A + behind
+# A part that runs for longer than it should counts, too, and is thought to last for a quarter of its time yet. A + behind
 # the seconds marks a part that builds: if it is fast, that says nothing of the others.
 progress_left() { # CORES TEXT
     awk -v cores="$1" -v text="$2" '
@@ -56,7 +56,7 @@ progress_left() { # CORES TEXT
                     continue
                 rest = (1 - share[i]) * pace() * cost[i]
                 if (share[i] == 0)
-                    rest = rest - ran[i] > ran[i] / 10 ? rest - ran[i] : ran[i] / 10
+                    rest = rest - ran[i] > ran[i] / 4 ? rest - ran[i] : ran[i] / 4
                 left[how[i]] += rest
                 if (how[i] == "beside" && rest > longest)
                     longest = rest
