@@ -185,6 +185,17 @@ def a_part_tells_its_share_and_what_it_starts_does_not(folder):
     return None if 0.3 < share < 1 else f"tells {share}"
 
 
+def who_waits_for_files_fails_only_with_the_command(folder):
+    """Under the strict options of scripts; the folder of the files appears late, and a share is empty while it is written."""
+    text = f"set -euo pipefail; . tests/support/progress.sh; sh -c 'sleep 0.7; mkdir {folder}/late; exit CODE' & " \
+           f"progress_wait $! 1 files {folder}/late .o; echo whole; rmdir {folder}/late"
+    found = [(done.returncode, done.stdout) for done in (shell(text.replace("CODE", code)) for code in "05")]
+    if found != [(0, "whole\n"), (5, "")]:
+        return f"waits wrongly: {found}"
+    code, shown = on_terminal(fake("empties").replace("bad() {", "empties() { : >\"${GLINT_PROGRESS#* }\"; sleep 1.5; }; bad() {", 1))
+    return None if code == 0 else f"an empty share ends the run: {shown}"
+
+
 # --- signals --------------------------------------------------------------------------------------
 
 def a_program_of_tests_finds_signals_at_their_defaults(folder):
@@ -245,7 +256,7 @@ def whoever_sends_a_signal_that_can_be_ignored_sets_it(_):
 TESTS = [the_time_left_of_parts_is_true_from_the_first_tenth_on, a_part_that_had_nothing_to_build_says_nothing_of_the_others,
          a_share_that_a_part_tells_counts_more_than_its_seconds, a_part_that_lasts_goes_on_lasting, items_of_python_follow_the_same_law,
          parts_that_pass_print_what_they_say_in_their_order, why_a_part_failed_stands_last_with_its_log,
-         a_terminal_shows_the_time_left_by_cost_and_the_names, a_part_tells_its_share_and_what_it_starts_does_not,
+         a_terminal_shows_the_time_left_by_cost_and_the_names, a_part_tells_its_share_and_what_it_starts_does_not, who_waits_for_files_fails_only_with_the_command,
          a_program_of_tests_finds_signals_at_their_defaults, a_program_that_fails_says_how, tests_run_under_nohup,
          whoever_sends_a_signal_that_can_be_ignored_sets_it]
 

@@ -113,7 +113,7 @@ parts_leave() {
         printf '%s was running; the last lines of its log:\n' "${parts_title[$job]}" >&2
         tail -n 5 "${parts_log[$job]}" | sed 's/^/    /' >&2
     done
-    rm -r "$parts_logs"
+    rm -rf "$parts_logs"
 }
 
 # A line for each part: how it runs, its seconds by the table, its state, how long it ran, the share that it tells.
@@ -125,7 +125,8 @@ parts_table() {
             waits) echo "${parts_how[$title]} ${parts_cost[$title]:-10} waits 0 -" ;;
             ended) echo "${parts_how[$title]} ${parts_cost[$title]:-10} ended ${parts_took[$title]} -" ;;
             *)
-                [ ! -s "${parts_log[$state]}.share" ] || read -r told <"${parts_log[$state]}.share"
+                # It may be empty while the part writes it anew.
+                [ ! -e "${parts_log[$state]}.share" ] || read -r told <"${parts_log[$state]}.share" || told=-
                 echo "${parts_how[$title]} ${parts_cost[$title]:-10} runs $((SECONDS - parts_begin[$state])) $told"
                 ;;
         esac

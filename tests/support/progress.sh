@@ -78,7 +78,8 @@ progress_end() { # takes the line away
 progress_wait() { # PID EXPECTED UNIT FOLDER SUFFIX
     progress_mark=$(mktemp)
     while sleep 0.2 && kill -0 "$1" 2>/dev/null; do
-        progress_done=$(find "$4" -name "*$5" -size +0 -newer "$progress_mark" 2>/dev/null | wc -l)
+        # The folder may not be there yet, and files go while find looks: no failure under pipefail.
+        progress_done=$(find "$4" -name "*$5" -size +0 -newer "$progress_mark" 2>/dev/null | wc -l) || true
         progress "$progress_done" "$2" "$3"
         progress_tell "$progress_done" "$2"
     done
