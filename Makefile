@@ -2,7 +2,7 @@
 # them all fused.
 #
 #   make            everything, into build/bin
-#   make check      unit tests and house checks     make test   all of scripts/test
+#   make check      unit tests and house checks; scripts/test runs all tests
 #   make SAN=1 ...  the same under address and undefined-behaviour sanitizers, in build-san/
 #   make CC=clang CXX=clang++ BUILD=build-clang
 #   make install    PREFIX=/usr/local DESTDIR=      make uninstall   with the same two
@@ -242,9 +242,9 @@ $(filter %/test_output,$(tests)): LDFLAGS += -Wl,--wrap=open,--wrap=flock,--wrap
 # The reference of this one test alone.
 $(filter %/test_elementary,$(tests)): LIBS += -lmpfr -lgmp
 
-# A program that fails shows what failed, and one that skips a test which and why; all the others run on.
+# A program that fails shows what failed and how it ended, and one that skips a test which and why; with -k all others run on.
 %.ran: % FORCE
-	@$< >$<.log 2>&1 && { grep '^skipped' $<.log || true; } || { grep -v ' OK \|RUN \|^hard' $<.log; echo "$< failed"; exit 1; }
+	@tests/support/run_test $<
 
 unit: $(addsuffix .ran,$(tests))
 	@echo "unit tests: $(words $(tests)) programs passed"

@@ -20,6 +20,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import dataset as sets  # noqa: E402
+import signals  # noqa: E402
 
 PATIENCE_S = 600
 MOST_TASKS = 8
@@ -188,6 +189,7 @@ def main():
     missing = [name for name in ("munged", "slurmctld", "slurmd", "sbatch") if not shutil.which(name)]
     if missing or os.getuid() != 0:
         sys.exit(f"dataset_slurm: needs root and {' '.join(missing) or 'nothing else'}")
+    signals.as_on_a_terminal()
     sets.use(sys.argv[1])
     with tempfile.TemporaryDirectory() as cluster, daemons(cluster):
         for check in (two_nodes_make_the_bytes_of_one_machine, a_shard_that_fails_is_named_with_its_array):

@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-PATIENCE_S = 60
+PATIENCE_S = 300
 def without_distributions(member):
     """Where a distribution may stand for a value, the first alternative is the value's schema."""
     return member["anyOf"][0] if "anyOf" in member else member

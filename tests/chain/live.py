@@ -25,7 +25,7 @@ sys.path[:0] = [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "pipelines")]
 import glint  # noqa: E402
 import simulators  # noqa: E402
 
-PATIENCE_S = 60
+PATIENCE_S = 300
 CHAIN = ("glint-extract | glint-ideal --sensors srr24-pair-every-frame --sections account | glint-sensor | glint-noise")
 FRAMES = 60
 
@@ -237,7 +237,7 @@ def loops(folder):
         os.kill(loop.processes[0].pid, signal.SIGSTOP)
         loop.timeout_s = 0.3
         yield "a chain that stands still", fails(loop, TimeoutError, "no answer in 0.3 s")
-        loop.timeout_s = 10
+        loop.timeout_s = PATIENCE_S
         loop.restart()
         yield "again", None if [loop.step("ego", OBJECTS) for _ in range(5)] == expected else "other targets"
         os.kill(loop.processes[0].pid, signal.SIGKILL)
@@ -256,13 +256,13 @@ def loops(folder):
                                        ("a stage that swallows frames", "grep --line-buffered -v leader", TimeoutError, "no answer in 0.5 s"),
                                        ("a stage that writes frames twice", "sed -u p", glint.ChainError, ""),
                                        ("a stage that hangs at its end", "bash -c 'sed -u 5q; exec >&-; sleep 60'", glint.ChainError, "exit status")):
-        with glint.Loop(OWN.format(stage), timeout_s=0.5) as loop:
+        with glint.Loop(OWN.format(stage), timeout_s=0.5 if kind is TimeoutError else PATIENCE_S) as loop:
             yield name, fails(loop, kind, message)
     for name, last, message in (("garbage", "sed -u s/targets/targats/", "no targets"), ("noise", "sed -u s/{/x/", "no targets: Expecting value"),
                                 ("an old answer", "sed -u 's/\"frame\":[1-9][0-9]*/\"frame\":0/'", "another frame than live, frame 1"),
                                 ("an array", "sed -u 's/.*/[]/'", "no targets"), ("half a line", "head -c 99", "exit status"), ("a number", "sed -u 's/.*/5/'", "no targets"),
                                 ("nothing", "true", "exit status"), ("a deep line", "sed -u s/.*/" + "[" * 5000 + "/", "no targets")):
-        with glint.Loop(f"{STAGES} | {last}", timeout_s=5) as loop:
+        with glint.Loop(f"{STAGES} | {last}", timeout_s=PATIENCE_S) as loop:
             yield name, fails(loop, glint.ChainError, message)
     children = f"/proc/self/task/{os.getpid()}/children"
     running = open(children, encoding="ascii").read()
@@ -284,7 +284,7 @@ def loops(folder):
 def large_frames(folder):
     """Frames and answers of several pipes' size, and stages that read late: nobody waits for the other."""
     crowd = [OBJECTS[0]] + [dict(OBJECTS[1], id=f"o{i}", x_m=10 + i % 40, y_m=2 * (i // 40) - 40) for i in range(1500)]
-    with glint.Loop("glint-extract | glint-ideal --sensors corner77-four --sections all | glint-sensor | glint-noise", timeout_s=60) as loop:
+    with glint.Loop("glint-extract | glint-ideal --sensors corner77-four --sections all | glint-sensor | glint-noise", timeout_s=PATIENCE_S) as loop:
         frame = dict(loop.head, frame=0, time_s=0, ego="ego", objects=crowd)
         answer = loop.send(frame)
         size = len(json.dumps(answer))

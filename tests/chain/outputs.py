@@ -16,8 +16,10 @@ import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell in the background lets its programs ignore it
-PATIENCE_S = 60
+sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+import signals  # noqa: E402
+
+PATIENCE_S = 300
 NUMBERS = {"x86_64": (257, 436), "aarch64": (56, 436)}.get(os.uname().machine)  # of openat and close_range
 O_TMPFILE, EOPNOTSUPP, ENOSYS = 0o20000000, 95, 38
 NOBODY = 65534
@@ -220,6 +222,7 @@ def checks():
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
+    signals.as_on_a_terminal()
     os.environ["PATH"] = os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"]
     os.environ["GLINT_DATA"] = ROOT + "/data"
     frames = subprocess.run(["glint-traffic", "two-vehicles"], capture_output=True, check=True).stdout

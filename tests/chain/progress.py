@@ -17,7 +17,10 @@ import threading
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-PATIENCE_S = 120
+sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+import signals  # noqa: E402
+
+PATIENCE_S = 300
 LINE = rb"\r\[#* *\] +\d+ %, \d+(\.\d)? UNIT/s, \d+:\d\d:\d\d left *"
 FRAMES = re.compile(LINE.replace(b"UNIT", b"frames"))
 ERASED = re.compile(rb"\r *\r\Z")
@@ -209,6 +212,7 @@ def lacks_terminal(test):
 def main(words):
     if len(words) != 1:
         sys.exit(__doc__)
+    signals.as_on_a_terminal()
     os.environ["PATH"] = os.path.abspath(words[0]) + os.pathsep + os.environ["PATH"]
     failed = 0
     with tempfile.TemporaryDirectory() as folder:

@@ -26,7 +26,7 @@ STEPS = 61
 
 
 def glint(program, *words, data=None):
-    done = subprocess.run([os.path.join(BIN, program), *words], input=data, capture_output=True, check=False, timeout=60)
+    done = subprocess.run([os.path.join(BIN, program), *words], input=data, capture_output=True, check=False, timeout=300)
     check(done.returncode == 0, f"{program} {words}: {done.stderr.decode()}")
     return done.stdout
 
@@ -424,7 +424,7 @@ def parts_have_every_frame_once(kind, path, words, draw):
             times = ([] if begin is None else ["--from-s", f"{begin / 1e6:.6f}"]) + (
                 [] if end is None else ["--to-s", f"{(end - 1) / 1e6:.6f}"])
             done = subprocess.run([os.path.join(BIN, kind.program), path, *words_of_rate, *times], capture_output=True,
-                                  check=False, timeout=60)
+                                  check=False, timeout=300)
             check(done.returncode == 0 or b"between --from-s and --to-s" in done.stderr, done.stderr.decode())
             part = done.stdout.splitlines()
             check([json.loads(line)["frame"] for line in part] == list(range(len(part))), f"{kind.name}: numbers of a part")

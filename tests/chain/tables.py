@@ -24,7 +24,7 @@ from recorded import BIN, DATA, check  # noqa: E402
 def play(path, *words, fails=None):
     """The frames; of a failure the message."""
     done = subprocess.run([os.path.join(BIN, "glint-traffic"), path, *words], capture_output=True, check=False,
-                          timeout=60)
+                          timeout=300)
     said = done.stderr.decode(errors="replace")
     if fails is None:
         check(done.returncode == 0, f"{path} {words}: {said}")
@@ -334,7 +334,7 @@ def chains(folder):
         path = save(folder, files)
         chain = (f"glint-traffic {path} --ego all --radius-m 150 | glint-extract | glint-ideal --sensors lrr77-every-frame "
                  "| glint-sensor | glint-noise --complete")
-        done = subprocess.run([os.path.join(BIN, "glint"), "-c", chain], capture_output=True, check=False, timeout=60)
+        done = subprocess.run([os.path.join(BIN, "glint"), "-c", chain], capture_output=True, check=False, timeout=300)
         check(done.returncode == 0, f"{path}: {done.stderr.decode()}")
         check(done.stdout.count(b"\n") == len(play(path, "--ego", "all")), f"{path}: a list for each frame")
     far = dict(HIGHD)
@@ -374,7 +374,7 @@ ROWS, TRACKS = 300000, 600
 def in_memory(path, limit, *words):
     """Does it work with so many bytes of memory?"""
     done = subprocess.run([os.path.join(BIN, "glint-traffic"), path, *words, "-o", "/dev/null"], capture_output=True,
-                          check=False, timeout=60,
+                          check=False, timeout=300,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (limit, limit)))
     check(done.returncode in (0, 71), f"{path}: {done.stderr.decode()}")
     return done.returncode == 0

@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 
 import timing
+from progress import say
 
 CHOICES = ("none", "objects", "quality", "visibility", "account:every=10", "account", "margins",
            "reflectors,echoes,cells", "all")
@@ -46,14 +47,14 @@ class Scene:
 
 def show(heading, scenes, rows, cells):
     """Prints a table of which cells(scene, row) are the cells."""
-    print(f"| {heading} | " + " | ".join(f"{scene.name}: bytes | µs" for scene in scenes) + " |")
-    print("|---" * (1 + 2 * len(scenes)) + "|")
+    say(f"| {heading} | " + " | ".join(f"{scene.name}: bytes | µs" for scene in scenes) + " |")
+    say("|---" * (1 + 2 * len(scenes)) + "|")
     for row in rows:
-        print(f"| `{row}` | " + " | ".join(cells(scene, row) for scene in scenes) + " |")
+        say(f"| `{row}` | " + " | ".join(cells(scene, row) for scene in scenes) + " |")
 
 
 def run(glint, folder):
     scenes = [Scene(glint, name, folder) for name in SCENES]
     show("`--sections`", scenes, CHOICES, lambda scene, choice: scene.measure(choice, "lines"))
-    print()
+    say("")
     show("written as", scenes, FORMS, lambda scene, form: scene.measure(DEFAULT, form))

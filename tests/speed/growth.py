@@ -13,6 +13,7 @@ import sys
 
 import counts
 import scenes
+from progress import Progress, say
 
 MOST = 2.3
 SUITE = "srr24-pair-every-frame"
@@ -180,12 +181,12 @@ def growth(glint, case, size, folder):
 
 def run(glint, folder):
     """Prints a line for each case; returns the exit status, which growth alone decides."""
-    print("    size   CPU time   growth   of")
+    say("    size   CPU time   growth   of")
     faster = 0
-    for case, size, small in CASES:
+    for case, size, small in Progress("cases").over(CASES, cost=lambda _: 1):
         measured = growth(glint, case, small, folder) if counts.available() else 0
-        print(f"{size:8,} {cpu_s(glint, case(glint, folder, size)):8.3f} s {measured:8.2f}   {case.__doc__}", flush=True)
+        say(f"{size:8,} {cpu_s(glint, case(glint, folder, size)):8.3f} s {measured:8.2f}   {case.__doc__}")
         faster += measured > MOST
     if faster > 0:
-        print(f"bench: {faster} grow faster than {MOST}")
+        say(f"bench: {faster} grow faster than {MOST}")
     return 1 if faster > 0 else 0

@@ -16,6 +16,7 @@ import subprocess
 import counts
 import effects
 import scenes
+from progress import say
 
 RECORD = os.path.join("tests", "speed", "instructions.json")
 FIXED = os.path.join("tests", "speed", "fixed.json")
@@ -133,7 +134,7 @@ def held_ratios(glint, folder):
             ("tables to lines", tables_share(glint, folder), 0, TABLES_SHARE),
             ("1,000 objects with ghosts to those without", ghosts_share(glint), 0, GHOSTS_SHARE),
             ("all effects to those that the intersection calls for", effects_gain(glint, folder), LEAST_GAIN, 9)):
-        print(f"{share:16.2f}   {about}")
+        say(f"{share:16.2f}   {about}")
         if not least <= share <= most:
             yield f"{about}: {share:.2f}; expected {least} to {most}"
 
@@ -164,16 +165,16 @@ def run(glint, renew, folder):
     jobs = chains(glint, folder)
     found = counts.side_by_side(lambda job: round(counts.instructions(glint, job)["all"], 3), jobs.values())
     found = dict(zip(KINDS, (dict(zip(jobs, found)), {name: size(glint, job) for name, job in jobs.items()})))
-    print("\n".join(printed(found, fixed)))
+    say("\n".join(printed(found, fixed)))
     faults = [*growing(glint, folder), *held_ratios(glint, folder)]
     foreign = [key for key, value in platform.items() if fixed[key] != value]
     if foreign:
-        print(f"not held to the records, which are of another {', '.join(foreign)}")
+        say(f"not held to the records, which are of another {', '.join(foreign)}")
     else:
         faults += over_share(found[KINDS[0]], fixed)
         faults += [] if renew else off_record(found[KINDS[0]], record[KINDS[0]])
     for fault in faults:
-        print(f"bench: {fault}")
+        say(f"bench: {fault}")
     if renew:
         write(platform | found, fixed)
     return 1 if faults else 0

@@ -21,6 +21,7 @@ import sys
 import time
 
 import timing
+from progress import say
 
 SCENES, SECONDS, RATE_HZ, SUITE = 240, 20, 20, "corner77-four"
 CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections quality | glint-sensor | glint-noise"
@@ -80,12 +81,12 @@ def compare(folder, repeat):
     for _ in range(repeat):
         rounds.append({way: timing.spent(commands(folder)[way])["spent"] for way in WAYS})
     frames = SCENES * SECONDS * RATE_HZ
-    print(f"{repeat} rounds; load of the machine before them {load:.1f}: by wall clock only an idle machine tells\n\n"
-          "frames/s   CPU µs     share by CPU             by wall clock            way")
+    say(f"{repeat} rounds; load of the machine before them {load:.1f}: by wall clock only an idle machine tells\n\n"
+        "frames/s   CPU µs     share by CPU             by wall clock            way")
     for way in WAYS:
         wall_ns, cpu_ns = (statistics.median(spent[way][member] for spent in rounds) for member in ("wall_ns", "cpu_ns"))
-        print(f"{frames / wall_ns * 1e9:8,.0f} {cpu_ns / frames / 1e3:8.1f}   {shares(rounds, way, 'cpu_ns')}   "
-              f"{shares(rounds, way, 'wall_ns')}   {way}", flush=True)
+        say(f"{frames / wall_ns * 1e9:8,.0f} {cpu_ns / frames / 1e3:8.1f}   {shares(rounds, way, 'cpu_ns')}   "
+            f"{shares(rounds, way, 'wall_ns')}   {way}")
 
 
 # --- memory ---------------------------------------------------------------------------------------
@@ -142,10 +143,10 @@ def measure_memory(folder, title, source_of):
     for frames in SHARDS:
         place = lay_out(folder, 1, 1, sources=[source_of(frames)], frames_per_shard=frames, tables=True)
         columns.append(peaks(["make", "-s", "-C", place, "-j2"]))
-    print(f"\npeak MB of each process, by frames of a shard with tables, {title}\n"
-          f"{'':16}" + "".join(f"{frames:10,}" for frames in SHARDS))
+    say(f"\npeak MB of each process, by frames of a shard with tables, {title}\n"
+        f"{'':16}" + "".join(f"{frames:10,}" for frames in SHARDS))
     for kind in sorted(set().union(*columns)):
-        print(f"{kind:16}" + "".join(f"{column.get(kind, 0) / 1e3:10.1f}" for column in columns), flush=True)
+        say(f"{kind:16}" + "".join(f"{column.get(kind, 0) / 1e3:10.1f}" for column in columns))
 
 
 def run(glint, folder, repeat):

@@ -11,6 +11,7 @@ import statistics
 import subprocess
 
 import timing
+from progress import say
 
 RATE_HZ = 25
 ROADS_M = 40
@@ -75,7 +76,7 @@ def write(folder, layout, vehicles, frames):
 
 def reading(folder):
     """Tables to rows in memory, beside libcsv with from_chars."""
-    print("  ns a row   libcsv and from_chars   their ratio   layout")
+    say("  ns a row   libcsv and from_chars   their ratio   layout")
     for layout in HEADERS:
         path = write(folder, layout, 400, 500)
         done = subprocess.run([os.path.join(timing.TOOLS, "read_table"), str(ROUNDS), path, NUMBERS[layout]], check=True,
@@ -85,7 +86,7 @@ def reading(folder):
             name, ns = line.split("\t")
             times.setdefault(name, []).append(float(ns))
         ours, plain = (statistics.median(times[name]) for name in ("table", "libcsv with from_chars"))
-        print(f"{ours:10.0f} {plain:23.0f} {plain / ours:13.2f}   {layout}", flush=True)
+        say(f"{ours:10.0f} {plain:23.0f} {plain / ours:13.2f}   {layout}")
 
 
 def frames_of(glint, folder, path):
@@ -96,7 +97,7 @@ def frames_of(glint, folder, path):
 
 def all_egos(glint, folder):
     """One reading, a scene for each vehicle; and tables of a tenth of it, for the memory of a row."""
-    print("\n   rows   egos   us a frame   to writing it   peak MB   layout")
+    say("\n   rows   egos   us a frame   to writing it   peak MB   layout")
     for layout in ("ind", "sumo"):
         peaks = {}
         for vehicles, frames in ((2000, 50), (2000, 500)):
@@ -104,21 +105,21 @@ def all_egos(glint, folder):
             source, writing = (told[part]["ns_per_frame"] for part in ("traffic", "write"))
             rows = vehicles * frames
             peaks[rows] = told["spent"]["peak_kB"] * 1024
-            print(f"{rows:7} {vehicles:6} {(source + writing) / 1e3:12.1f} {(source + writing) / writing:15.2f} "
-                  f"{peaks[rows] / 1e6:9.1f}   {layout}", flush=True)
+            say(f"{rows:7} {vehicles:6} {(source + writing) / 1e3:12.1f} {(source + writing) / writing:15.2f} "
+                f"{peaks[rows] / 1e6:9.1f}   {layout}")
         (few, low), (many, high) = peaks.items()
-        print(f"{(high - low) / (many - few):7.1f} bytes more for each row")
+        say(f"{(high - low) / (many - few):7.1f} bytes more for each row")
 
 
 def curve(glint, folder):
-    print("\nvehicles   us a frame   objects in it")
+    say("\nvehicles   us a frame   objects in it")
     for vehicles in (100, 1000, 10000):
         path = write(folder, "ind", vehicles, 200000 // vehicles)
         told = frames_of(glint, folder, path)
         text = subprocess.run([glint, "-c", f"glint-traffic {path} --ego all --radius-m {RADIUS_M} --to-s 0"], check=True,
                               stdout=subprocess.PIPE).stdout
         cost = sum(told[part]["ns_per_frame"] for part in ("traffic", "write"))
-        print(f"{vehicles:8} {cost / 1e3:12.1f} {text.count(b'length_m') / text.count(b'ego'):15.1f}", flush=True)
+        say(f"{vehicles:8} {cost / 1e3:12.1f} {text.count(b'length_m') / text.count(b'ego'):15.1f}")
 
 
 def run(glint, folder):

@@ -164,6 +164,11 @@ def census(glint, text):
     return echoes / len(frames), sum(len(frame["targets"]) for frame in frames) / len(frames)
 
 
+def scene_s(_, count, sensors):
+    """What one repetition of a scene takes on two cores, in s: the floors, and frames by objects and sensors."""
+    return 3 + 4e-5 * FRAMES[count] * count * (1 + sensors)
+
+
 def scene_lines(glint, scene, floors, repeat, folder):
     """Every line of one scene: (kind, objects, sensors)."""
     kind, count, sensors = scene

@@ -8,7 +8,7 @@ import sys
 BIN = os.path.abspath(sys.argv[1])
 DATA = os.environ.get("GLINT_TEST_DATA")
 NAME = os.path.basename(sys.argv[0]).removesuffix(".py")
-PATIENCE_S = 60
+PATIENCE_S = 300
 checks = 0
 
 
