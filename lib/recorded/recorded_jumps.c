@@ -2,9 +2,10 @@
  *
  * A jump is what the place moves beyond its speed: sideways by more than JUMP_LEAST_M and faster
  * than JUMP_LEAST_MPS, but by no more than JUMP_MOST_M, which is wider than a lane; what is longer
- * is a teleport (recorded_plausibility.h). The body goes on from where it is: its distance to the recorded place
- * falls to 0 along a cubic within RECORDED_JUMP_S, an ordinary time of a lane change (4.0 s with a
- * standard deviation of 2.3 s in NGSIM: Thiemann, Treiber and Kesting, TRR 2088, 2008).
+ * is a teleport (recorded_plausibility.h). The body goes on from where it is: its distance to the
+ * recorded place falls to 0 along a cubic within RECORDED_JUMP_S, an ordinary time of a lane change
+ * (4.0 s with a standard deviation of 2.3 s in NGSIM: Thiemann, Treiber and Kesting, TRR 2088,
+ * 2008).
  *
  * A body turns about the middle of its front bumper, which the recording places. Where that moves
  * at an angle to the body, and the body turns at 2 v / l times the sine of that angle, the centre

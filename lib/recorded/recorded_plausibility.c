@@ -29,9 +29,9 @@ struct recorded_track recorded_plausibility_begin(const struct recorded_row *row
     return track;
 }
 
-/* By how much the way leads beyond what the speeds allow; NAN without speeds. The mean of velocities
- * that turn from one into the other lies in the circle that has the two as ends of a diameter, and a
- * body that stops on the way has a share of it. */
+/* By how much the way leads beyond what the speeds allow; NAN without speeds. The mean of
+ * velocities that turn from one into the other lies in the circle that has the two as ends of a
+ * diameter, and a body that stops on the way has a share of it. */
 static double deviation_m(const struct recorded_track *now, const struct recorded_track *before,
                           struct vec2 way_m, double length_s)
 {
@@ -225,8 +225,8 @@ bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
 {
     struct vec2 way_m = vec2_sub(now->at_m, before->at_m);
     double far_m = vec2_length(way_m), beyond_m = deviation_m(now, before, way_m, length_s);
-    double fastest_mps = isnan(beyond_m) ? (double)NAN
-                                         : elementary_max(now->speed_mps, before->speed_mps);
+    double fastest_mps =
+        isnan(beyond_m) ? (double)NAN : elementary_max(now->speed_mps, before->speed_mps);
     double said_m = (now->speed_mps + before->speed_mps) / 2 * length_s;
     double bound_m = BOUND_M + length_s * (BOUND_MPS2 * length_s + BOUND_SHARE * fastest_mps);
     bool denied = !explained && beyond_m > bound_m &&
@@ -285,11 +285,12 @@ static int refuse_units(const struct recorded_contradiction *ways, size_t place,
     const char *unit = unit_of(ratio), *advice = "";
     if (format->of_sumo && ratio > 100)
         advice = ": run sumo without --fcd-output.geo";
-    return diag_fail(diag, DIAG_DATA,
-                     "%s %zu: from here on road users move by %.3g m where their speeds say %.3g m, "
-                     "%.3g times as far%s%s; expected places in m and speeds in m/s%s",
-                     format->place, place, ways->moved_m, ways->said_m, ratio,
-                     unit != NULL ? ", as with " : "", unit != NULL ? unit : "", advice);
+    return diag_fail(
+        diag, DIAG_DATA,
+        "%s %zu: from here on road users move by %.3g m where their speeds say %.3g m, "
+        "%.3g times as far%s%s; expected places in m and speeds in m/s%s",
+        format->place, place, ways->moved_m, ways->said_m, ratio, unit != NULL ? ", as with " : "",
+        unit != NULL ? unit : "", advice);
 }
 
 static int refuse_rest(const struct recorded_plausibility *plausibility,
@@ -319,9 +320,10 @@ static int refuse_speeds(const struct recorded_plausibility *plausibility,
                      "%s %zu: from here on road users move by %.3g m where their speeds say %.3g "
                      "m%s; expected places in m that move as the speeds say%s",
                      format->place, plausibility->place, rests->moved_m, rests->said_m, longer,
-                     format->of_sumo ? "; SUMO's mesoscopic model gives the places of segments: run "
-                                       "sumo without --mesosim"
-                                     : "");
+                     format->of_sumo
+                         ? "; SUMO's mesoscopic model gives the places of segments: run "
+                           "sumo without --mesosim"
+                         : "");
 }
 
 /* True if another meaning of the yaws explains the directions: its angles are on the mean less than
@@ -343,17 +345,17 @@ static int refuse_yaws(const struct recorded_slants *slants, const struct record
         if (meaning == RECORDED_YAW_STATED && explains(slants, i))
             meaning = i;
     double off_rad = slants->off_rad[RECORDED_YAW_STATED] / (double)slants->stretches;
-    return diag_fail(diag, DIAG_DATA,
-                     "%s %zu: the yaw is %.6g rad, %.3g degrees off the direction of motion, as all "
-                     "yaws are by %.3g degrees on the mean%s; expected yaws in the unit of their "
-                     "column, counter-clockwise from x",
-                     format->place, slants->place, slants->yaw_rad,
-                     slants->most_rad * (180 / PI), off_rad * (180 / PI), meanings[meaning]);
+    return diag_fail(
+        diag, DIAG_DATA,
+        "%s %zu: the yaw is %.6g rad, %.3g degrees off the direction of motion, as all "
+        "yaws are by %.3g degrees on the mean%s; expected yaws in the unit of their "
+        "column, counter-clockwise from x",
+        format->place, slants->place, slants->yaw_rad, slants->most_rad * (180 / PI),
+        off_rad * (180 / PI), meanings[meaning]);
 }
 
 int recorded_plausibility_check(const struct recorded_plausibility *plausibility,
-                                const struct recorded_format *format, bool ended,
-                                struct diag *diag)
+                                const struct recorded_format *format, bool ended, struct diag *diag)
 {
     const struct recorded_slants *all = &plausibility->all, *far = &plausibility->far;
     uint64_t against = plausibility->rests.ways + plausibility->leaps.ways;
@@ -371,7 +373,5 @@ int recorded_plausibility_check(const struct recorded_plausibility *plausibility
         return refuse_yaws(all, format, diag);
     bool slanted = 3 * all->contradicting > 2 * all->stretches &&
                    all->stretches >= (ended ? SURE_YAWS : SURE_WAYS);
-    return slanted && plausibility->slanted >= SURE_SLANTED
-               ? refuse_yaws(all, format, diag)
-               : 0;
+    return slanted && plausibility->slanted >= SURE_SLANTED ? refuse_yaws(all, format, diag) : 0;
 }

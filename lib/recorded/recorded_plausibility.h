@@ -11,10 +11,10 @@
  * shorter than the speeds say is not denied, since a body may stop.
  *
  * Units are judged by stretches: the ways of one road user until it has moved by 3 m, or should
- * have by its speeds, within 3 s or a single way. A stretch agrees if the longer of these lengths is
- * at most 1.5 times the other. A recording is refused if its denied ways and the stretches that do
- * not agree are of more ways than those that agree, or if its yaws contradict the directions of the
- * stretches. Nothing is compared where no speed, or no yaw, is stated. */
+ * have by its speeds, within 3 s or a single way. A stretch agrees if the longer of these lengths
+ * is at most 1.5 times the other. A recording is refused if its denied ways and the stretches that
+ * do not agree are of more ways than those that agree, or if its yaws contradict the directions of
+ * the stretches. Nothing is compared where no speed, or no yaw, is stated. */
 #pragma once
 
 #include <stdint.h>
@@ -67,11 +67,11 @@ struct recorded_plausibility {
     bool learned; /* the whole recording has been judged; only denied ways are counted again */
     uint64_t ways, scatter[RECORDED_SCATTER_BINS]; /* ways by their deviations */
     uint64_t agreeing;                             /* ways */
-    struct recorded_contradiction rests, leaps; /* too short ways; too long and denied ways */
-    double stretches_m;                         /* length of the stretches among these */
-    struct recorded_slants all, far;            /* far: yaws beyond 2 pi */
-    uint64_t slanted;                           /* road users */
-    size_t place;                               /* of the first contradiction */
+    struct recorded_contradiction rests, leaps;    /* too short ways; too long and denied ways */
+    double stretches_m;                            /* length of the stretches among these */
+    struct recorded_slants all, far;               /* far: yaws beyond 2 pi */
+    uint64_t slanted;                              /* road users */
+    size_t place;                                  /* of the first contradiction */
     struct recorded_contradiction rest; /* a way of a long time on which a fast body rests, or 0 */
     double rest_s;
     size_t rest_place;

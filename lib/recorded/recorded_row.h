@@ -100,7 +100,8 @@ struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, co
 
 /* Reads all rows of a reader into memory and closes it. The new reader gives them in the order of
  * time and marks steps; its format is NULL after a message. A row takes 64 bytes; a step, a track
- * and a size of a body some hundred each. Yaw rates are kept to 24 bits, speeds only of rows without velocities. */
+ * and a size of a body some hundred each. Yaw rates are kept to 24 bits, speeds only of rows
+ * without velocities. */
 struct recorded_reader recorded_row_store(struct recorded_reader reader, struct arena *arena,
                                           struct diag *diag);
 

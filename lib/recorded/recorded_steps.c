@@ -107,8 +107,7 @@ static int refuse_second(const struct recorded_steps *steps, const struct record
 
 /* The state of the same visit in the step before: that of the id, unless the way from it is denied.
  * Spreads jumps. */
-static struct recorded_state *visit_before(struct recorded_steps *steps,
-                                           struct recorded_step *step,
+static struct recorded_state *visit_before(struct recorded_steps *steps, struct recorded_step *step,
                                            struct recorded_state *state,
                                            struct recorded_state *named, double length_s)
 {

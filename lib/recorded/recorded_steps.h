@@ -7,8 +7,8 @@
  *
  * A road user that is missing from a step has left; if its id comes again, a new visit begins. A
  * new visit also begins behind a way that its speeds deny, as after a teleport of SUMO
- * (recorded_plausibility.h). No velocity, yaw rate or distance is that of two visits. Memory is that
- * of three steps. */
+ * (recorded_plausibility.h). No velocity, yaw rate or distance is that of two visits. Memory is
+ * that of three steps. */
 #pragma once
 
 #include "base/vec2.h"

@@ -33,7 +33,8 @@ static double travelled_between(const struct object *a, const struct object *b, 
     double way_m = b->travelled_m - a->travelled_m;
     double limit = motion_monotone_share(from_mps, to_mps, way_m / length_s);
     motion_hermite((struct vec2){0, 0}, (struct vec2){limit * from_mps, 0}, (struct vec2){way_m, 0},
-                   (struct vec2){limit * to_mps, 0}, length_s, share, &at_m, &speed_mps, &gain_mps2);
+                   (struct vec2){limit * to_mps, 0}, length_s, share, &at_m, &speed_mps,
+                   &gain_mps2);
     return a->travelled_m + at_m.x;
 }
 
