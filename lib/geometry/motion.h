@@ -36,8 +36,8 @@ void motion_hermite(struct vec2 from_m, struct vec2 from_mps, struct vec2 to_m, 
                     double duration_s, double s, struct vec2 *position_m, struct vec2 *velocity_mps,
                     struct vec2 *acceleration_mps2);
 
-/* The share, from 0 to 1, of the speeds at both ends with which a cubic Hermite span on a line never
- * runs backward (Fritsch and Carlson 1980); 1 if it does not anyway. No speed is negative. */
+/* The share, from 0 to 1, of the speeds at both ends with which a cubic Hermite span on a line
+ * never runs backward (Fritsch and Carlson 1980); 1 if it does not anyway. No speed is negative. */
 double motion_monotone_share(double from_mps, double to_mps, double mean_mps);
 
 /* A body's box. Fractions (x, y) are of its length and width from its centre: x forward, y left, so

@@ -1,4 +1,4 @@
-/* Rows of a recording: readers, and rows kept in memory.
+/* Rows of a recording, and their readers.
  *
  * A reader gives the rows of a file one by one; recorded_steps.h makes steps of them, with classes,
  * centres, velocities and yaw rates. A new format is a file beside this one that fills a struct

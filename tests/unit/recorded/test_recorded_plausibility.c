@@ -146,10 +146,10 @@ static void units_are_told_by_the_ratio(void **state)
         double places, speeds, times;
         const char *text;
     } cases[] = {
-        {1, 3.6, 1, "speeds in km/h"},       {1, 2.237, 1, "speeds in miles/h"},
-        {1, 3.281, 1, "speeds in feet/s"},   {1, 1.944, 1, "speeds in knots"},
-        {3.281, 1, 1, "places in feet"},     {100, 1, 1, "places in cm"},
-        {1 / 111320., 1, 1, "in degrees"},   {1, 0, 1, "speeds that are left at 0"},
+        {1, 3.6, 1, "speeds in km/h"},        {1, 2.237, 1, "speeds in miles/h"},
+        {1, 3.281, 1, "speeds in feet/s"},    {1, 1.944, 1, "speeds in knots"},
+        {3.281, 1, 1, "places in feet"},      {100, 1, 1, "places in cm"},
+        {1 / 111320., 1, 1, "in degrees"},    {1, 0, 1, "speeds that are left at 0"},
         {1, 1, 1000, "times in the unit of"}, {1, 1, 1e-3, "times in another unit"},
     };
     assert_string_equal(drive(&diag, 1, 1, 1), "");

@@ -229,7 +229,8 @@ static void many_short_steps_are_not_lost(void **state)
     enum { STEPS = 4000 };
     char *text = malloc(STEPS * 64);
     assert_non_null(text);
-    size_t used = (size_t)sprintf(text, WALKERS "a,0,0,car,0,1e8,0,-222\na,0,900000000,car,0,0,0,0\n");
+    size_t used =
+        (size_t)sprintf(text, WALKERS "a,0,0,car,0,1e8,0,-222\na,0,900000000,car,0,0,0,0\n");
     for (int i = 1; i <= STEPS; i++)
         used += (size_t)sprintf(text + used, "a,0,%d,car,%de-9,0,0,0\n", 900000000 + i, i);
     struct recording_options options;
