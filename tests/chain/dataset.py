@@ -349,6 +349,16 @@ def own_stages_stand_in_a_chain(folder):
     assert done.returncode == 7 and "/chain: this fails" in done.stdout and not os.path.exists(place), done.stdout
 
 
+def words_of_a_stage_may_have_bars_and_hashes(folder):
+    """A bar in quotes ends no stage, and a hash hides nothing."""
+    with open(os.path.join(folder, "same.py"), "w", encoding="utf-8") as file:
+        file.write("import sys\nassert sys.argv[1:] == ['a|b', 'c#d', 'e'], sys.argv\nfor line in sys.stdin:\n    print(line, end='', flush=True)\n")
+    plain = made(folder, snapshots(4), "plain")
+    place = made(folder, snapshots(4, chain=f"{CHAIN} | python3 ./same.py 'a|b' c#d e"), "worded")
+    assert frames_of(place, "all/*") == frames_of(plain, "all/*")
+    assert run([CHECK_SET, place]).returncode == 0
+
+
 def several_kinds_of_source_share_nothing_between_splits(folder):
     """Splits share no scene, no draw and no vehicle of a recording; a source with a split is all in it."""
     recorded = {"recording": two_halves(folder), "egos": ["all"], "from_s": 0, "to_s": 10.2, "block_s": 2}
@@ -949,7 +959,7 @@ def jobs_without_a_number_are_refused(folder):
 CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
           tables_have_the_targets_of_their_lines, every_table_joins_every_other, counts_of_the_page_add_up,
           counts_add_up_at_the_edges, what_is_kept_is_the_same_however_it_is_packed, parquet_needs_duckdb,
-          own_stages_stand_in_a_chain, several_kinds_of_source_share_nothing_between_splits, make_shows_how_far_it_is,
+          own_stages_stand_in_a_chain, words_of_a_stage_may_have_bars_and_hashes, several_kinds_of_source_share_nothing_between_splits, make_shows_how_far_it_is,
           recordings_tell_licence_and_source, rows_are_counted_wherever_a_table_is_cut,
           blocks_of_time_keep_their_gap, blocks_of_a_resampled_recording_have_all_frames, no_two_scenes_share_a_draw,
           leaks_are_refused, copies_of_a_recording_are_known, what_no_frame_of_a_rehearsal_meets_is_refused, what_cannot_be_made_is_refused,
