@@ -11,7 +11,7 @@ import tempfile
 
 from documents import copy_documents, environment, path_of, suite_name
 from plan import ROOT, Fault, kind_of, read_json, refuse, split_of
-from tracks import noted, pieces_of, same_traffic
+from tracks import noted, pieces_of, same_scene, same_traffic, ways_of
 from traffic import (US, chain_of, command_words, first_scenes, operand, scene_frames, seconds, shell_of, source_command, stretches_of,
                      times_of, words_of_recording)
 
@@ -88,17 +88,20 @@ class Rehearsal:
         for sensor in frame["sensors"]["list"]:
             self.scans[sensor["name"]] += frames * scenes if "cycle_s" not in sensor else 0
 
-    def check_drawn(self, source, path, known):
-        """Refuses two of the first scenes of scenarios that are alike and in different splits: the scenario draws nothing or
-        too little. known: the scenes of earlier sources, by their objects."""
+    def check_scenes(self, source, path, known):
+        """Refuses two of the first scenes of scenarios that are in different splits and alike: scenes of one source that are equal,
+        as it then draws nothing or too little, and scenes of two sources that most of their bodies share. known: the scenes before."""
         stretch, scenes, split = first_scenes(source, self.plan.get("seeds", [1])[0]), {}, split_of(self.plan, source)
         command = source_command(self.plan, stretch, suite_name(self.plan["suites"][0]))
         for frame in map(json.loads, self.lines(path, "glint", "-c", command)):
-            scenes.setdefault(frame["scene"], []).append(frame["objects"])
-        for name, objects in scenes.items():
-            other, its_split = known.setdefault(json.dumps(objects), (name, split))
-            refuse(other != name and not split == its_split is not None, path,
-                   f"scenes {other} and {name} are alike: in two splits they would leak")
+            scenes.setdefault(frame["scene"], []).append(frame)
+        for name, frames in scenes.items():
+            now = path, [frame["objects"] for frame in frames], ways_of(frames)
+            for other, its_split, (its_path, its_objects, its_ways) in known:
+                alike = now[1] == its_objects if path == its_path else same_scene(now[2], its_ways)
+                refuse(alike and not split == its_split is not None, path, f"scenes {other} and {name} are alike"
+                       f"{' in most of their bodies' * (now[1] != its_objects)}: in two splits they would leak")
+            known.append((name, split, now))
 
     def check_egos(self, source, blocks, path):
         """Each ego has frames in every block; if all are egos, there is one in every block."""
@@ -143,7 +146,7 @@ class Rehearsal:
 def rehearse(plan, folder, copied):
     with tempfile.TemporaryDirectory() as trial:
         copy_documents(copied, trial, trial)
-        rehearsal, scenes = Rehearsal(plan, folder, trial), {}
+        rehearsal, scenes = Rehearsal(plan, folder, trial), []
         for i, source in enumerate(plan["sources"]):
             path, seed = f"/sources/{i}", plan.get("seeds", [1])[0]
             parts = stretches_of(plan, source, seed, plan["frames_per_shard"], folder)
@@ -152,7 +155,7 @@ def rehearse(plan, folder, copied):
             if kind_of(source) == "recording":
                 rehearsal.check_egos(source, [stretch.block for stretch in stretches], path)
             if kind_of(source) == "scenario" and "splits" in plan:
-                rehearsal.check_drawn(source, path, scenes)
+                rehearsal.check_scenes(source, path, scenes)
             for suite in map(suite_name, plan["suites"]):
                 rehearsal.check_chain(stretches[0], suite, path)
                 if "exports" in plan:

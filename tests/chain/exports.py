@@ -834,7 +834,7 @@ def in_a_fork(words):
 def each_table(folder):
     """Name, path and text of each table in the folder `good`. Each gets its text back before the next one's turn."""
     shell("glint-traffic two-vehicles | glint-extract | glint-ideal --sensors corner77-four --sections quality,visibility,account | glint-sensor"
-          " | glint-noise | head -3 | glint-tables --plain good", folder)
+          " | glint-noise > list.jsonl; head -3 list.jsonl | glint-tables --plain good", folder)
     os.environ.update(ENVIRONMENT)
     os.chdir(folder)
     for name in ("frames", "objects", "scans", "detections", "contributors", "sightings", "lost"):
@@ -869,7 +869,7 @@ def tables_that_lost_rows(folder):
     so are rows that were cut, and many at once."""
     for name, path, text in each_table(folder):
         heading, *rows = text.splitlines(keepends=True)
-        assert len(rows) > 3, name
+        assert len(rows) >= 3, name
         wrong = {"reversed": rows[::-1], "cut": [rows[0].rpartition(",")[0] + "\n", *rows[1:]], "without a key": [rows[0][rows[0].index(","):], *rows[1:]],
                  "without its first half": rows[len(rows) // 2:], "without its last half": rows[:len(rows) // 2]}
         for i in (0, len(rows) // 2, len(rows) - 1):
