@@ -571,6 +571,21 @@ def cycles_make_sweeps(folder):
     assert "no frame in which all sensors have a scan" in said
 
 
+def a_sample_is_of_its_newest_scan(folder):
+    """Radars of 30, 90 and 60 ms latency and a car at 10 m/s: time and boxes of the sample are those of 30 ms before the frame's time, where
+    the car is 0.3 m behind its place at that time."""
+    ages = {"a": 0.09, "b": 0.03, "c": 0.06}
+    frames = [frame_of([body("ego"), body("other", x=12 + i, vx=10)], [], i + 1, [{"name": name, "age_s": age} for name, age in ages.items()]) for i in range(2)]
+    for form in Tables.OF:
+        tables = Tables(by_hand(folder, frames, form), form)
+        tables.resolve()
+        for i, sample in enumerate(tables.rows["sample"]):
+            times = {name: tables.of("sample_data", sample["data"][f"RADAR_{name.upper()}"])["timestamp"] for name in ages}
+            assert sample["timestamp"] == times["b"] == times["a"] + 60_000 == times["c"] + 30_000, (form, sample, times)
+            box, = (tables.of("sample_annotation", one) for one in sample["anns"])
+            near(box["translation"], (11.7 + i, 0, 0.75))
+
+
 # --- scenes ---------------------------------------------------------------------------------------
 
 
@@ -926,7 +941,7 @@ def pcl_reads_the_radar_files(folder):
 def main():
     chosen = sys.argv[2:]
     for test in (an_approaching_car, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
-                 every_token_resolves, points_in_boxes_are_counted, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
+                 every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
                  every_option_of_a_source_is_exported, scenes_may_be_played_at_once, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
                  a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
                  lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_formats_cannot_hold_is_refused,
