@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
@@ -344,6 +345,21 @@ def each_check(module, folder, package):
     for chain, every, words in (("glint-extract | b", 8, ["--every", "8", "--extract", "extract"]), ("glint-extract-3gpp", 1, ["--every", "1", "--extract", "extract-3gpp"]),
                                 ("glint-extract | ./b", 8, ["--every", "0"])):
         check(module.check_of(chain.replace("| b", "| glint-b"), every) == ["glint-check", *words], f"{chain}: {module.check_of(chain, every)}")
+
+
+    kept, sys.argv = sys.argv, ["check-set", "--all", "set"]
+    check(module.words().every == 1, "--all checks a part")
+    sys.argv = ["check-set", "set"]
+    check(module.words().every == 8, "without --all, not every eighth is checked")
+    sys.argv = kept
+    if not shutil.which("zstd"):
+        print("skipped  bytes behind those of zstd: zstd is not installed")
+        return
+    run(f"cd {folder} && echo text | zstd -q > more.zst && echo more >> more.zst", "/usr/bin")
+    try:
+        check(not list(module.unpacked(f"{folder}/more.zst", hashlib.sha256())), "bytes behind those of zstd pass")
+    except zlib.error as error:
+        check("zstd" in str(error), str(error))
 
 
 def flip(path, place):
