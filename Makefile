@@ -295,6 +295,7 @@ man: all
 # Pages about data and pipelines go with them; the others, with their pictures, go to share/doc/glint, which has the
 # layout of this tree, so that commands of pages run there. What tests and measures glint stays here.
 doc = $(DESTDIR)$(PREFIX)/share/doc/glint
+scripts = dataset check-set export make-radar tracker
 doc_pages = README.md CHANGES.md MODEL.md LICENSE scripts/README.md \
     $(wildcard lib/*/MODEL.md stages/README.md tests/*/README.md)
 # One file under the names of several programs, without what only a debugger reads.
@@ -321,10 +322,11 @@ install: all man
 	$(Q)for page in $(doc_pages); do \
 	    install -D -m 644 $$page $(doc)/$$page || exit 1; done
 	ln -sfn ../../glint $(doc)/data
+	ln -sfn . $(DESTDIR)$(PREFIX)/share/glint/data
 	ln -sfn ../../glint/pipelines ../../glint/schemas $(doc)
 	install -d $(doc)/scripts/sets $(doc)/scripts/exports $(doc)/scripts/radars $(doc)/tests/support $(doc)/build
 	ln -sfn ../../../../bin $(doc)/build/bin
-	install -m 755 $(addprefix scripts/,dataset check-set export make-radar tracker) $(doc)/scripts
+	install -m 755 $(addprefix scripts/,$(scripts)) $(doc)/scripts
 	install -m 644 scripts/glint.py $(doc)/scripts
 	install -m 644 scripts/sets/*.py $(doc)/scripts/sets
 	install -m 644 scripts/exports/*.py $(doc)/scripts/exports
@@ -334,6 +336,7 @@ install: all man
 	install -m 644 stages/noise_none.c $(doc)/stages
 	sed '/^```c$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray.c
 	sed '/^```make$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/Makefile
+	scripts/installed-pages "$(scripts) glint.py sets exports radars" $(doc) $(DESTDIR)$(PREFIX)/share/glint
 
 # Takes away what `make install` puts there: programs and pages by name, and glint's own folders.
 uninstall:

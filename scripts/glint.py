@@ -19,7 +19,6 @@ import contextlib
 import errno
 import glob
 import gzip
-import itertools
 import json
 import math
 import os
@@ -345,6 +344,18 @@ class ChainError(RuntimeError):
         self.status = status
 
 
+_QUOTED_OR_BAR = re.compile(r"""(\\.|'[^']*'|"(?:\\.|[^"\\])*")|\|""", re.DOTALL)
+
+
+def stages_of(chain):
+    """The stages of a chain, which have `|` between them, each as its words. Quotes are those of a shell. There are no comments: a
+    `#` is a letter."""
+    stages = [shlex.split(stage) for stage in _QUOTED_OR_BAR.sub(lambda found: found[1] or "\0", chain).split("\0")]
+    if not all(stages):
+        raise ValueError(f"{chain!r}: a stage has no words; expected the name of a program between two |")
+    return stages
+
+
 class Loop:
     """A chain that answers each frame of a simulator with its targets.
 
@@ -358,11 +369,9 @@ class Loop:
     """
 
     def __init__(self, chain, interval_s=0.05, timeout_s=10, scene="live", seed=1, fused=True):
-        words = shlex.shlex(chain, posix=True, punctuation_chars="|")
-        words.whitespace_split = True
-        self.commands = [list(stage) for is_stage, stage in itertools.groupby(words, "|".__ne__) if is_stage]
+        self.commands = stages_of(chain)
         if fused and all(stage[0].startswith("glint-") for stage in self.commands):
-            self.commands = [["glint", "-c", chain]]
+            self.commands = [["glint", "-c", " | ".join(map(shlex.join, self.commands))]]
         self.chain, self.timeout_s, self.processes = chain, timeout_s, []
         self.head = {"version": 0, "scene": scene, "interval_s": interval_s, "seed": str(seed)}
         self.restart()

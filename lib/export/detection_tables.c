@@ -27,6 +27,11 @@ struct row {
     int64_t radar_ghost_label;
 };
 
+/* The rows of each other table that belong to a frame. */
+struct row_counts {
+    int64_t of[TABLE_COUNT];
+};
+
 enum { NO_KEY = -1 };
 
 #define WHOLE(member, help) FIELD_INTEGER_IN(struct row, member, -2, 0x1p53, help)
@@ -107,6 +112,23 @@ static const struct field of_frame_fields[] = {
 };
 static const struct record of_frame_record = RECORD(of_frame_fields);
 
+#define ROWS_OF(table, name_)                                                                      \
+    {                                                                                              \
+        .name = (name_), .kind = FIELD_INTEGER, .low = 0, .high = 0x1p53,                          \
+        .offset = offsetof(struct row_counts, of[table]), .help = "rows of " name_ " of this frame"             \
+    }
+static const struct field row_counts_fields[] = {
+    ROWS_OF(TABLE_OBJECTS, "objects"),
+    ROWS_OF(TABLE_SCANS, "scans"),
+    ROWS_OF(TABLE_DETECTIONS, "detections"),
+    ROWS_OF(TABLE_CONTRIBUTORS, "contributors"),
+    ROWS_OF(TABLE_SIGHTINGS, "sightings"),
+    ROWS_OF(TABLE_LOST, "lost"),
+    {0},
+};
+static const struct record row_counts_record = {FIELD_TABLE(
+    struct row_counts, row_counts_fields, "row_counts", "Rows of other tables in a frame.")};
+
 static const struct field measurement_fields[] = {
     {WORD(sensor, "name in the suite")},
     {ROW_REAL(measured_s, "instant of the measurement")},
@@ -156,7 +178,7 @@ static const struct {
     [TABLE_CONTRIBUTORS] = {{&part_record, all}, {&contributor_record, all}},
     [TABLE_SIGHTINGS] = {{&of_scan_record, all}, {&sighting_record, all}},
     [TABLE_LOST] = {{&of_scan_record, all}, {&lost_group_record, all}, {&lost_echo_record, all}},
-    [TABLE_FRAMES] = {{&frame_row_record, all}, {&of_frame_record, all}},
+    [TABLE_FRAMES] = {{&frame_row_record, all}, {&of_frame_record, all}, {&row_counts_record, all}},
 };
 
 const char *const detection_tables_primary[][2] = {
@@ -195,19 +217,21 @@ struct writing {
     const char *id; /* that was looked for last, as echoes of one object stand together */
     const struct object *object; /* with that id, or NULL */
     struct row row;
+    struct row_counts rows; /* that have been written of the frame */
     bool has_pose;
 };
 
 #define STRUCTS(...) ((const void *[DETECTION_TABLES_STRUCTS]){__VA_ARGS__})
 
 /* Appends a row, of which structs are NULL where its cells are empty. */
-static void write_row(const struct writing *writing, enum table table, const void *const *bases)
+static void write_row(struct writing *writing, enum table table, const void *const *bases)
 {
     struct text *rows = writing->tables->rows[table];
     const struct csv_columns *columns = writing->tables->columns[table];
     for (int i = 0; i < DETECTION_TABLES_STRUCTS && columns[i].list.count > 0; i++)
         csv_columns_write(&columns[i], bases[i], rows);
     csv_columns_end_row(rows);
+    writing->rows.of[table]++;
 }
 
 /* Finds the object of an echo and its key, which are NULL and none for the ground and for noise. */
@@ -405,10 +429,10 @@ int detection_tables_add(struct detection_tables *tables, struct frame *frame, s
         .frame = frame,
         .row = row_of(frame, tables->frame_key++),
     };
-    write_row(&writing, TABLE_FRAMES, STRUCTS(&writing.row, &writing.row));
     write_objects(&writing);
     for (size_t i = 0; i < frame->sensors.list.count; i++)
         write_scan(&writing, &frame->sensors.list.items[i]);
+    write_row(&writing, TABLE_FRAMES, STRUCTS(&writing.row, &writing.row, &writing.rows));
     tables->object_key += (int64_t)frame->objects.count;
     return 0;
 }

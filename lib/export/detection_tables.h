@@ -6,7 +6,7 @@
  *     contributors   a row for each echo in a target's label
  *     sightings      a row for each object that a sensor looked for, if the frames tell visibility
  *     lost           a row for each echo in no target, if the frames keep account
- *     frames         a row for each frame
+ *     frames         a row for each frame, with its numbers of rows in the other tables
  *
  * Members of the frame are columns of the same names (csv_columns.h). A column that ends in _key
  * numbers rows from first_key on: frame_key, scan_key, object_key and detection_key. A key is empty

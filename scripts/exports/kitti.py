@@ -5,7 +5,7 @@ import struct
 
 import glint
 from plan import BAD_DATA, Fault
-from streams import boxes, line, number, scans_of, visibility, word
+from streams import boxes, identity, line, number, scans_of, visibility, word
 
 WIDTH, HEIGHT = 1936, 1216  # of the camera's picture, as View-of-Delft's
 WIDEST_RAD = math.radians(160)  # field of view of the camera, at most
@@ -67,7 +67,7 @@ class Writer:
                          -by, z, bx, turn)
                 lines.append(" ".join([self.layout["classes"].get(box["class"], "Misc"), f"{seen[4]:.6f}", str(OCCLUDED[levels.get(box["id"])]),
                                        *(f"{number(one, 6):.6f}" for one in cells), *self.layout["behind"]]) + "\n")
-                self.output.boxes.writerow((f"{own}:{len(lines)}", frame["scene"], box["id"], box["class"]))
+                self.output.boxes.writerow((f"{own}:{len(lines)}", *identity(frame), box["id"], box["class"]))
         return "".join(lines)
 
     def close(self):

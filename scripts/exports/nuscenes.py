@@ -6,7 +6,7 @@ import struct
 
 import glint
 from plan import BAD_DATA, Fault
-from streams import boxes, line, number, scans_of, visibility, word
+from streams import boxes, identity, line, number, scans_of, visibility, word
 
 NO_POINT = *(math.nan,) * 3, 0, 0, *(math.nan,) * 5, *(0,) * 8  # a scan of nuScenes without targets
 MOVING_MPS, MOST_POINTS = 0.5, 1 << 15  # what is slower stands; numbers of points have 16 bits
@@ -65,7 +65,7 @@ class Writer:
 
     def __init__(self, layout, output):
         self.layout, self.output, self.fields = layout, output, layout["fields"].split()
-        self.scene, self.splits, self.shared, self.newest_us = None, {}, {}, {}  # the last of each channel
+        self.scene, self.titles, self.splits, self.shared, self.newest_us = None, set(), {}, {}, {}  # the last of each channel
         for name, text in layout.get("files", {}).items():
             output.write(name, base64.b64decode(text))
         self.tables = {name: output.file(f"{layout['version']}/{name}.json") for name in layout["tables"]}
@@ -90,17 +90,26 @@ class Writer:
         return row["token"]
 
     def add(self, split, frame):
-        if not self.scene or self.scene["name"] != frame["scene"]:
+        if not self.scene or self.scene["identity"] != identity(frame):
             self.end_scene()
         scans = [(sensor, targets, frame["time_s"] - sensor.get("age_s", 0)) for sensor, targets in scans_of(frame)]
         if not self.scene and scans:
             begin_us = max(self.newest_us.values(), default=BEGIN_US - GAP_US) + GAP_US - round(1e6 * min(at_s for _, _, at_s in scans))
-            self.scene = {"name": frame["scene"], "token": token(frame["scene"], frame["seed"]), "begin_us": begin_us, "frames": [], "axle": None}
-            self.splits.setdefault(split, []).append(frame["scene"])
+            self.scene = {"identity": identity(frame), "name": self.title(frame), "token": token(*identity(frame)), "begin_us": begin_us,
+                          "frames": [], "axle": None}
+            self.splits.setdefault(split, []).append(self.scene["name"])
         if scans:
             self.scene["frames"].append((frame, [self.scan(frame, *scan) for scan in scans]))
             for one in frame.pop("targets"):  # kept no longer, as scenes may be long
                 self.scene["axle"] = self.scene["axle"] or number(one["quality"]["x_centre_m"] - one["quality"]["x_rear_axle_m"], 3)
+
+    def title(self, frame):
+        """The scene's name, by which splits know it: with its seed if another seed has the name already."""
+        name = "/".join(identity(frame)) if frame["scene"] in self.titles else frame["scene"]
+        if name in self.titles:
+            raise Fault(BAD_DATA, f"{frame.place}: {name} would be the name of two scenes; expected other names, by --scene of their source")
+        self.titles.add(name)
+        return name
 
     def scan(self, frame, sensor, targets, at_s):
         """Writes the file of a scan; what its rows need."""
@@ -171,7 +180,7 @@ class Writer:
                  "num_lidar_pts": 0, "num_radar_pts": points} for sample, box, level, points in found]
         self.rows("instance", {"token": own, "category_token": category, "nbr_annotations": len(rows),
                                "first_annotation_token": rows[0]["token"], "last_annotation_token": rows[-1]["token"]})
-        self.output.boxes.writerow((own, self.scene["name"], name, kind))
+        self.output.boxes.writerow((own, *self.scene["identity"], name, kind))
         self.linked("sample_annotation", rows)
 
     def close(self):

@@ -7,6 +7,9 @@ import itertools
 import json
 import math
 import os
+import pickle
+import sys
+import tempfile
 import zlib
 
 import glint
@@ -17,7 +20,9 @@ from progress import Progress
 
 HEIGHT_M = 0.5  # of a sensor whose document has none: usual for radars
 LEVELS = "v0-40", "v40-60", "v60-80", "v80-100"
-CELLS = {"frame_key", "scan_key", "detection_key", "seed", "time_s", "sensor", "measured_s", "detections"}  # are in all rows of tables that have them
+COUNTED = "objects", "scans", "detections", "contributors", "sightings", "lost"  # tables of which frames have numbers of rows
+CELLS = {"frame_key", "detection_key", "seed", "time_s", "sensor", "measured_s", "detection", "contributor", *COUNTED}  # no row lacks them
+LOST = "a row was lost, doubled or moved, here or before"
 # What formats need beyond glint.FRAME, and what gives it.
 LENGTH, VALUE = glint.number(1e-3, 1e6), glint.number(-1e9, 1e9)
 QUALITY = ("rcs_dbsm", "range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad", "existence", "range_rate_over_ground_mps", "x_centre_m",
@@ -44,49 +49,82 @@ def rows(folder, name):
             for cells in table:
                 place = f"{path}:{table.line_num}"
                 row = glint.Frame((key, types[key](cell)) for key, cell in cells.items() if cell)
-                if None in cells.values() or CELLS & types.keys() - row.keys():
+                if None in cells.values():
                     raise ValueError("cells are missing")
+                if lacking := CELLS & types.keys() - row.keys():
+                    raise ValueError(f"no {', '.join(sorted(lacking))}")
                 row.place = place
                 yield row
     except (AttributeError, EOFError, KeyError, TypeError, ValueError, csv.Error, gzip.BadGzipFile, zlib.error) as error:
         raise Fault(BAD_DATA, f"{place}: {error!r}; expected a table of glint-tables") from error
 
 
-def by(key, folder, name):
-    """Gives the rows of a table that have this key, which increases from call to call. Rows of other keys are refused."""
-    groups = ((found, list(group)) for found, group in itertools.groupby(rows(folder, name), lambda row: row[key]))
-    ahead = [next(groups, (math.inf, []))]
+class Table:
+    """The rows of a table in their order, without gaps. A row that was lost, doubled or moved is refused with its place."""
 
-    def of(wanted):
-        found, group = ahead[0]
-        if found < wanted:
-            raise Fault(BAD_DATA, f"{group[0].place}: {key} {found}; expected ascending keys, each of a row of {key[:-4]}s")
-        if found > wanted:
-            return []
-        ahead[0] = next(groups, (math.inf, []))
-        return group
-    return of
+    def __init__(self, folder, name, numbers=None, first=None):
+        """numbers: a column that goes up by 1 from row to row, from first on, or from what the first row has."""
+        self.name, self.rows, self.numbers, self.first, self.next = name, rows(folder, name), numbers, first, first
+
+    def take(self, above, **keys):
+        """The next rows, as many as the row above says. They have these keys."""
+        count, self.next = above[self.name], self.next if self.first is None else self.first
+        found = [self.checked(row, keys) for _, row in zip(range(count), self.rows)]
+        if len(found) < count:
+            raise Fault(BAD_DATA, f"{above.place}: {self.name} {count}; the table {self.name} ends after {len(found)} of them")
+        return found
+
+    def checked(self, row, keys):
+        if self.numbers:
+            keys = keys | {self.numbers: row.get(self.numbers, 0) if self.next is None else self.next}
+            self.next = keys[self.numbers] + 1
+        if wrong := next((key for key, value in keys.items() if row.get(key) != value), None):
+            raise Fault(BAD_DATA, f"{row.place}: {wrong} {row.get(wrong)}; expected {keys[wrong]}: {LOST}")
+        return row
+
+    def end(self):
+        if row := next(self.rows, None):
+            raise Fault(BAD_DATA, f"{row.place}: a row of {self.name} that belongs to no row of another table")
+
+
+def of_scans(table, frame, scans, once=()):
+    """The rows of a frame that belong to its scans, or to a sensor without one. No two have the same values in the columns `once`."""
+    keys, known = {None, *(one["scan_key"] for one in scans)}, set()
+    found = table.take(frame)
+    for row in found:
+        what = tuple(map(row.get, once))
+        if row.get("scan_key") not in keys:
+            raise Fault(BAD_DATA, f"{row.place}: scan_key {row['scan_key']}; expected a scan of {frame.place}: {LOST}")
+        if once and what in known:
+            raise Fault(BAD_DATA, f"{row.place}: {' '.join(map(str, what))} for the second time in {frame.place}: {LOST}")
+        known.add(what)
+    return found
 
 
 def frames_of_tables(folder):
-    objects, scans, targets = (by("frame_key", folder, name) for name in ("objects", "scans", "detections"))
-    parts, sightings = by("detection_key", folder, "contributors"), by("scan_key", folder, "sightings")
-    for row in rows(folder, "frames"):
-        key = row["frame_key"]
-        sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in scans(key)]
-        frame = glint.Frame(row, seed=str(row["seed"]), objects=objects(key), sensors={"suite": row.get("suite"), "list": sensors},
-                            targets=targets(key), visibility=[seen for one in sensors for seen in sightings(one["scan_key"])])
-        for one in frame["targets"]:
+    tables = frames, objects, scans, targets, parts, sightings, lost = [Table(folder, *words) for words in (
+        ("frames", "frame_key"), ("objects", "object_key"), ("scans", "scan_key"), ("detections", "detection_key"),
+        ("contributors", "contributor", 0), ("sightings",), ("lost",))]
+    for row in frames.rows:
+        key = {"frame_key": frames.checked(row, {})["frame_key"]}
+        bodies, of_sensors = objects.take(row, **key), scans.take(row, **key)
+        found = [one for scan in of_sensors for one in targets.take(scan, **key, scan_key=scan["scan_key"], sensor=scan["sensor"])]
+        for one in found:
             one["quality"] = {name[8:]: value for name, value in one.items() if name.startswith("quality_")}
-            one["contributors"] = parts(one["detection_key"])
+            one["contributors"] = parts.take(one, detection_key=one["detection_key"])
+        for name, count in ("detections", len(found)), ("contributors", sum(len(one["contributors"]) for one in found)):
+            if row[name] != count:
+                raise Fault(BAD_DATA, f"{row.place}: {name} {row[name]}; expected {count}, the rows of that table")
+        seen = of_scans(sightings, row, of_sensors, once=("sensor", "object"))
+        of_scans(lost, row, of_sensors)
+        sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in of_sensors]
+        frame = glint.Frame(row, seed=str(row["seed"]), objects=bodies, sensors={"suite": row.get("suite"), "list": sensors}, targets=found, visibility=seen)
         frame.place = row.place
         if fault := glint.fault(frame, glint.FRAME) or glint.unjoined(frame):
             raise Fault(BAD_DATA, f"{row.place}: {fault.lstrip('.')}")
-        if (found := len(frame["targets"])) != (expected := sum(one["detections"] for one in sensors)):
-            raise Fault(BAD_DATA, f"{row.place}: {found} rows of detections; expected {expected}, as scans say")
         yield frame
-    for of in (objects, scans, targets, parts, sightings):
-        of(math.inf)
+    for table in tables:
+        table.end()
 
 
 def streams_of(path):
@@ -134,22 +172,60 @@ def complete(frame, suite, folder):
         raise Fault(BAD_DATA, f"{frame.place}: sensors: two would be {max(words, key=words.count)}; expected names that differ in ASCII letters or digits")
 
 
-def frames_of(streams, suite):
-    """The frames of streams with their splits: those of a scene together and in order."""
-    seen, before, measured = set(), (None, 0, 0), False
+def identity(frame):
+    """Frames of one name and one seed are a scene."""
+    return frame["scene"], frame["seed"]
+
+
+def scene_by_scene(found):
+    """Pairs of a split and a frame, with the frames of a scene together, and the scenes in the order in which they begin. The frames
+    of scenes that begin before another one has ended, as those of several egos do, wait in a file for their turn."""
+    with tempfile.TemporaryFile() as file:
+        now, waiting = None, {}  # the scene whose turn it is, and where the frames of the others lie
+        for pair in found:
+            now = now or identity(pair[1])
+            if identity(pair[1]) != now:
+                waiting.setdefault(identity(pair[1]), []).append(file.seek(0, os.SEEK_END))
+                pickle.dump(pair, file)
+                continue
+            yield pair
+            while pair[1].get("last") and (now := next(iter(waiting), None)):
+                for place in waiting.pop(now):
+                    file.seek(place)
+                    pair = pickle.load(file)
+                    yield pair
+            now = None if pair[1].get("last") else now
+        for place in itertools.chain.from_iterable(waiting.values()):
+            file.seek(place)
+            yield pickle.load(file)
+
+
+def complete_frames(streams, suite):
     for split, folder, frames in Progress("streams").over(streams):
         for frame in frames:
             complete(frame, suite, folder)
-            measured = measured or any(scans_of(frame))
-            now = frame["scene"], frame["frame"], frame["time_s"]
-            if now[0] in seen if now[0] != before[0] else now[1] <= before[1] or now[2] <= before[2]:
-                raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0]} at {now[2]} s; expected each scene once, with all of its "
-                                      "frames in their order")
-            seen.add(now[0])
-            before = now
             yield {"validation": "val"}.get(split, split), frame
-    if not measured:
+
+
+def frames_of(streams, suite):
+    """The frames of streams with their splits, scene by scene, those of a scene in their order. Says on stderr which scenes have no scan."""
+    seen, before = {}, (None, 0, 0)  # of each scene: its first frame's place, or None as soon as a sensor has measured
+    for split, frame in scene_by_scene(complete_frames(streams, suite)):
+        now = identity(frame), frame["frame"], frame["time_s"]
+        if now[0] in seen if now[0] != before[0] else now[1] <= before[1] or now[2] <= before[2]:
+            raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0][0]} at {now[2]} s; expected each scene once, with all of its "
+                                  "frames in their order")
+        place = seen.setdefault(now[0], frame.place)
+        if place and any(scans_of(frame)):
+            seen[now[0]] = None
+        before = now
+        yield split, frame
+    without = [(name, seed, place) for (name, seed), place in seen.items() if place]
+    if len(without) == len(seen):
         raise Fault(BAD_DATA, "the inputs have no frame in which a sensor has measured")
+    if without:
+        print("export: {} of {} scenes have no scan and are left out; the first is {} with seed {}, at {}".format(
+            len(without), len(seen), *without[0]), file=sys.stderr)
 
 
 def scans_of(frame):

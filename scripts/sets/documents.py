@@ -134,9 +134,9 @@ def files_of_chain(plan, plan_folder):
     """The files of the user's own stages, with paths from the plan's folder."""
     found = []
     for stage in filter(is_own, stages_of(plan["chain"])):
-        names = [word for word in shlex.split(stage) if "/" in word and os.path.isfile(os.path.join(plan_folder, word))]
+        names = [word for word in stage if "/" in word and os.path.isfile(os.path.join(plan_folder, word))]
         if not names:
-            raise Fault(NO_INPUT, f"/chain: {stage}: no such file in {plan_folder}")
+            raise Fault(NO_INPUT, f"/chain: {shlex.join(stage)}: no such file in {plan_folder}")
         found += names
     return found
 

@@ -72,9 +72,9 @@ def kind_of(source):
     return "moving" if kinds == ["random"] and "seconds" in source else kinds[0]
 
 
-def words_of(text, path):
+def words_of(text, path, split=shlex.split):
     try:
-        return shlex.split(text)
+        return split(text)
     except ValueError as error:
         raise Fault(BAD_DATA, f"{path}: {error}") from error
 
@@ -99,24 +99,25 @@ def check_source(source, path):
 
 
 def stages_of(chain):
-    return [stage.strip() for stage in chain.split("|")]
+    """The stages of a chain, each as its words."""
+    return words_of(chain, "/chain", glint.stages_of)
 
 
 def is_own(stage):
     """True for a user's own stage, false for one of glint."""
-    return not stage.startswith("glint-")
+    return not stage[0].startswith("glint-")
 
 
 def check_chain(chain):
     refuse("{suite}" not in chain, "/chain", "names no suite; write --sensors {suite}")
-    for stage in filter(is_own, stages_of(chain)):
-        words = words_of(stage, "/chain")
-        refuse(not any("/" in word for word in words), "/chain",
-               f"{(words or [''])[0]!r} is no program of glint, and no file of your own: name that by a path, as ./mud.py")
+    stages = stages_of(chain)
+    for stage in filter(is_own, stages):
+        refuse(not any("/" in word for word in stage), "/chain",
+               f"{stage[0]!r} is no program of glint, and no file of your own: name that by a path, as ./mud.py")
     refuse(">" in chain or "<" in chain, "/chain", "redirects")
-    refuse("#" in chain, "/chain", "has a comment, which would hide what follows it")
-    for stage in stages_of(chain):
-        for word in words_of(stage, "/chain"):
+    for stage in stages:
+        for word in stage:
+            refuse(word.startswith("#"), "/chain", f"has a comment, {word!r}; expected the words of stages alone")
             refuse(word.split("=")[0] in OPTIONS_OF_CHAIN and not is_own(stage), "/chain", f"{word} may not be in the chain")
 
 

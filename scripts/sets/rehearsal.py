@@ -1,25 +1,40 @@
 """Tries a plan before a folder is there: what leaks, and what would fail in a shard hours later."""
 import bisect
+import collections
 import itertools
 import json
+import math
+import os
 import shlex
 import subprocess
 import tempfile
 
-from documents import copy_documents, environment, suite_name
-from plan import Fault, kind_of, refuse, split_of
-from tracks import noted, pieces_of, same_traffic
-from traffic import (US, chain_of, command_words, first_scenes, operand, seconds, shell_of, source_command, stretches_of,
+from documents import copy_documents, environment, path_of, suite_name
+from plan import ROOT, Fault, kind_of, read_json, refuse, split_of
+from tracks import noted, pieces_of, same_scene, same_traffic, ways_of
+from traffic import (US, chain_of, command_words, first_scenes, operand, scene_frames, seconds, shell_of, source_command, stretches_of,
                      times_of, words_of_recording)
 
-FRAMES = 10  # of each source go through the chain of each suite
+FRAMES, EXPORTED = 10, 50  # of each source go through the chain of each suite; of its first scene are exported
+
+
+def first_scene(lines):
+    """The lines of frames of the scene that begins first."""
+    name = None
+    for line in lines:
+        frame = json.loads(line)
+        name = name or frame["scene"]
+        if frame["scene"] == name:
+            yield line
+            if frame.get("last"):
+                return
 
 
 class Rehearsal:
     """Plays the sources of a plan, which lie from `folder`, with the copies of documents in the folder `trial`."""
 
     def __init__(self, plan, folder, trial):
-        self.plan, self.folder, self.environment = plan, folder, environment(trial)
+        self.plan, self.folder, self.environment, self.scans = plan, folder, environment(trial), collections.Counter()
 
     def lines(self, path, *words):
         """The lines that a command writes, as far as they are asked for."""
@@ -47,17 +62,46 @@ class Rehearsal:
             whole = f"{chain_of(self.plan, suite, source)} | glint-summary"
             raise Fault(done.returncode, f"/chain: this fails: {shlex.join([*shell_of(self.plan), whole])}")
 
-    def check_drawn(self, source, path, known):
-        """Refuses two of the first scenes of scenarios that are alike and in different splits: the scenario draws nothing or
-        too little. known: the scenes of earlier sources, by their objects."""
+    def check_exports(self, stretches, suite, path):
+        """Writes the first frames of a source in each layout, and refuses more scans than a layout has names for."""
+        chain = chain_of(self.plan, suite, source_command(self.plan, stretches[0], suite))
+        lines = list(itertools.islice(first_scene(self.lines(path, *shell_of(self.plan), chain)), EXPORTED))
+        self.count_scans(json.loads(lines[0]), stretches)
+        for form in self.plan["exports"]:
+            with tempfile.TemporaryDirectory() as place:
+                with open(os.path.join(place, "list.jsonl"), "wb") as file:
+                    file.writelines(lines)
+                done = subprocess.run([os.path.join(ROOT, "scripts", "export"), form, "--out", "out", "list.jsonl"], cwd=place, env=self.environment,
+                                      stderr=subprocess.PIPE, text=True, check=False)
+            if done.returncode != 0:
+                raise Fault(done.returncode, f"/exports: {form}: the first frames of {path} with {suite}: {done.stderr.strip()}")
+            digits = read_json(path_of(form, "export", "")).get("digits", math.inf)
+            for name, count in self.scans.items():
+                refuse(count > 10 ** digits, "/exports", f"{form}: {count} scans of {name}; expected at most {10 ** digits}, as "
+                       f"names of its files have {digits} digits")
+
+    def count_scans(self, frame, stretches):
+        """Counts the scans of sensors that measure in each frame, where the number of frames is known."""
+        source = stretches[0].source
+        frames = 0 if kind_of(source) == "recording" else scene_frames(source, 0, self.folder)
+        scenes = sum(stretch.end - stretch.first for stretch in stretches) * len(self.plan.get("seeds", [1]))
+        for sensor in frame["sensors"]["list"]:
+            self.scans[sensor["name"]] += frames * scenes if "cycle_s" not in sensor else 0
+
+    def check_scenes(self, source, path, known):
+        """Refuses two of the first scenes of scenarios that are in different splits and alike: scenes of one source that are equal,
+        as it then draws nothing or too little, and scenes of two sources that most of their bodies share. known: the scenes before."""
         stretch, scenes, split = first_scenes(source, self.plan.get("seeds", [1])[0]), {}, split_of(self.plan, source)
         command = source_command(self.plan, stretch, suite_name(self.plan["suites"][0]))
         for frame in map(json.loads, self.lines(path, "glint", "-c", command)):
-            scenes.setdefault(frame["scene"], []).append(frame["objects"])
-        for name, objects in scenes.items():
-            other, its_split = known.setdefault(json.dumps(objects), (name, split))
-            refuse(other != name and not split == its_split is not None, path,
-                   f"scenes {other} and {name} are alike: in two splits they would leak")
+            scenes.setdefault(frame["scene"], []).append(frame)
+        for name, frames in scenes.items():
+            now = path, [frame["objects"] for frame in frames], ways_of(frames)
+            for other, its_split, (its_path, its_objects, its_ways) in known:
+                alike = now[1] == its_objects if path == its_path else same_scene(now[2], its_ways)
+                refuse(alike and not split == its_split is not None, path, f"scenes {other} and {name} are alike"
+                       f"{' in most of their bodies' * (now[1] != its_objects)}: in two splits they would leak")
+            known.append((name, split, now))
 
     def check_egos(self, source, blocks, path):
         """Each ego has frames in every block; if all are egos, there is one in every block."""
@@ -102,7 +146,7 @@ class Rehearsal:
 def rehearse(plan, folder, copied):
     with tempfile.TemporaryDirectory() as trial:
         copy_documents(copied, trial, trial)
-        rehearsal, scenes = Rehearsal(plan, folder, trial), {}
+        rehearsal, scenes = Rehearsal(plan, folder, trial), []
         for i, source in enumerate(plan["sources"]):
             path, seed = f"/sources/{i}", plan.get("seeds", [1])[0]
             parts = stretches_of(plan, source, seed, plan["frames_per_shard"], folder)
@@ -111,8 +155,10 @@ def rehearse(plan, folder, copied):
             if kind_of(source) == "recording":
                 rehearsal.check_egos(source, [stretch.block for stretch in stretches], path)
             if kind_of(source) == "scenario" and "splits" in plan:
-                rehearsal.check_drawn(source, path, scenes)
+                rehearsal.check_scenes(source, path, scenes)
             for suite in map(suite_name, plan["suites"]):
                 rehearsal.check_chain(stretches[0], suite, path)
+                if "exports" in plan:
+                    rehearsal.check_exports(stretches, suite, path)
         if "splits" in plan:
             rehearsal.check_recordings()

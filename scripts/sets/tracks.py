@@ -1,4 +1,4 @@
-"""Tells whether two recordings have the same traffic: by how bodies move, whatever names, files and origins they have."""
+"""Tells whether two recordings or two scenes have the same traffic: by how bodies move, whatever names, files and origins they have."""
 import collections
 import itertools
 import math
@@ -64,3 +64,37 @@ def same_traffic(one, other):
             shifted[tuple(shift)].add(name)
     bodies = min(bodies_in(one), bodies_in(other))
     return max(map(len, shifted.values()), default=0) >= max(min(FEWEST, bodies), SHARE * bodies, 1)
+
+
+def ways_of(frames):
+    """The places of each body of a scene, by time in microseconds."""
+    ways = {}
+    for frame in frames:
+        x, y = frame.get("origin_x_m", 0), frame.get("origin_y_m", 0)
+        for body in frame["objects"]:
+            ways.setdefault(body["id"], {})[round(1e6 * frame["time_s"])] = (x + body["x_m"], y + body["y_m"])
+    return ways
+
+
+def shift_of(one, other):
+    """From the place of one body to that of another, if it is the same, to the centimetre, at each time that both have, and these
+    are half of the times of one of them; else None."""
+    shifts = ([there - here for here, there in zip(place, other[time_us])] for time_us, place in one.items() if time_us in other)
+    first, common = next(shifts, None), 1
+    for shift in shifts:
+        if math.dist(shift, first) > STEP_M:
+            return None
+        common += 1
+    return first if first and 2 * common >= min(len(one), len(other)) else None
+
+
+def same_scene(one, other):
+    """Are more than half of the bodies of the smaller scene, and more than half of those that move, in the other one, all of them
+    shifted alike?"""
+    fewer, more = sorted((one, other), key=len)
+    moving = {name for name, way in fewer.items() if math.dist(*(way[at(way)] for at in (min, max))) > MOVED_M}
+    shifted = collections.defaultdict(set)
+    for (name, way), its in itertools.product(fewer.items(), more.values()):
+        if shift := shift_of(way, its):
+            shifted[tuple(whole(along, SHIFT_M) for along in shift)].add(name)
+    return any(2 * len(names) > len(fewer) and 2 * len(names & moving) >= len(moving) + bool(moving) for names in shifted.values())

@@ -172,10 +172,11 @@ def shell_of(plan):
 def chain_of(plan, suite, *before):
     """The pipeline of a source and of the chain behind it, or of the chain alone. Neighbouring stages of glint run in one
     process."""
-    stages = [*before, *stages_of(plan["chain"].replace("{suite}", suite))]
+    stages = [stage for text in (*before, plan["chain"].replace("{suite}", suite)) for stage in stages_of(text)]
     if shell_of(plan)[0] == "glint":
-        return " | ".join(stages)
+        return " | ".join(map(shlex.join, stages))
     pieces = []
     for own, group in itertools.groupby(stages, is_own):
-        pieces += [shlex.join(shlex.split(stage)) for stage in group] if own else [shlex.join(["glint", "-c", " | ".join(group)])]
+        texts = [shlex.join(stage) for stage in group]
+        pieces += texts if own else [shlex.join(["glint", "-c", " | ".join(texts)])]
     return " | ".join(pieces)

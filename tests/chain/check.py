@@ -6,6 +6,7 @@ Faults are planted here: in single values of a stream, in the order of its frame
 truncation of 20 files and every flipped bit of five. Of the flipped bits of a bare stream, those that leave it valid
 are counted and printed.
 """
+import gzip
 import hashlib
 import importlib.machinery
 import importlib.util
@@ -17,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
@@ -230,6 +232,144 @@ def other_table(folder, package):
     forge(folder, package)
 
 
+def agree(module, folder, package, entry, data=None):
+    """Forges a manifest whose sums are those of its files; with data, a file has these bytes, and its entry agrees with them."""
+    if data is not None:
+        with open(f"{folder}/set/{entry['path']}", "wb") as file:
+            file.write(data)
+        entry |= {"bytes": len(data), "hash": module.digest_of(data)}
+    package |= {name: sum(one[name] for one in package["resources"]) for name in module.SUMS}
+    package["content_hash"] = module.content_hash(package["resources"])
+    forge(folder, package)
+
+
+def each_check(module, folder, package):
+    """Each single check of a set finds the fault that it is for, where all others agree with it, and says what it found."""
+    shutil.copytree(f"{folder}/set", f"{folder}/sound")
+    number = {os.path.basename(one["path"]): i for i, one in enumerate(package["resources"][:8])}
+    stream, table, frames = (number[name] for name in ("00000.jsonl.gz", "objects.csv.gz", "frames.csv.gz"))
+    other = len(number) + table  # the table of the second shard
+
+    def expect(what, message, change, every=1):
+        shutil.rmtree(f"{folder}/set")
+        shutil.copytree(f"{folder}/sound", f"{folder}/set")
+        forged_one = json.loads(json.dumps(package))
+        change(forged_one, forged_one["resources"])
+        found = module.check(f"{folder}/set", 2, every)[0]
+        check(any(message in one for one in found) if message else not found, f"{what}: {found}; expected {message!r}")
+
+    def said(**members):
+        """Members of the manifest, or of the table, that are other ones."""
+        def change(forged_one, resources):
+            for name, value in members.items():
+                record = forged_one if name in ("frames", "plan") or len(members) > 1 else resources[table]
+                record[name] = value(record[name])
+            forge(folder, forged_one) if record is forged_one else agree(module, folder, forged_one, resources[table])
+        return change
+
+    def bytes_of(which, packed):
+        """Other bytes of a file, with which its entry agrees."""
+        return lambda forged_one, resources: agree(module, folder, forged_one, resources[which], packed(read(which)))
+
+    def read(which):
+        with open(f"{folder}/sound/{package['resources'][which]['path']}", "rb") as file:
+            return file.read()
+
+    def of_files(change):
+        return lambda _, resources: change(f"{folder}/set", [f"{folder}/set/{one['path']}" for one in resources])
+
+    def label(forged_one, resources):
+        """A label that the chain does not give, in a file that is right by its entry."""
+        text = re.sub(rb'("ercs":)[^,]+', rb"\g<1>7.5", gzip.decompress(read(stream)), count=1)
+        resources[stream] |= {"content_bytes": len(text), "content_hash": module.digest_of(text)}
+        agree(module, folder, forged_one, resources[stream], gzip.compress(text))
+
+    def rows(forged_one, resources):
+        resources[frames]["rows"] += 1
+        agree(module, folder, forged_one, resources[frames])
+
+    def renamed(forged_one, resources):
+        old = resources[table]["path"]
+        resources[table]["path"] = old.replace("objects", "others")
+        os.rename(f"{folder}/set/{old}", f"{folder}/set/{resources[table]['path']}")
+        agree(module, folder, forged_one, resources[table])
+
+    def swapped(which):
+        def change(forged_one, resources):
+            source = resources[table if which == other else other]
+            resources[which] |= {name: source[name] for name in ("rows", "content_bytes", "content_hash")}
+            agree(module, folder, forged_one, resources[which], read(table if which == other else other))
+        return change
+
+    def twice(forged_one, resources):
+        forged_one["documents"].append(forged_one["documents"][0])
+        forge(folder, forged_one)
+
+    def streams_last(forged_one, resources):
+        resources[:2] = resources[1::-1]
+        agree(module, folder, forged_one, resources[0])
+    expect("a sound set", "", lambda *_: None)
+    expect("a byte of the manifest", "the last line is not the digest", of_files(lambda place, _: os.truncate(f"{place}/datapackage.json", os.path.getsize(f"{place}/datapackage.json") - 1)))
+    expect("frames in words", "frames: 'x'; expected a whole number", said(frames=lambda _: "x"))
+    expect("a chain with a hole", "chain: 'a | | b'; expected stages", said(plan=lambda plan: plan | {"chain": "a | | b"}))
+    expect("a document twice", "is listed twice", twice)
+    expect("tables before their stream", "expected the stream of a shard and then its tables", streams_last)
+    expect("a stream where there is none", "expected no stream, but tables", said(plan=lambda plan: plan | {"lines": "none"}))
+    expect("frames without a line", "the stream and the table of frames differ in rows", rows)
+    for name in (*module.SUMS, "frames"):
+        expect(f"the sum of {name}", f"datapackage.json: {name}: ", said(**{name: lambda count: count + 1, "plan": dict}))
+    expect("the digest of all content", "datapackage.json: content_hash: ", said(content_hash=lambda _: "sha256:0", plan=dict))
+    for name in ("rows", "content_bytes"):
+        expect(f"{name} of a table", f"objects.csv.gz: {name}: ", said(**{name: lambda count: count + 1}))
+    expect("the content of a table", "objects.csv.gz: content_hash: ", said(content_hash=lambda _: "sha256:" + 64 * "0"))
+    expect("a byte that packs alike", "objects.csv.gz: hash: ", of_files(lambda _, paths: flip(paths[table], 9)))
+    expect("a byte of a document", "README.md: hash: ", of_files(lambda place, _: flip(f"{place}/README.md", 9)))
+    expect("a byte behind a document", "README.md: bytes: ", of_files(lambda place, _: os.truncate(f"{place}/README.md", 9)))
+    for what, message, packed in (("bytes behind the packed ones", "not one whole gzip member", lambda data: data + b"more"),
+                                  ("a second member", "not one whole gzip member", lambda data: data + gzip.compress(b"")),
+                                  ("an end that is missing", "not one whole gzip member", lambda data: data[:-4]),
+                                  ("other packed bytes", "Error -3 while decompressing data", lambda data: data[:10] + b"\xff" * 9 + data[19:])):
+        expect(what, f"objects.csv.gz: {message}", bytes_of(table, packed))
+    expect("a label", "glint-check: ", label)
+    expect("a stream that is gone", "00000.jsonl.gz: no such file", of_files(lambda _, paths: os.remove(paths[stream])))
+    for name in ("objects", "frames"):
+        expect("tables that are gone", f"{name}.csv.gz: no such file", of_files(lambda _, paths: (os.remove(paths[table]), os.remove(paths[frames]))))
+    expect("a table of no name", "glint-tables writes no table of this name", renamed)
+    expect("a table of another shard", "other rows than those of the stream", swapped(table), every=8)
+    expect("that of a later shard", "other rows than those of the stream", swapped(other))
+    for name in ("99999.jsonl.zst", "00000/more.csv", "00000/more.parquet"):
+        expect(f"a stranger, {name}", f"{name}: not in the manifest", of_files(lambda _, paths, name=name: open(f"{os.path.dirname(paths[stream])}/{name}", "x").close()))
+    expect("an export that is not there", "exports/kitti: other files than its .sha256 says", said(plan=lambda plan: plan | {"exports": ["kitti"]}))
+    shutil.rmtree(f"{folder}/set")
+    os.rename(f"{folder}/sound", f"{folder}/set")
+    for chain, every, words in (("glint-extract | b", 8, ["--every", "8", "--extract", "extract"]), ("glint-extract-3gpp", 1, ["--every", "1", "--extract", "extract-3gpp"]),
+                                ("glint-extract | ./b", 8, ["--every", "0"])):
+        check(module.check_of(chain.replace("| b", "| glint-b"), every) == ["glint-check", *words], f"{chain}: {module.check_of(chain, every)}")
+
+
+    kept, sys.argv = sys.argv, ["check-set", "--all", "set"]
+    check(module.words().every == 1, "--all checks a part")
+    sys.argv = ["check-set", "set"]
+    check(module.words().every == 8, "without --all, not every eighth is checked")
+    sys.argv = kept
+    if not shutil.which("zstd"):
+        print("skipped  bytes behind those of zstd: zstd is not installed")
+        return
+    run(f"cd {folder} && echo text | zstd -q > more.zst && echo more >> more.zst", "/usr/bin")
+    try:
+        check(not list(module.unpacked(f"{folder}/more.zst", hashlib.sha256())), "bytes behind those of zstd pass")
+    except zlib.error as error:
+        check("zstd" in str(error), str(error))
+
+
+def flip(path, place):
+    with open(path, "r+b") as file:
+        file.seek(place)
+        byte = file.read(1)[0]
+        file.seek(place)
+        file.write(bytes([byte ^ 1]))
+
+
 def sets(bin_dir):
     """In a set every truncation and every flipped bit is found."""
     module = check_set()
@@ -265,6 +405,7 @@ def sets(bin_dir):
                     check(fault_of(module, bytes(other), entry), f"bit {bit} of {entry} may flip")
                     other[bit // 8] ^= 1 << bit % 8
                 flipped += 8 * len(data)
+        each_check(module, folder, package)
         tried = forged(module, folder, package)
         # The same by the script: a shard that is cut, a table that is right by the manifest alone, a shard that is gone.
         shard = package["resources"][0]

@@ -349,6 +349,16 @@ def own_stages_stand_in_a_chain(folder):
     assert done.returncode == 7 and "/chain: this fails" in done.stdout and not os.path.exists(place), done.stdout
 
 
+def words_of_a_stage_may_have_bars_and_hashes(folder):
+    """A bar in quotes ends no stage, and a hash hides nothing."""
+    with open(os.path.join(folder, "same.py"), "w", encoding="utf-8") as file:
+        file.write("import sys\nassert sys.argv[1:] == ['a|b', 'c#d', 'e'], sys.argv\nfor line in sys.stdin:\n    print(line, end='', flush=True)\n")
+    plain = made(folder, snapshots(4), "plain")
+    place = made(folder, snapshots(4, chain=f"{CHAIN} | python3 ./same.py 'a|b' c#d e"), "worded")
+    assert frames_of(place, "all/*") == frames_of(plain, "all/*")
+    assert run([CHECK_SET, place]).returncode == 0
+
+
 def several_kinds_of_source_share_nothing_between_splits(folder):
     """Splits share no scene, no draw and no vehicle of a recording; a source with a split is all in it."""
     recorded = {"recording": two_halves(folder), "egos": ["all"], "from_s": 0, "to_s": 10.2, "block_s": 2}
@@ -523,6 +533,39 @@ def leaks_are_refused(folder):
         (plan_of([timed | {"to_s": 1e-7}]), "all gets no scene"),
     ]
     refusals(folder, cases, 65)
+
+
+def scenes_that_differ_by_a_body_are_alike(folder):
+    """A scenario of one split stands in no other: neither with a body more, less or changed, be it the ego, nor elsewhere, slower
+    sampled, or cut short. Scenes that share no more than what stands beside the road, or the ego, do not leak."""
+    ego, lead = {"id": "ego", "class": "car", "speed_mps": 20}, {"id": "lead", "class": "car", "x_m": 40, "speed_mps": 18}
+    slow, rail = {"id": "slow", "class": "truck", "x_m": 60, "y_m": -4, "speed_mps": 15}, {"id": "rail", "class": "guardrail", "length_m": 200, "y_m": 8}
+    parked = [{"id": f"parked{i}", "class": "car", "x_m": 10 * i, "y_m": 5, "speed_mps": 0} for i in range(1, 4)]
+    base = [ego, lead, slow, rail]
+
+    def scenario(name, objects, **members):
+        with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
+            json.dump({"origin": "For tests.", "ego": "ego", "rate_hz": 20, "duration_s": 2, "objects": objects} | members, file)
+        return {"scenario": f"./{name}.json"}
+
+    def moved(objects, **by):
+        return [one | {key: one.get(key, 0) + value for key, value in by.items()} for one in objects]
+    still = [one | {"speed_mps": 0} for one in (ego, *parked)]
+    leaks = {"more": base + [parked[0]], "less": base[:2] + base[3:], "changed": [ego, lead | {"x_m": 50}, slow, rail],
+             "other-ego": [ego | {"speed_mps": 22, "x_m": 3}, lead, slow, rail], "elsewhere": moved(base, x_m=500, y_m=20)}
+    sources = {name: scenario(name, objects) for name, objects in leaks.items()}
+    sources |= {"slower": scenario("slower", base, rate_hz=10), "shorter": scenario("shorter", base, duration_s=1)}
+    by_kind = {"splits": {"by": "kind", "shares": {"train": 0.5, "test": 0.5}}}
+
+    def plan(one, two):
+        return plan_of([one | {"split": "train"}, two | {"split": "test"}], **by_kind)
+    refusals(folder, [(plan(scenario("base", base), source), f"/sources/1: scenes base/ego and {name}/ego are alike") for name, source in sources.items()]
+             + [(plan(scenario("still", still), scenario("still-more", still + [lead | {"speed_mps": 0}])), "still/ego and still-more/ego are alike in most")], 65)
+    others = [ego, lead | {"speed_mps": 17, "x_m": 33}, slow | {"speed_mps": 13}, rail]
+    for name, one, two in (("rail", base, others), ("ego", [ego, lead], [ego, lead | {"x_m": 55, "speed_mps": 19}]),
+                           ("parked", [ego, *parked], [ego, *moved(parked[:1], x_m=3), *moved(parked[1:], y_m=1)])):
+        done = begin(folder, plan(scenario("one", one), scenario("two", two)), name)[1]
+        assert done.returncode == 0, (name, done.stdout)
 
 
 def what_cannot_be_made_is_refused(folder):
@@ -949,10 +992,10 @@ def jobs_without_a_number_are_refused(folder):
 CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
           tables_have_the_targets_of_their_lines, every_table_joins_every_other, counts_of_the_page_add_up,
           counts_add_up_at_the_edges, what_is_kept_is_the_same_however_it_is_packed, parquet_needs_duckdb,
-          own_stages_stand_in_a_chain, several_kinds_of_source_share_nothing_between_splits, make_shows_how_far_it_is,
+          own_stages_stand_in_a_chain, words_of_a_stage_may_have_bars_and_hashes, several_kinds_of_source_share_nothing_between_splits, make_shows_how_far_it_is,
           recordings_tell_licence_and_source, rows_are_counted_wherever_a_table_is_cut,
           blocks_of_time_keep_their_gap, blocks_of_a_resampled_recording_have_all_frames, no_two_scenes_share_a_draw,
-          leaks_are_refused, copies_of_a_recording_are_known, what_no_frame_of_a_rehearsal_meets_is_refused, what_cannot_be_made_is_refused,
+          leaks_are_refused, scenes_that_differ_by_a_body_are_alike, copies_of_a_recording_are_known, what_no_frame_of_a_rehearsal_meets_is_refused, what_cannot_be_made_is_refused,
           scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused, paths_may_have_any_letters,
           another_plan_in_the_folder_is_refused, two_plans_at_once_make_one_set, who_finishes_at_once_disturbs_nobody,
           what_is_damaged_is_made_again, temporaries_of_the_living_stay, one_failing_scene_stops_no_other,

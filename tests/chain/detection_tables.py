@@ -103,7 +103,7 @@ def expected(frames, first=0):
     rows = {table: [] for table in TABLES}
     for number, frame in enumerate(frames):
         when = {key: frame[key] for key in ("scene", "frame", "time_s")}
-        keys = {}
+        keys, before = {}, {table: len(found) for table, found in rows.items()}
         for one in frame["objects"]:
             keys[one["id"]] = first + len(rows["objects"])
             rows["objects"].append({"object_key": keys[one["id"]], "frame_key": first + number, **when, **values(one)})
@@ -111,7 +111,6 @@ def expected(frames, first=0):
         whole = {"seed": frame["seed"], "interval_s": frame["interval_s"], "last": frame.get("last", False),
                  "ego": frame["ego"], "origin_x_m": frame.get("origin_x_m", 0), "origin_y_m": frame.get("origin_y_m", 0),
                  "suite": frame["sensors"]["suite"]}
-        rows["frames"].append({"frame_key": first + number, **when, **whole})
         for sensor in frame["sensors"]["list"]:
             here, name = pose(frame, sensor), sensor["name"]
             targets = [one for one in frame["targets"] if one["sensor"] == name]
@@ -138,6 +137,8 @@ def expected(frames, first=0):
             rows["lost"] += [{"scan_key": scan, "object_key": keys.get(echo["object"], ""), **values(group),
                               **values(echo)}
                              for group in frame.get("lost", []) if group["sensor"] == name for echo in group["echoes"]]
+        counts = {table: len(found) - before[table] for table, found in rows.items() if table != "frames"}
+        rows["frames"].append({"frame_key": first + number, **when, **whole, **counts})
     return rows
 
 

@@ -22,9 +22,7 @@ MOST_BYTES = 4_000_000
 ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C",
                "PKG_CONFIG_PATH": os.path.join(PREFIX, "lib/pkgconfig")}
 REACH_M = 40
-# What tests and measures glint stays in the source tree. Of the stages only examples are installed.
-OF_THE_TREE = {"accuracy-cost", "bench", "check-house", "demo", "deps", "figures", "golden", "make-vehicles",
-               "numerics", "realism", "soundness", "test", "summary.c", "noise_mine.c"}
+EXAMPLES = {"summary.c", "noise_mine.c"}  # of stages; only noise_none.c is installed
 OWN_STAGES = {"glint-spray", "glint-noise-mine", "glint-traffic-adversarial"}  # of readers and of the tests
 
 
@@ -97,30 +95,35 @@ def check_stage(folder):
 
 
 def pages():
-    """(folder, text) of every installed page but CHANGES.md, which names what is gone."""
+    """(folder, text, is it a history?) of every installed page. CHANGES.md names what is gone."""
     for top in DOCUMENTS, os.path.join(PREFIX, "share/glint"):
         for folder, _, names in os.walk(top):
             for name in names:
-                if name.endswith(".md") and name != "CHANGES.md":
+                if name.endswith(".md"):
                     with open(os.path.join(folder, name), encoding="utf-8") as page:
-                        yield folder, page.read()
+                        yield folder, page.read(), name == "CHANGES.md"
 
 
 def check_names():
-    """Programs, scripts, pipelines, documents, schemas and headers that pages name are there, and scripts have a help."""
+    """Links lead somewhere. Programs, scripts, pipelines, documents, schemas and headers that pages name are there, and scripts have a help."""
     scripts = set()
-    for folder, text in pages():
+    for folder, text, is_history in pages():
+        for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", text):
+            assert os.path.exists(os.path.join(folder, target)), f"{folder}: a link leads to {target}, which is not installed"
+        if is_history:
+            continue
         for name in re.findall(r"\bglint(?:-[a-z0-9]+)*(?= -|\b[^-a-z0-9/._*])", text):
             known = os.path.exists(os.path.join(PROGRAMS, name)) or name in OWN_STAGES
             assert known, f"{folder}: {name} is not installed"
-        for name in re.findall(r"(?<![\w./$-])(?:scripts|pipelines|data|schemas|stages)/[\w./-]*\w", text):
-            there = os.path.exists(os.path.join(DOCUMENTS, name)) or os.path.basename(name) in OF_THE_TREE
-            assert there, f"{folder}: {name} is not installed"
+        for name in re.findall(r"(?<![\w./$-])(?:scripts|pipelines|data|schemas|stages|tests)/[\w./-]*\w", text):
+            is_script = name.startswith("scripts/") or name.endswith(".py")
+            there = os.path.exists(os.path.join(DOCUMENTS, name)) or os.path.basename(name) in EXAMPLES
+            assert there or not is_script and name.startswith("tests/"), f"{folder}: {name} is not installed"
         for name in re.findall(r"(?<![\w./-])lib/([a-z]+/\w+\.h)", text):
             assert os.path.exists(os.path.join(PREFIX, "include/glint", name)), f"{folder}: {name} is not installed"
         scripts.update(re.findall(r"(?<![\w./-])scripts/([\w-]+)(?![\w./-])", text))
-    assert {"dataset", "check-set", "tracker"} <= scripts - OF_THE_TREE, scripts
-    for name in sorted(scripts - OF_THE_TREE):
+    assert {"dataset", "check-set", "tracker"} <= scripts, scripts
+    for name in sorted(scripts):
         assert run(f"{DOCUMENTS}/scripts/{name} --help"), f"{name} --help prints nothing"
 
 

@@ -10,6 +10,7 @@ import json
 import math
 import os
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -264,6 +265,20 @@ def loops(folder):
                                 ("nothing", "true", "exit status"), ("a deep line", "sed -u s/.*/" + "[" * 5000 + "/", "no targets")):
         with glint.Loop(f"{STAGES} | {last}", timeout_s=PATIENCE_S) as loop:
             yield name, fails(loop, glint.ChainError, message)
+    for text, expected in (("a b|c", [["a", "b"], ["c"]]), ("a 'b|c' d#e | f \"#|'\" g\\|h '|' #i", [["a", "b|c", "d#e"], ["f", "#|'", "g|h", "|", "#i"]])):
+        yield f"the words of {text}", None if glint.stages_of(text) == expected else glint.stages_of(text)
+    for text in ("", "a | | b", "a |", "a 'b"):
+        try:
+            yield f"the words of {text!r}", f"are {glint.stages_of(text)}"
+        except ValueError:
+            pass
+    os.mkdir(os.path.join(folder, "sensors"))
+    shutil.copy(os.path.join(ROOT, "data/sensors/srr24-pair.json"), os.path.join(folder, "sensors/a#b.json"))
+    os.environ["GLINT_DATA"] = folder
+    for fused in (True, False):
+        with glint.Loop(STAGES.replace("lrr77-every-frame", "a#b"), fused=fused) as loop:
+            yield "a suite with # in its name", None if {one["sensor"] for one in loop.step("ego", OBJECTS)} & {"left", "right"} else "other sensors"
+    os.environ["GLINT_DATA"] = os.path.join(ROOT, "data")
     children = f"/proc/self/task/{os.getpid()}/children"
     running = open(children, encoding="ascii").read()
     try:
