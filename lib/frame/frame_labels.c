@@ -72,7 +72,7 @@ static int check_contributor(const struct contributor *told, const char *sensor,
         }
     bool made_later = told->id.path >= PATH_WHEEL; /* than by ideal: of a body, or of none */
     if (made_later &&
-        (frame_object(again, told->id.object) != NULL) == frame_shows_object(told->id.path))
+        (frame_object_of(again, &told->id) != NULL) == frame_shows_object(told->id.path))
         return 0;
     return diag_fail(diag, DIAG_DATA, "reflector: the objects make no echo of \"%s\", \"%s\", %s",
                      told->id.object, told->id.reflector, frame_paths[told->id.path]);

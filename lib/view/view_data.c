@@ -51,6 +51,14 @@ static void put_name(struct view_data *data, enum view_column column, const char
     put_count(data, column, optional_name(data, word));
 }
 
+/* The number of the object of an echo. What is of no object has a number of its own, even if an
+ * object has its name: the 0 at the end of the word is part of it then. */
+static uint32_t owner_of(struct view_data *data, const struct echo_id *echo)
+{
+    size_t length = strlen(echo->object) + (frame_has_object(echo->path) ? 0 : 1);
+    return intern_number(&data->names, echo->object, length, data->arena);
+}
+
 void view_data_begin(struct view_data *data, struct arena *arena)
 {
     *data = (struct view_data){.arena = arena, .models = {.arena = arena}};
@@ -142,6 +150,7 @@ static void add_contributor(struct view_data *data, const struct contributor *fr
 {
 #define CONTRIBUTOR(name, key, how, member) add_##how(data, COLUMN_##name, from->member);
 #include "view/view_columns.def"
+    put_count(data, COLUMN_CONTRIBUTOR_OBJECT, owner_of(data, &from->id));
     put_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
 }
 
@@ -233,7 +242,7 @@ static struct vec2 spot_of(struct view_data *data, uint32_t scene, const struct 
 static bool is_at_spot(struct view_data *data, const struct loss_scan *scan,
                        const struct loss_row *row, const struct lost_echo *echo)
 {
-    const struct object *object = frame_object(scan->frame, echo->id.object);
+    const struct object *object = frame_object_of(scan->frame, &echo->id);
     if (echo->range_m == 0)
         return true;
     if (object == NULL || echo->id.path != PATH_DIRECT)
@@ -264,7 +273,7 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
     for (size_t i = 0; i < group->echoes.count; i++) {
         const struct lost_echo *echo = &group->echoes.items[i];
         struct loss_row *row = list_add(&scan->rows, scan->frame->arena);
-        row->of[LOST_OBJECT] = name_of(data, echo->id.object);
+        row->of[LOST_OBJECT] = owner_of(data, &echo->id);
         row->of[LOST_REFLECTOR] = name_of(data, echo->id.reflector);
         row->of[LOST_PATH] = echo->id.path;
         row->of[LOST_MIRROR] = optional_name(data, echo->id.mirror);
@@ -377,7 +386,7 @@ static uint32_t add_truths(struct view_data *data, const struct frame *frame,
         put_real(data, COLUMN_TRUTH_AZIMUTH, truth->azimuth_rad);
         put_real(data, COLUMN_TRUTH_RATE, truth->range_rate_mps);
         put_real(data, COLUMN_TRUTH_AMPLITUDE, truth->amplitude_db);
-        put_name(data, COLUMN_TRUTH_OBJECT, truth->contributors.items[0].id.object);
+        put_count(data, COLUMN_TRUTH_OBJECT, 1 + owner_of(data, &truth->contributors.items[0].id));
         put_count(data, COLUMN_TRUTH_LISTED, listed != NULL ? number_in_list(frame, listed) : 0);
     }
     return count;

@@ -257,7 +257,7 @@ function objectTitle(id) {
 }
 
 function objectNotes() {
-    if (names[state.object] === names[head.scenes[state.scene].ego]) {
+    if (state.object === head.scenes[state.scene].ego) {
         return ['The ego carries the sensors. It neither reflects nor blocks.'];
     }
     const notes = state.fresh ? ['Click a target to see what it is made of.'] : [];
