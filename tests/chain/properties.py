@@ -541,6 +541,20 @@ def names_of_no_object(folder):
                 check(found[reader] == text.replace(other.encode(), name.encode()), f"{name}: {reader} joins labels to the car")
 
 
+def times_below_zero(folder):
+    """A scene that is earlier by 1000 or 20000 cycles has as many scans and targets in each frame."""
+    frames = parse(piped("glint-traffic cut-in"))
+
+    def counts(earlier_s):
+        moved = write([dict(frame, time_s=round(frame["time_s"] - earlier_s, 9)) for frame in frames])
+        return [(frame["sensors"]["list"][0]["measured"], len(frame["targets"])) for frame in parse(fused(chain("lrr77"), moved))]
+
+    expected = counts(0)
+    check(len({measured for measured, _ in expected}) == 2, "frames with a scan and frames without are due")
+    for earlier_s in (72, 1440):
+        check(counts(earlier_s) == expected, f"{earlier_s} s earlier there are other scans")
+
+
 def shards(folder):
     text = chain("srr24-pair")
     traffic = piped("glint-traffic cut-in")
@@ -899,6 +913,7 @@ PROPERTIES = [
     ("a mirrored scene gives the mirrored list", mirror_symmetry),
     ("a scene turned, or shifted by 1e6 m, gives the same list", turn_and_shift),
     ("the order of objects does not matter", object_order),
+    ("a scene before time 0 has the scans of one after it", times_below_zero),
     ("frames can be taken one at a time and in shards", shards),
     ("a line is read and written as it is alone", lines_alone),
     ("frames of two scenes may interleave", interleaved_scenes),
