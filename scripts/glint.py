@@ -356,7 +356,7 @@ class ChainError(RuntimeError):
 class Loop:
     """A chain that answers each frame of a simulator with its targets.
 
-        with glint.Loop("glint-extract | glint-ideal --sensors lrr77-every-frame | glint-sensor | glint-noise") as radar:
+        with glint.Loop("glint-extract | glint-ideal --sensors lrr77 | glint-sensor | glint-noise") as radar:
             for objects in my_simulator:                    # dictionaries, as pipelines/simulators.py makes them
                 targets = radar.step("ego", objects)
 

@@ -76,14 +76,16 @@ struct class_document {
 struct sensor_view {
     const char *name;
     double mount_x_m, mount_y_m, mount_yaw_rad;
+    double mount_z_m; /* 0: not known */
     double field_of_view_rad;
     double range_max_m;
     double cell_range_m, cell_range_rate_mps;
-    double azimuth_cell_rad; /* 0: a twentieth of the field of view */
-    double carrier_hz;       /* 0: not known */
-    double cycle_s;          /* 0: a scan in every frame */
-    bool measured;           /* does the frame have a scan of this sensor? */
-    double age_s;            /* the frame's time less the time that the scan shows */
+    double resolution_range_m, resolution_range_rate_mps; /* 0: not known */
+    double azimuth_cell_rad;                              /* 0: a twentieth of the field of view */
+    double carrier_hz;                                    /* 0: not known */
+    double cycle_s;                                       /* 0: a scan in every frame */
+    bool measured; /* does the frame have a scan of this sensor? */
+    double age_s;  /* the frame's time less the time that the scan shows */
 };
 
 struct sensors {

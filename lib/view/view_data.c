@@ -1,7 +1,6 @@
 #include "view/view_data.h"
 
 #include "base/sort.h"
-#include "documents/suite_file.h"
 #include "score/target_score.h"
 
 /* The numbers that tell what a lost echo is and why it is lost. The columns DETAIL_OBJECT to
@@ -99,25 +98,12 @@ static bool same_sensor(const struct sensor_view *a, const struct sensor_view *b
            a->mount_y_m == b->mount_y_m && a->mount_yaw_rad == b->mount_yaw_rad &&
            a->field_of_view_rad == b->field_of_view_rad && a->range_max_m == b->range_max_m &&
            a->cell_range_m == b->cell_range_m && a->carrier_hz == b->carrier_hz &&
-           a->cell_range_rate_mps == b->cell_range_rate_mps;
+           a->cell_range_rate_mps == b->cell_range_rate_mps &&
+           a->resolution_range_m == b->resolution_range_m &&
+           a->resolution_range_rate_mps == b->resolution_range_rate_mps;
 }
 
-/* The cell by the suite's document, if that is the installed one; else by the frame's statement. */
-static struct view_cell cell_of(const struct sensors *sensors, const struct sensor_view *view,
-                                struct arena *arena)
-{
-    struct diag unused = {0};
-    const struct suite *suite = suite_file_load(sensors->suite, arena, &unused);
-    const struct sensor *sensor = NULL;
-    if (suite != NULL && strcmp(suite->digest, sensors->digest) == 0)
-        sensor = suite_sensor(suite, view->name);
-    return sensor != NULL
-               ? (struct view_cell){2 * sensor->half_range_m, 2 * sensor->half_range_rate_mps}
-               : (struct view_cell){view->cell_range_m, view->cell_range_rate_mps};
-}
-
-static uint32_t sensor_of(struct view_data *data, const struct sensors *sensors,
-                          const struct sensor_view *sensor, struct arena *scratch)
+static uint32_t sensor_of(struct view_data *data, const struct sensor_view *sensor)
 {
     for (size_t i = 0; i < data->sensors.count; i++)
         if (same_sensor(&data->sensors.items[i], sensor))
@@ -125,7 +111,6 @@ static uint32_t sensor_of(struct view_data *data, const struct sensors *sensors,
     struct sensor_view *copy = list_add(&data->sensors, data->arena);
     *copy = *sensor;
     copy->name = arena_text(data->arena, sensor->name, strlen(sensor->name));
-    *list_add(&data->cells, data->arena) = cell_of(sensors, sensor, scratch);
     return (uint32_t)data->sensors.count - 1;
 }
 
@@ -350,7 +335,7 @@ static void add_scan(struct view_data *data, const struct frame *frame, uint32_t
     put_real(data, COLUMN_SCAN_VX, scan.pose.velocity_mps.x);
     put_real(data, COLUMN_SCAN_VY, scan.pose.velocity_mps.y);
     put_real(data, COLUMN_SCAN_AGE, scan.age_s);
-    put_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, &frame->sensors, sensor, frame->arena));
+    put_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, sensor));
     put_count(data, COLUMN_SCAN_MEASURED, sensor->measured);
     put_count(data, COLUMN_SCAN_TARGETS, add_targets(data, frame, sensor->name));
     add_losses(data, &(struct loss_scan){.frame = frame, .scan = scan, .scene = scene},
