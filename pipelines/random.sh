@@ -4,6 +4,6 @@
 set -o pipefail
 glint-traffic-random --density medium --frames 200 \
   | glint-extract \
-  | glint-ideal --sensors corner77-every-frame --sections account \
+  | glint-ideal --sensors corner77 --sections account \
   | glint-sensor \
   | glint-noise

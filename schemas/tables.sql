@@ -112,11 +112,14 @@ FROM read_csv(folder || '/scans.csv*', header = true, auto_detect = false, colum
     "sensor_vy_mps": reals, -- m/s: velocity of the sensor
     "mount_x_m": reals, -- m: from the centre of the ego's box
     "mount_y_m": reals, -- m: from the centre of the ego's box
+    "mount_z_m": reals, -- m: height above the road; absent: not known
     "mount_yaw_rad": reals, -- rad: boresight, from the ego's heading
     "field_of_view_rad": reals, -- rad: full width
     "range_max_m": reals, -- m: greatest range
     "cell_range_m": reals, -- m: stated cell, full width: the unit of scores
     "cell_range_rate_mps": reals, -- m/s: stated cell, full width: the unit of scores
+    "resolution_range_m": reals, -- m: so far from a stronger echo, in range, an echo has a cell of its own; absent: not known
+    "resolution_range_rate_mps": reals, -- m/s: the same in range rate; absent: not known
     "azimuth_cell_rad": reals, -- rad: cell in azimuth of scores; absent: a twentieth of the field of view
     "carrier_hz": reals, -- Hz: carrier frequency
     "cycle_s": 'DOUBLE', -- s: time from scan to scan; absent: a scan in every frame

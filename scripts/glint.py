@@ -284,10 +284,17 @@ def label(target):
     return max(target["contributors"], key=lambda one: one["weight"], default=None)
 
 
+def owner(echo):
+    """The id of the object that a contributor or a lost echo is of; None for clutter and false alarms: they are of no object, even
+    where an object is called as they are."""
+    return None if echo.get("path") in ("clutter", "false_alarm") else echo["object"]
+
+
 def detections(frame, system="world"):
-    """The targets of a frame as columns: numbers as arrays of doubles, `sensor`, `object` and `reflector` as
-    lists of names. object and reflector are the label; "" where no object shows. Frames that carry `quality`
-    (`glint-ideal --sections quality`) give its numbers as well, NaN where a target lacks one."""
+    """The targets of a frame as columns: numbers as arrays of doubles, `sensor`, `object`, `reflector` and `path` as
+    lists of names. These are of the label; object is "" for clutter and false alarms, and path "" where the frame
+    has none. Frames that carry `quality` (`glint-ideal --sections quality`) give its numbers as well, NaN where a
+    target lacks one."""
     targets = frame.get("targets", [])
     columns = {name: array.array("d", (one[name] for one in targets)) for name in MEASURED}
     places = [place(frame, one, system) for one in targets]
@@ -298,8 +305,9 @@ def detections(frame, system="world"):
     told = [one.get("quality", {}) for one in targets]
     for name in sorted({name for one in told for name in one}):
         columns[name] = array.array("d", (one.get(name, math.nan) for one in told))
-    labels = [label(one) or {} for one in targets]
-    for name in ("object", "reflector"):
+    labels = [label(one) or {"object": ""} for one in targets]
+    columns["object"] = [owner(one) or "" for one in labels]
+    for name in ("reflector", "path"):
         columns[name] = [one.get(name, "") for one in labels]
     return columns
 
@@ -359,7 +367,7 @@ def stages_of(chain):
 class Loop:
     """A chain that answers each frame of a simulator with its targets.
 
-        with glint.Loop("glint-extract | glint-ideal --sensors lrr77-every-frame | glint-sensor | glint-noise") as radar:
+        with glint.Loop("glint-extract | glint-ideal --sensors lrr77 | glint-sensor | glint-noise") as radar:
             for objects in my_simulator:                    # dictionaries, as pipelines/simulators.py makes them
                 targets = radar.step("ego", objects)
 

@@ -28,11 +28,14 @@ static struct sensor_view view_of(const struct sensor *sensor, bool measured)
         .name = sensor->name,
         .mount_x_m = sensor->mount_x_m,
         .mount_y_m = sensor->mount_y_m,
+        .mount_z_m = sensor->mount_z_m,
         .mount_yaw_rad = sensor->mount_yaw_rad,
         .field_of_view_rad = sensor->field_of_view_rad,
         .range_max_m = sensor->range_max_m,
         .cell_range_m = sensor->bin_range_m,
         .cell_range_rate_mps = sensor->bin_range_rate_mps,
+        .resolution_range_m = sensor->half_range_m,
+        .resolution_range_rate_mps = sensor->half_range_rate_mps,
         .azimuth_cell_rad = sensor->azimuth_cell_rad,
         .carrier_hz = sensor->carrier_hz,
         .cycle_s = sensor->cycle_s,
@@ -48,20 +51,33 @@ static double latency_s(const struct sensor *sensor, const struct selection *sel
     return late ? sensor->latency_s : 0;
 }
 
+/* Tells at which rate of frames all sensors measure in their cycles, if this one is too low. */
+static void note_long_frame(const struct suite *suite, const struct frame *frame, struct diag *diag)
+{
+    const struct sensor *fastest = NULL;
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        const struct sensor *sensor = &suite->sensors.items[i];
+        if (sensor->cycle_s > 0 && (fastest == NULL || sensor->cycle_s < fastest->cycle_s))
+            fastest = sensor;
+    }
+    double rate_hz = ceil(10 / fastest->cycle_s - 1e-6) / 10;
+    diag_note(diag,
+              "sensor \"%s\" has a cycle of %g s and measures once in a frame of %g s; from %g "
+              "frames a second on it measures in its cycle",
+              fastest->name, fastest->cycle_s, frame->interval_s, rate_hz);
+}
+
 /* Adds the sensor to the frame, and its echoes if it measures in the frame. */
-static int add_sensor(struct frame *frame, const struct sensor *sensor,
+static int add_sensor(struct frame *frame, const struct suite *suite, const struct sensor *sensor,
                       const struct selection *selection, struct diag *diag)
 {
     double instant_s = 0;
     enum scan_timing_answer answer =
         scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
-    if (answer == SCAN_TIMING_SEVERAL)
-        return diag_fail(diag, DIAG_DATA,
-                         "sensor \"%s\" measures every %g s, more than once in a frame of %g s; "
-                         "raise the frame rate",
-                         sensor->name, sensor->cycle_s, frame->interval_s);
+    if (answer == SCAN_TIMING_LONG_FRAME)
+        note_long_frame(suite, frame, diag);
     struct sensor_view *view = list_add(&frame->sensors.list, frame->arena);
-    *view = view_of(sensor, answer == SCAN_TIMING_ONE);
+    *view = view_of(sensor, answer != SCAN_TIMING_NONE);
     if (answer == SCAN_TIMING_NONE)
         return 0;
     struct look look;
@@ -85,7 +101,8 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
     if (suite_choice_effects(&ideal->choice, frame, runner, &selection) != 0)
         return -1;
     for (size_t i = 0; i < suite->sensors.count; i++)
-        if (add_sensor(frame, &suite->sensors.items[i], &selection, runner_diag(runner)) != 0)
+        if (add_sensor(frame, suite, &suite->sensors.items[i], &selection, runner_diag(runner)) !=
+            0)
             return -1;
     return 0;
 }

@@ -34,6 +34,9 @@ static int view_start(void *state, struct runner *runner)
     if (view->vehicles != NULL &&
         document_check_folder("--vehicles", view->vehicles, runner_diag(runner)) != 0)
         return -1;
+    struct document_names known = {0}; /* refuses a GLINT_DATA where no class could be found */
+    if (document_list("vehicles", ".json", &known, runner_arena(runner), runner_diag(runner)) != 0)
+        return -1;
     if (runner_output_is_terminal(runner))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "standard output is a terminal, which shows no page and no still; write "

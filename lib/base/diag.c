@@ -18,6 +18,16 @@ int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
     return -1;
 }
 
+void diag_note(struct diag *diag, const char *format, ...)
+{
+    if (diag->text[0] != '\0')
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(diag->text, sizeof diag->text, format, arguments);
+    va_end(arguments);
+}
+
 enum diag_code diag_code_by_errno(enum diag_code otherwise)
 {
     return errno == ENOMEM || errno == EMFILE || errno == ENFILE ? DIAG_MEMORY : otherwise;

@@ -28,6 +28,9 @@ struct diag {
 int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Notes what is printed at the end of the run, which goes on. The first note stays. */
+void diag_note(struct diag *diag, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /* DIAG_MEMORY if errno says that memory or descriptors are used up, otherwise the code. */
 enum diag_code diag_code_by_errno(enum diag_code otherwise);
 

@@ -109,9 +109,9 @@ static size_t add_accuracy(const struct sensor *sensor, struct consistency *chec
           sensor->azimuth_cell_rad * even);
     ADD(STRICT, ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", sqrt(6) / (2 * PI), "window_factor",
         factor, "window_factor");
-    ADD(STRICT, RAD, "beam of the antenna",
-        sensor->beams.count > 0 ? array_beam(&sensor->beams) : antenna_beam_rad(&sensor->antenna),
-        "azimuth_cell_rad", sensor->azimuth_cell_rad, "azimuth_cell_rad");
+    LIMIT(RAD, "beam of the antenna",
+          sensor->beams.count > 0 ? array_beam(&sensor->beams) : antenna_beam_rad(&sensor->antenna),
+          "azimuth_cell_rad", sensor->azimuth_cell_rad);
     if (sensor->waveform.samples > 0 && sensor->pointer_sigma > 0)
         ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
             "noise alone, range bins times repetitions times cfar_false_alarm",

@@ -95,15 +95,14 @@ static double level_db(const struct effect_scan *scan, const struct object *body
     return db;
 }
 
-/* Factors on amplitude, by the frame's objects; 0 for objects without an echo. Echoes may be of
- * something that is no object, as clutter is. */
+/* Factors on amplitude, by the frame's objects; 0 for objects without an echo. */
 static const double *begin(const struct effect_scan *scan)
 {
     const struct frame *frame = scan->frame;
     struct vec2 from_m = effect_sensor_pose(scan).position_m;
     double *factors = arena_get(frame->arena, frame->objects.count * sizeof *factors);
     for (size_t i = 0; i < scan->echoes.count; i++) {
-        const struct object *body = frame_object(frame, scan->echoes.items[i].id.object);
+        const struct object *body = frame_object_of(frame, &scan->echoes.items[i].id);
         double *factor = body != NULL ? &factors[body - frame->objects.items] : NULL;
         if (factor != NULL && *factor == 0)
             *factor = units_amplitude_from_db(level_db(scan, body, from_m));
@@ -114,7 +113,7 @@ static const double *begin(const struct effect_scan *scan)
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
 {
     const struct frame *frame = scan->frame;
-    const struct object *body = frame_object(frame, reception->echo->id.object);
+    const struct object *body = frame_object_of(frame, &reception->echo->id);
     return body != NULL &&
            effect_scale(reception, reception->constants[body - frame->objects.items]);
 }

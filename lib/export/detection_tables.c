@@ -214,8 +214,8 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key, 
 struct writing {
     struct detection_tables *tables;
     const struct frame *frame;
-    const char *id; /* that was looked for last, as echoes of one object stand together */
-    const struct object *object; /* with that id, or NULL */
+    struct echo_id echo; /* that was looked for last, as echoes of one object stand together */
+    const struct object *object; /* of that echo, or NULL */
     struct row row;
     struct row_counts rows; /* that have been written of the frame */
     bool has_pose;
@@ -235,12 +235,12 @@ static void write_row(struct writing *writing, enum table table, const void *con
 }
 
 /* Finds the object of an echo and its key, which are NULL and none for the ground and for noise. */
-static void find_object(struct writing *writing, const char *id)
+static void find_object(struct writing *writing, const struct echo_id *echo)
 {
     const struct frame *frame = writing->frame;
-    if (writing->id == NULL || !frame_same_name(writing->id, id)) {
-        writing->id = id;
-        writing->object = frame_object(frame, id);
+    if (writing->echo.object == NULL || !frame_same_object(&writing->echo, echo)) {
+        writing->echo = *echo;
+        writing->object = frame_object_of(frame, echo);
     }
     writing->row.object_key =
         writing->object == NULL
@@ -261,7 +261,7 @@ static void write_contributors(struct writing *writing, const struct target *tar
 {
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *from = &target->contributors.items[i];
-        find_object(writing, from->id.object);
+        find_object(writing, &from->id);
         writing->row.contributor = (int64_t)i;
         write_row(writing, TABLE_CONTRIBUTORS, STRUCTS(&writing->row, from));
     }
@@ -309,7 +309,7 @@ static void write_detection(struct writing *writing, const struct target *target
     struct row *row = &writing->row;
     const struct contributor *from = frame_strongest(target);
     row->contributors = (int64_t)target->contributors.count;
-    find_object(writing, from->id.object);
+    find_object(writing, &from->id);
     row->class = writing->object != NULL ? writing->object->class : NULL;
     row->radar_ghost_label = radar_ghost_label(from->id.path, row->class);
     write_row(writing, TABLE_DETECTIONS,
@@ -323,7 +323,7 @@ static void write_sightings(struct writing *writing, const struct sensor_view *s
         const struct sighting *sighting = &frame->visibility.items[i];
         if (!frame_same_name(sighting->sensor, sensor->name))
             continue;
-        find_object(writing, sighting->object);
+        find_object(writing, &(struct echo_id){.object = sighting->object});
         write_row(writing, TABLE_SIGHTINGS, STRUCTS(&writing->row, sighting));
     }
 }
@@ -338,7 +338,7 @@ static void write_lost(struct writing *writing, const struct sensor_view *sensor
             continue;
         for (size_t j = 0; j < group->echoes.count; j++) {
             const struct lost_echo *echo = &group->echoes.items[j];
-            find_object(writing, echo->id.object);
+            find_object(writing, &echo->id);
             write_row(writing, TABLE_LOST, STRUCTS(&writing->row, group, echo));
         }
     }

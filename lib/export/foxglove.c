@@ -33,7 +33,7 @@ static void add_point(struct osi_trace *trace, const struct frame *frame,
     const struct contributor *from = frame_strongest(target);
     const struct quality *quality = &target->quality;
     struct vec2 place_m = vec2_scale(target->range_m, vec2_heading(target->azimuth_rad));
-    bool known = from != NULL && frame_object(frame, from->id.object) != NULL;
+    bool known = from != NULL && frame_object_of(frame, &from->id) != NULL;
     bool over_ground = (quality->present & QUALITY_EGO) != 0;
     const float reals[REALS] = {(float)place_m.x,
                                 (float)place_m.y,

@@ -269,7 +269,7 @@ static Osi3__RadarDetection *detection_of(struct osi_trace *trace, const struct 
 {
     const struct quality *quality = &target->quality;
     const struct contributor *from = frame_strongest(target);
-    bool known = from != NULL && frame_object(trace->frame, from->id.object) != NULL;
+    bool known = from != NULL && frame_object_of(trace->frame, &from->id) != NULL;
     Osi3__RadarDetection *own = NEW(trace, radar_detection);
     own->object_id =
         known ? object_id(trace, from->id.object) : NUMBERS(trace, identifier, no_object);

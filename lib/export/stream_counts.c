@@ -19,7 +19,7 @@ static struct name_count *count(struct name_counts *names, const char *name, int
 static void count_kind(struct stream_counts *counts, const struct frame *frame,
                        const struct contributor *strongest, struct arena *arena)
 {
-    const struct object *object = frame_object(frame, strongest->id.object);
+    const struct object *object = frame_object_of(frame, &strongest->id);
     enum path path = strongest->id.path;
     if (frame_shows_object(path))
         count(&counts->classes, object != NULL ? object->class : strongest->id.object, 1, arena);
@@ -38,7 +38,7 @@ static void count_target(struct stream_counts *counts, const struct frame *frame
     bool merged = false;
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *from = &target->contributors.items[i];
-        merged = merged || strcmp(from->id.object, target->contributors.items[0].id.object) != 0;
+        merged = merged || !frame_same_object(&from->id, &target->contributors.items[0].id);
         if (frame_carries(frame, CARRY_ACCOUNT) && from->id.path != PATH_FALSE_ALARM)
             count(&counts->outcomes, "in a target", 1, arena);
     }

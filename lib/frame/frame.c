@@ -59,6 +59,22 @@ bool frame_shows_object(enum path path)
     return path == PATH_DIRECT || path == PATH_WHEEL || path == PATH_LIMB;
 }
 
+bool frame_has_object(enum path path)
+{
+    return path != PATH_CLUTTER && path != PATH_FALSE_ALARM;
+}
+
+struct object *frame_object_of(const struct frame *frame, const struct echo_id *echo)
+{
+    return frame_has_object(echo->path) ? frame_object(frame, echo->object) : NULL;
+}
+
+bool frame_same_object(const struct echo_id *a, const struct echo_id *b)
+{
+    return frame_has_object(a->path) == frame_has_object(b->path) &&
+           frame_same_name(a->object, b->object);
+}
+
 const struct contributor *frame_strongest(const struct target *target)
 {
     const struct contributor *strongest = NULL;
@@ -104,9 +120,11 @@ bool frame_detects(const struct frame *frame, const char *object)
 {
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
-        for (size_t j = 0; j < target->contributors.count; j++)
-            if (frame_same_name(target->contributors.items[j].id.object, object))
+        for (size_t j = 0; j < target->contributors.count; j++) {
+            const struct echo_id *echo = &target->contributors.items[j].id;
+            if (frame_has_object(echo->path) && frame_same_name(echo->object, object))
                 return true;
+        }
     }
     return false;
 }

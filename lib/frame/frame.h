@@ -76,14 +76,16 @@ struct class_document {
 struct sensor_view {
     const char *name;
     double mount_x_m, mount_y_m, mount_yaw_rad;
+    double mount_z_m; /* 0: not known */
     double field_of_view_rad;
     double range_max_m;
     double cell_range_m, cell_range_rate_mps;
-    double azimuth_cell_rad; /* 0: a twentieth of the field of view */
-    double carrier_hz;       /* 0: not known */
-    double cycle_s;          /* 0: a scan in every frame */
-    bool measured;           /* does the frame have a scan of this sensor? */
-    double age_s;            /* the frame's time less the time that the scan shows */
+    double resolution_range_m, resolution_range_rate_mps; /* 0: not known */
+    double azimuth_cell_rad;                              /* 0: a twentieth of the field of view */
+    double carrier_hz;                                    /* 0: not known */
+    double cycle_s;                                       /* 0: a scan in every frame */
+    bool measured; /* does the frame have a scan of this sensor? */
+    double age_s;  /* the frame's time less the time that the scan shows */
 };
 
 struct sensors {
@@ -333,6 +335,17 @@ struct object *frame_object(const struct frame *frame, const char *id);
 
 /* True for paths whose echoes come from the place of an object: no ghost, clutter, false alarm. */
 bool frame_shows_object(enum path path);
+
+/* True for paths whose echoes are of an object. Clutter and false alarms are of none: the name that
+ * stands for their object is only a word, which an object may have as its id. */
+bool frame_has_object(enum path path);
+
+/* The object that an echo is of, directly or by a mirror. NULL if it is of none, or if the frame
+ * lacks the object. Whoever joins a label to its object asks this function. */
+struct object *frame_object_of(const struct frame *frame, const struct echo_id *echo);
+
+/* True if both echoes are of one object, or both of no object and named alike. */
+bool frame_same_object(const struct echo_id *a, const struct echo_id *b);
 
 /* The contributor of the greatest weight, the first of equals; NULL: the target has no label. */
 const struct contributor *frame_strongest(const struct target *target);

@@ -23,13 +23,18 @@ static int check_numbers(const struct record *record, const void *told, const vo
     return result;
 }
 
-/* Sensors must be those of the suite. */
+/* Sensors must be those of the suite. Streams of earlier versions tell neither the height of a
+ * sensor nor its resolution. */
 static int check_views(const struct frame *frame, const struct frame *again, struct diag *diag)
 {
-    for (size_t i = 0; i < frame->sensors.list.count && i < again->sensors.list.count; i++)
-        if (check_numbers(&sensor_view_record, &frame->sensors.list.items[i],
-                          &again->sensors.list.items[i], diag) != 0)
+    for (size_t i = 0; i < frame->sensors.list.count && i < again->sensors.list.count; i++) {
+        const struct sensor_view *told = &frame->sensors.list.items[i];
+        struct sensor_view truth = again->sensors.list.items[i];
+        if (told->resolution_range_m == 0)
+            truth.mount_z_m = truth.resolution_range_m = truth.resolution_range_rate_mps = 0;
+        if (check_numbers(&sensor_view_record, told, &truth, diag) != 0)
             return diag_prefix(diag, "sensors.list[%zu].", i);
+    }
     return 0;
 }
 
@@ -72,7 +77,7 @@ static int check_contributor(const struct contributor *told, const char *sensor,
         }
     bool made_later = told->id.path >= PATH_WHEEL; /* than by ideal: of a body, or of none */
     if (made_later &&
-        (frame_object(again, told->id.object) != NULL) == frame_shows_object(told->id.path))
+        (frame_object_of(again, &told->id) != NULL) == frame_shows_object(told->id.path))
         return 0;
     return diag_fail(diag, DIAG_DATA, "reflector: the objects make no echo of \"%s\", \"%s\", %s",
                      told->id.object, told->id.reflector, frame_paths[told->id.path]);

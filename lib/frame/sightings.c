@@ -51,7 +51,7 @@ static void count_target(struct frame *frame, const struct target *target, size_
     const struct contributor *from = target->contributors.items;
     bool merged = false;
     for (size_t i = 1; i < target->contributors.count; i++)
-        merged = merged || !frame_same_name(from[i].id.object, from[0].id.object);
+        merged = merged || !frame_same_object(&from[i].id, &from[0].id);
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct echo_id *id = &from[i].id;
         struct sighting *sighting = find(frame, target->sensor, id->object);

@@ -180,7 +180,7 @@ static void add_labels(const struct detection_source *source, const struct targe
     const struct contributor *parts = target->contributors.items;
     double interval_mps = source->range_rate_interval_mps;
     for (size_t i = 1; i < target->contributors.count; i++) {
-        bool same = frame_same_name(parts[i].id.object, parts[0].id.object);
+        bool same = frame_same_object(&parts[i].id, &parts[0].id);
         quality->merged_objects |= !same;
         quality->merged_reflectors |=
             !same || !frame_same_name(parts[i].id.reflector, parts[0].id.reflector);

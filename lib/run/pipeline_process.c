@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "base/suggestion.h"
@@ -233,11 +234,20 @@ static void add_effect(const struct effect *effect, struct text *text)
                 leaves ? effect->left_out_when : "", effect->cost);
 }
 
-/* The origin of a suite or a scenario, without "Made for glint ...: " at its beginning. */
+/* The origin of a suite or a scenario, without "Made for glint ...: " at its beginning; of a link,
+ * what it leads to. */
 static void add_origin(const char *name, const char *path, struct text *text, struct arena *arena)
 {
     (void)name;
     static const char ours[] = "Made for glint";
+    char *target = path_target(path);
+    const char *there = path_name(target);
+    bool is_link = strcmp(there, path_name(path)) != 0;
+    if (is_link)
+        text_format(text, "another name of %.*s", (int)strcspn(there, "."), there);
+    free(target);
+    if (is_link)
+        return;
     const char *origin = document_origin(path, arena);
     if (origin == NULL)
         origin = "a document without an origin";

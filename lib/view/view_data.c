@@ -1,7 +1,6 @@
 #include "view/view_data.h"
 
 #include "base/sort.h"
-#include "documents/suite_file.h"
 #include "score/target_score.h"
 
 /* The numbers that tell what a lost echo is and why it is lost. The columns DETAIL_OBJECT to
@@ -51,6 +50,14 @@ static void put_name(struct view_data *data, enum view_column column, const char
     put_count(data, column, optional_name(data, word));
 }
 
+/* The number of the object of an echo. What is of no object has a number of its own, even if an
+ * object has its name: the 0 at the end of the word is part of it then. */
+static uint32_t owner_of(struct view_data *data, const struct echo_id *echo)
+{
+    size_t length = strlen(echo->object) + (frame_has_object(echo->path) ? 0 : 1);
+    return intern_number(&data->names, echo->object, length, data->arena);
+}
+
 void view_data_begin(struct view_data *data, struct arena *arena)
 {
     *data = (struct view_data){.arena = arena, .models = {.arena = arena}};
@@ -91,25 +98,12 @@ static bool same_sensor(const struct sensor_view *a, const struct sensor_view *b
            a->mount_y_m == b->mount_y_m && a->mount_yaw_rad == b->mount_yaw_rad &&
            a->field_of_view_rad == b->field_of_view_rad && a->range_max_m == b->range_max_m &&
            a->cell_range_m == b->cell_range_m && a->carrier_hz == b->carrier_hz &&
-           a->cell_range_rate_mps == b->cell_range_rate_mps;
+           a->cell_range_rate_mps == b->cell_range_rate_mps &&
+           a->resolution_range_m == b->resolution_range_m &&
+           a->resolution_range_rate_mps == b->resolution_range_rate_mps;
 }
 
-/* The cell by the suite's document, if that is the installed one; else by the frame's statement. */
-static struct view_cell cell_of(const struct sensors *sensors, const struct sensor_view *view,
-                                struct arena *arena)
-{
-    struct diag unused = {0};
-    const struct suite *suite = suite_file_load(sensors->suite, arena, &unused);
-    const struct sensor *sensor = NULL;
-    if (suite != NULL && strcmp(suite->digest, sensors->digest) == 0)
-        sensor = suite_sensor(suite, view->name);
-    return sensor != NULL
-               ? (struct view_cell){2 * sensor->half_range_m, 2 * sensor->half_range_rate_mps}
-               : (struct view_cell){view->cell_range_m, view->cell_range_rate_mps};
-}
-
-static uint32_t sensor_of(struct view_data *data, const struct sensors *sensors,
-                          const struct sensor_view *sensor, struct arena *scratch)
+static uint32_t sensor_of(struct view_data *data, const struct sensor_view *sensor)
 {
     for (size_t i = 0; i < data->sensors.count; i++)
         if (same_sensor(&data->sensors.items[i], sensor))
@@ -117,7 +111,6 @@ static uint32_t sensor_of(struct view_data *data, const struct sensors *sensors,
     struct sensor_view *copy = list_add(&data->sensors, data->arena);
     *copy = *sensor;
     copy->name = arena_text(data->arena, sensor->name, strlen(sensor->name));
-    *list_add(&data->cells, data->arena) = cell_of(sensors, sensor, scratch);
     return (uint32_t)data->sensors.count - 1;
 }
 
@@ -142,6 +135,7 @@ static void add_contributor(struct view_data *data, const struct contributor *fr
 {
 #define CONTRIBUTOR(name, key, how, member) add_##how(data, COLUMN_##name, from->member);
 #include "view/view_columns.def"
+    put_count(data, COLUMN_CONTRIBUTOR_OBJECT, owner_of(data, &from->id));
     put_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
 }
 
@@ -233,7 +227,7 @@ static struct vec2 spot_of(struct view_data *data, uint32_t scene, const struct 
 static bool is_at_spot(struct view_data *data, const struct loss_scan *scan,
                        const struct loss_row *row, const struct lost_echo *echo)
 {
-    const struct object *object = frame_object(scan->frame, echo->id.object);
+    const struct object *object = frame_object_of(scan->frame, &echo->id);
     if (echo->range_m == 0)
         return true;
     if (object == NULL || echo->id.path != PATH_DIRECT)
@@ -264,7 +258,7 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
     for (size_t i = 0; i < group->echoes.count; i++) {
         const struct lost_echo *echo = &group->echoes.items[i];
         struct loss_row *row = list_add(&scan->rows, scan->frame->arena);
-        row->of[LOST_OBJECT] = name_of(data, echo->id.object);
+        row->of[LOST_OBJECT] = owner_of(data, &echo->id);
         row->of[LOST_REFLECTOR] = name_of(data, echo->id.reflector);
         row->of[LOST_PATH] = echo->id.path;
         row->of[LOST_MIRROR] = optional_name(data, echo->id.mirror);
@@ -341,7 +335,7 @@ static void add_scan(struct view_data *data, const struct frame *frame, uint32_t
     put_real(data, COLUMN_SCAN_VX, scan.pose.velocity_mps.x);
     put_real(data, COLUMN_SCAN_VY, scan.pose.velocity_mps.y);
     put_real(data, COLUMN_SCAN_AGE, scan.age_s);
-    put_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, &frame->sensors, sensor, frame->arena));
+    put_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, sensor));
     put_count(data, COLUMN_SCAN_MEASURED, sensor->measured);
     put_count(data, COLUMN_SCAN_TARGETS, add_targets(data, frame, sensor->name));
     add_losses(data, &(struct loss_scan){.frame = frame, .scan = scan, .scene = scene},
@@ -377,7 +371,7 @@ static uint32_t add_truths(struct view_data *data, const struct frame *frame,
         put_real(data, COLUMN_TRUTH_AZIMUTH, truth->azimuth_rad);
         put_real(data, COLUMN_TRUTH_RATE, truth->range_rate_mps);
         put_real(data, COLUMN_TRUTH_AMPLITUDE, truth->amplitude_db);
-        put_name(data, COLUMN_TRUTH_OBJECT, truth->contributors.items[0].id.object);
+        put_count(data, COLUMN_TRUTH_OBJECT, 1 + owner_of(data, &truth->contributors.items[0].id));
         put_count(data, COLUMN_TRUTH_LISTED, listed != NULL ? number_in_list(frame, listed) : 0);
     }
     return count;

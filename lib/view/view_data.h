@@ -41,11 +41,6 @@ struct view_scene {
     bool ended;
 };
 
-/* Full widths of a sensor's resolution cell. Echoes within half of them of the leader merge. */
-struct view_cell {
-    double range_m, range_rate_mps;
-};
-
 struct view_data {
     struct arena *arena;
     struct view_models models;
@@ -54,7 +49,6 @@ struct view_data {
     struct intern own_reasons;  /* of losses, numbered behind those of enum loss */
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
-    LIST_OF(struct view_cell) cells; /* of each of these sensors */
     struct view_columns columns;
     struct reference_stream *truth, *tracks; /* the other streams; NULL: not asked for */
     struct track_memory memory;

@@ -20,7 +20,6 @@ struct head {
     LIST_OF(struct effect_set) effect_sets;
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
-    LIST_OF(struct view_cell) cells;
     LIST_OF(struct view_column_place) columns;
 };
 
@@ -79,14 +78,6 @@ static const struct field shape_fields[] = {
 static const struct record shape_record = {
     .name = "shape", .size = sizeof(struct view_shape), .fields = shape_fields};
 
-static const struct field cell_fields[] = {
-    {FIELD_REAL_IN(struct view_cell, range_m, 0, 1e7, "full width in range")},
-    {FIELD_REAL_IN(struct view_cell, range_rate_mps, 0, 1e6, "full width in range rate")},
-    {0},
-};
-static const struct record view_cell_record = {
-    .name = "cell", .size = sizeof(struct view_cell), .fields = cell_fields};
-
 static const struct field head_fields[] = {
     {FIELD_INTEGER_IN(struct head, open_frame, -1, 0x1p53,
                       "number of the frame to open; -1: the page's choice")},
@@ -101,7 +92,6 @@ static const struct field head_fields[] = {
     {FIELD_LIST_OF(struct head, effect_sets, &effect_set_record, "sets of effects, by number")},
     {FIELD_LIST_OF(struct head, scenes, &scene_record, "scenes, by number")},
     {FIELD_LIST_OF(struct head, sensors, &sensor_view_record, "sensors, by number")},
-    {FIELD_LIST_OF(struct head, cells, &view_cell_record, "resolution cells, by sensor")},
     {FIELD_LIST_OF(struct head, columns, &place_record, "places of the columns")},
     {0},
 };
@@ -202,7 +192,6 @@ void view_page_write_head(const struct view_data *data, int64_t open_frame, stru
         .open_frame = open_frame,
         .scenes = {data->scenes.items, data->scenes.count, 0},
         .sensors = {data->sensors.items, data->sensors.count, 0},
-        .cells = {data->cells.items, data->cells.count, 0},
         .columns = {places, COLUMN_COUNT, 0},
     };
     struct text plain = {0};

@@ -32,9 +32,10 @@ class Bench:
 
     def write_probe(self):
         """The suite "probe": one sensor of the paper's in the middle of a standing observer."""
-        with open(self.path("sensors", "srr24-pair-every-frame"), encoding="utf-8") as file:
+        with open(self.path("sensors", "srr24-pair"), encoding="utf-8") as file:
             sensor = json.load(file)["sensors"][0]
         sensor.update(name="probe", mount_x_m=0, mount_y_m=0)
+        sensor.pop("cycle_s")  # a scan in every frame
         self.write("sensors", "probe", {"origin": "scripts/figures", "sensors": [sensor]})
 
     def write_point(self, name, ercs):

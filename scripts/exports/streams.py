@@ -1,6 +1,5 @@
 """Reads what is exported, with all that formats need: frames of lines, of the tables of glint-tables, or of a set."""
 import csv
-import functools
 import glob
 import gzip
 import itertools
@@ -14,11 +13,10 @@ import zlib
 
 import glint
 import schema
-from documents import data_folders
-from plan import BAD_DATA, NO_INPUT, ROOT, Fault, read_json
+from plan import BAD_DATA, ROOT, Fault, read_json
 from progress import Progress
 
-HEIGHT_M = 0.5  # of a sensor whose document has none: usual for radars
+HEIGHT_M = 0.5  # of a sensor that has none: usual for radars
 LEVELS = "v0-40", "v40-60", "v60-80", "v80-100"
 COUNTED = "objects", "scans", "detections", "contributors", "sightings", "lost"  # tables of which frames have numbers of rows
 CELLS = {"frame_key", "detection_key", "seed", "time_s", "sensor", "measured_s", "detection", "contributor", *COUNTED}  # no row lacks them
@@ -29,7 +27,7 @@ QUALITY = ("rcs_dbsm", "range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad", "exi
            "x_rear_axle_m")
 NEEDED = {**dict.fromkeys(("scene", "seed", "frame", "time_s", "ego"), (lambda value: value is not None, "a value")),
           "objects": [{"class": glint.NAME, "length_m": LENGTH, "width_m": LENGTH, "height_m": LENGTH}],
-          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau)}]},
+          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau), "mount_z_m": glint.number(0, 100)}]},
           "targets": [{"quality": dict.fromkeys(QUALITY, VALUE), "contributors": [{"path": glint.NAME}]}],
           "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
 GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave out --sections -objects",
@@ -128,15 +126,15 @@ def frames_of_tables(folder):
 
 
 def streams_of(path):
-    """The streams of an input: split and documents of a set, or None, and frames. Shards of a set are read by their tables, or by
-    their lines if they have none."""
+    """The streams of an input: split of a set, or None, and frames. Shards of a set are read by their tables, or by their lines if
+    they have none."""
     manifest, shards = os.path.join(path, "datapackage.json"), {(None, path)}
     if os.path.exists(manifest):
         shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3]))
                   for one in document(manifest, "set")["resources"]}
     for split, place in sorted(shards, key=str):
         place += ".jsonl.gz" * (split is not None and not glob.glob(os.path.join(glob.escape(place), "frames.csv*")))
-        yield split, split and os.path.join(path, "documents"), frames_of_tables(place) if os.path.isdir(place) else glint.frames(place)
+        yield split, frames_of_tables(place) if os.path.isdir(place) else glint.frames(place)
 
 
 def document(path, kind):
@@ -147,26 +145,12 @@ def document(path, kind):
     return found
 
 
-@functools.lru_cache
-def mounts(suite, folder, name):
-    """The sensors of a suite by name, from its document: the given one, or the one of its name."""
-    places = [suite] if suite else [os.path.join(one, "sensors", name + ".json") for one in ([folder] if folder else data_folders())]
-    path = next(filter(os.path.isfile, places), None)
-    if path is None:
-        raise Fault(NO_INPUT, f"{' and '.join(places)}: no such file, and frames lack the heights of sensors; name their document by --suite")
-    return path, {one["name"]: one for one in document(path, "suite")["sensors"]}
-
-
-def complete(frame, suite, folder):
-    """Refuses a frame that lacks what formats need; gives its sensors their heights."""
-    if fault := glint.fault(frame, NEEDED, ("visibility",)):
+def complete(frame):
+    """Refuses a frame that lacks what formats need; gives a height to sensors that have none."""
+    if fault := glint.fault(frame, NEEDED, ("visibility", "mount_z_m")):
         raise Fault(BAD_DATA, "; ".join([f"{frame.place}: {fault[1:]}", *(hint for name, hint in GIVEN_BY.items() if name in fault)]))
-    path, sensors = mounts(suite, folder, frame["sensors"]["suite"])
     for one in frame["sensors"]["list"]:
-        mount = sensors.get(one["name"], {})
-        if any(mount.get(key) != one[key] for key in ("mount_x_m", "mount_y_m", "mount_yaw_rad")):
-            raise Fault(BAD_DATA, f"{frame.place}: sensor {one['name']}: {path} has no such sensor at this place")
-        one["mount_z_m"] = mount.get("mount_z_m", HEIGHT_M)
+        one.setdefault("mount_z_m", HEIGHT_M)
     words = [word(one["name"]) for one in frame["sensors"]["list"]]
     if len({*words}) < len(words):
         raise Fault(BAD_DATA, f"{frame.place}: sensors: two would be {max(words, key=words.count)}; expected names that differ in ASCII letters or digits")
@@ -200,17 +184,17 @@ def scene_by_scene(found):
             yield pickle.load(file)
 
 
-def complete_frames(streams, suite):
-    for split, folder, frames in Progress("streams").over(streams):
+def complete_frames(streams):
+    for split, frames in Progress("streams").over(streams):
         for frame in frames:
-            complete(frame, suite, folder)
+            complete(frame)
             yield {"validation": "val"}.get(split, split), frame
 
 
-def frames_of(streams, suite):
+def frames_of(streams):
     """The frames of streams with their splits, scene by scene, those of a scene in their order. Says on stderr which scenes have no scan."""
     seen, before = {}, (None, 0, 0)  # of each scene: its first frame's place, or None as soon as a sensor has measured
-    for split, frame in scene_by_scene(complete_frames(streams, suite)):
+    for split, frame in scene_by_scene(complete_frames(streams)):
         now = identity(frame), frame["frame"], frame["time_s"]
         if now[0] in seen if now[0] != before[0] else now[1] <= before[1] or now[2] <= before[2]:
             raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0][0]} at {now[2]} s; expected each scene once, with all of its "

@@ -73,19 +73,12 @@ def body(name, x=0, y=0, yaw=0, vx=0, vy=0, kind="car", turn=0, size=(4.5, 1.8, 
 
 
 def frame_of(objects, targets, number=0, sensors=None, **members):
-    """A frame by hand, whose radar looks ahead from the middle of the bumper, 0.4 m over the road (suite.json)."""
+    """A frame by hand, whose radar looks ahead from the middle of the bumper, 0.4 m over the road."""
     sensors = sensors or [{}]
-    listed = [{"name": "front", "mount_x_m": 2.25, "mount_y_m": 0, "mount_yaw_rad": 0, "field_of_view_rad": math.pi / 2, "range_max_m": 100,
-               "cell_range_m": 1, "cell_range_rate_mps": 1, "carrier_hz": 77e9} | one for one in sensors]
+    listed = [{"name": "front", "mount_x_m": 2.25, "mount_y_m": 0, "mount_z_m": 0.4, "mount_yaw_rad": 0, "field_of_view_rad": math.pi / 2,
+               "range_max_m": 100, "cell_range_m": 1, "cell_range_rate_mps": 1, "carrier_hz": 77e9} | one for one in sensors]
     return {"version": 0, "scene": "by-hand", "frame": number, "time_s": 0.1 * number, "interval_s": 0.1, "seed": "1", "ego": "ego",
             "objects": objects, "sensors": {"suite": "mine", "digest": "0", "list": listed}, "targets": targets} | members
-
-
-def suite_of(folder, frame, mount_z_m=0.4):
-    """The document of the suite of a frame by hand."""
-    with open(os.path.join(folder, "suite.json"), "w", encoding="utf-8") as file:
-        json.dump({"sensors": [one | {"mount_z_m": mount_z_m} for one in frame["sensors"]["list"]]}, file)
-    return "suite.json"
 
 
 # --- readers --------------------------------------------------------------------------------------
@@ -248,10 +241,10 @@ def read_pose(root, name):
 # --- numbers worked out by hand -------------------------------------------------------------------
 
 
-def by_hand(folder, frames, form, mount_z_m=0.4):
+def by_hand(folder, frames, form):
     """The exported folder of frames by hand."""
     out = f"{form}-{time.monotonic_ns()}"
-    export(folder, form, "--out", out, "--suite", suite_of(folder, frames[0], mount_z_m), save(folder, "hand.jsonl", frames))
+    export(folder, form, "--out", out, save(folder, "hand.jsonl", frames))
     return os.path.join(folder, out)
 
 
@@ -482,7 +475,7 @@ def boxes_lie_on_their_detections(folder):
     assert all(one["age_s"] == 0.05 for frame in frames for one in frame["sensors"]["list"])
     for form in FORMATS:
         root = os.path.join(folder, "exact-" + form)
-        export(folder, form, "--out", root, "--suite", "late.json", "exact.jsonl")
+        export(folder, form, "--out", root, "exact.jsonl")
         names = {row["box"]: row["object"] for row in read_table(root, "boxes")}
         tables = Tables(root, form) if form in Tables.OF else None
         data = {row["filename"]: row for row in tables.rows["sample_data"]} if tables else {}
@@ -567,7 +560,7 @@ def cycles_make_sweeps(folder):
     assert [(row["is_key_frame"], row["sample_token"]) for row in front] == [(False, first), (True, first), (False, second), (True, second), (False, second)]
     assert all(len(row["data"]) == 2 for row in tables.rows["sample"])
     never = [frame_of(objects, [], i, [sensors[0] | {"measured": i % 2 == 0}, sensors[1] | {"measured": i % 2 == 1}]) for i in range(4)]
-    said = export(folder, "nuscenes", "--out", "never", "--suite", suite_of(folder, never[0]), save(folder, "never.jsonl", never), status=65)
+    said = export(folder, "nuscenes", "--out", "never", save(folder, "never.jsonl", never), status=65)
     assert "no frame in which all sensors have a scan" in said
 
 
@@ -711,7 +704,6 @@ def a_plan_that_cannot_be_exported_makes_no_folder(folder):
 def what_formats_cannot_hold_is_refused(folder):
     """With the place, the value and what is expected, and nothing is left behind."""
     good = frame_of([body("ego"), body("other", x=12)], [target()])
-    suite = suite_of(folder, good)
 
     def changed(**members):
         return [good | members]
@@ -734,30 +726,26 @@ def what_formats_cannot_hold_is_refused(folder):
              ("nuscenes", [two], "two would be A_B"),
              ("./short.json", [good | {"frame": i, "time_s": i} for i in range(11)], "hand.jsonl:11: scan 10 of front; expected numbers of 1 digits")]
     for form, frames, wrong in cases:
-        words = ["--suite", suite_of(folder, frames[0])] if frames == [two] else ["--suite", suite]
-        said = export(folder, form, "--out", "out", *words, save(folder, "hand.jsonl", frames), status=65)
+        said = export(folder, form, "--out", "out", save(folder, "hand.jsonl", frames), status=65)
         assert wrong in said and said.startswith("export: ") and said.count("\n") == 1, (wrong, said)
         assert not [name for name in os.listdir(folder) if name.startswith("out")], os.listdir(folder)
-        suite_of(folder, good)
     save(folder, "hand.jsonl", [good])
-    for words, status, wrong in ((["nuscenes", "--out", "out", "hand.jsonl"], 66, "frames lack the heights of sensors; name their document by --suite"),
-                                 (["nuscenes", "--out", "out", "--suite", ROOT + "/data/sensors/srr24-pair.json", "hand.jsonl"], 65, "has no such sensor at this place"),
-                                 (["nuscenes", "--out", ".", "--suite", suite, "hand.jsonl"], 73, "is there already"),
-                                 (["nuscenes", "--out", "no/out", "--suite", suite, "hand.jsonl"], 73, "--out 'no/out': is there already, or cannot be made"),
-                                 (["nuscenes", "--out", "", "--suite", suite, "hand.jsonl"], 73, "--out ''"),
-                                 (["nuscenes", "--out", "n" * 256, "--suite", suite, "hand.jsonl"], 73, "nnn"),
-                                 (["kitti", "--out", "out", "--split", "../../../../out", "--suite", suite, "hand.jsonl"], 64, "--split: '../../../../out'; expected"),
-                                 (["kitti", "--out", "out", "--split", "", "--suite", suite, "hand.jsonl"], 64, "--split: ''; expected"),
-                                 (["kitti", "--out", "out", "--suite", "short.json", "hand.jsonl"], 65, "short.json: /: sensors is missing"),
+    for words, status, wrong in ((["nuscenes", "--out", "out", "--suite", "mine.json", "hand.jsonl"], 64, "unrecognized arguments: --suite"),
+                                 (["nuscenes", "--out", ".", "hand.jsonl"], 73, "is there already"),
+                                 (["nuscenes", "--out", "no/out", "hand.jsonl"], 73, "--out 'no/out': is there already, or cannot be made"),
+                                 (["nuscenes", "--out", "", "hand.jsonl"], 73, "--out ''"),
+                                 (["nuscenes", "--out", "n" * 256, "hand.jsonl"], 73, "nnn"),
+                                 (["kitti", "--out", "out", "--split", "../../../../out", "hand.jsonl"], 64, "--split: '../../../../out'; expected"),
+                                 (["kitti", "--out", "out", "--split", "", "hand.jsonl"], 64, "--split: ''; expected"),
                                  (["nuscenes", "--out", "out", "nowhere.jsonl"], 66, "nowhere.jsonl"), (["mine", "--out", "out", "hand.jsonl"], 66, "mine.json"),
                                  (["kitti", "hand.jsonl"], 64, "--out"), (["kitti", "--out", "out"], 64, "inputs"), (["--sim"], 64, "expected FORMAT")):
         assert wrong in export(folder, *words, status=status), (words, wrong)
-    export(folder, "kitti", "--out", "n" * 255, "--suite", suite, "hand.jsonl")
+    export(folder, "kitti", "--out", "n" * 255, "hand.jsonl")
     save(folder, "nothing.jsonl", [])
     assert "the inputs have no frame" in export(folder, "vod", "--out", "out", "nothing.jsonl", status=65)
     with open(os.path.join(folder, "cut.jsonl.gz"), "wb") as file:
         file.write(gzip.compress(json.dumps(good).encode() + b"\n")[:-20])
-    export(folder, "kitti", "--out", "out", "--suite", suite, "cut.jsonl.gz", status=65)
+    export(folder, "kitti", "--out", "out", "cut.jsonl.gz", status=65)
     assert not [name for name in os.listdir(folder) if name.startswith("out")], os.listdir(folder)
 
 
@@ -772,7 +760,6 @@ def any_member_may_be_wrong(folder):
     """Each member of the second frame is left out or replaced: what is not written is refused in one line, with 65."""
     good = [frame_of([body("ego", vx=20), body("other", x=12)], [target(), target()], i, visibility=[
         {"sensor": "front", "object": "other", "reflectors": 2, "in_range": 1, "in_view": 1, "visibility": "v0-40"}]) for i in range(2)]
-    suite_of(folder, good[0])
     os.environ.update(ENVIRONMENT)
     os.chdir(folder)
     refused = 0
@@ -788,7 +775,7 @@ def any_member_may_be_wrong(folder):
                 record[path[-1]] = value
             save(folder, "wrong.jsonl", frames)
             for form in ("nuscenes", "kitti"):
-                status, said = in_a_fork([form, "--out", "out", "--suite", "suite.json", "wrong.jsonl"])
+                status, said = in_a_fork([form, "--out", "out", "wrong.jsonl"])
                 assert status == 0 or status == 65 and re.fullmatch(r"export: wrong\.jsonl:[12]: .*\n", said), (path, value, form, status, said)
                 assert (status == 0) == os.path.exists("out")
                 shutil.rmtree("out", ignore_errors=True)
@@ -799,7 +786,6 @@ def any_member_may_be_wrong(folder):
 
 def any_member_of_a_layout_may_be_wrong(folder):
     """Each is left out or replaced: the document is refused, or the export is made."""
-    suite_of(folder, frame_of([], []))
     save(folder, "hand.jsonl", [frame_of([body("ego"), body("other", x=12)], [target()])])
     os.environ.update(ENVIRONMENT)
     os.chdir(folder)
@@ -817,7 +803,7 @@ def any_member_of_a_layout_may_be_wrong(folder):
                 else:
                     record[name] = value
                 save(folder, "layout.json", [layout.get("", [])])
-                status, said = in_a_fork(["./layout.json", "--out", "out", "--suite", "suite.json", "hand.jsonl"])
+                status, said = in_a_fork(["./layout.json", "--out", "out", "hand.jsonl"])
                 assert status == 0 or status == 65 and said.startswith("export: ./layout.json: /"), (form, path, value, status, said)
                 assert status == 65 or path[:1] not in ((), ("layout",), ("point",), ("fields",), ("digits",)), (form, path, value)
                 shutil.rmtree("out", ignore_errors=True)

@@ -139,7 +139,7 @@ def check_scripts(folder):
     linked = os.path.join(PREFIX, "share/glint/scripts")
     run(f"{linked}/make-radar {DOCUMENTS}/data/sheets/ars408-21.json -o radar.json && glint-traffic two-vehicles | glint-extract | "
         "glint-ideal --sensors ./radar.json --sections quality | glint-sensor | glint-noise >seen.jsonl", folder)
-    run(f"{linked}/export kitti --suite radar.json --out kitti seen.jsonl", folder)
+    run(f"{linked}/export kitti --out kitti seen.jsonl", folder)
 
 
 check_programs()

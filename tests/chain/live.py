@@ -176,8 +176,8 @@ def late_truth(frames, folder):
 LINE = {"class": "car", "y_m": 0, "yaw_rad": 0, "vy_mps": 0, "yaw_rate_radps": 0, "length_m": 0, "width_m": 0, "height_m": 0,
         "travelled_m": 0}
 OBJECTS = [{"id": "ego", "x_m": 0, "vx_mps": 30, **LINE}, {"id": "leader", "x_m": 60, "vx_mps": 20, **LINE}]
-STAGES = "glint-extract | glint-ideal --sensors lrr77-every-frame | glint-sensor | glint-noise"
-OWN = "glint-extract | glint-ideal --sensors lrr77-every-frame | {} | glint-sensor | glint-noise"
+STAGES = "glint-extract | glint-ideal --sensors lrr77 | glint-sensor | glint-noise"
+OWN = "glint-extract | glint-ideal --sensors lrr77 | {} | glint-sensor | glint-noise"
 
 
 def simulator():
@@ -188,7 +188,7 @@ def simulator():
     yield "pipelines/live.py", None if 20 < speed_mps < 21 and 30 < gap_m < 40 else f"ends with {shown.splitlines()[-1]}"
     with tempfile.TemporaryDirectory() as folder:
         os.makedirs(f"{folder}/sensors")
-        with open(f"{folder}/sensors/lrr77-every-frame.json", "w", encoding="utf-8") as suite:
+        with open(f"{folder}/sensors/lrr77.json", "w", encoding="utf-8") as suite:
             suite.write("{}")
         done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "GLINT_DATA": folder}, timeout=PATIENCE_S, check=False)
         said = done.stderr.splitlines()[-1]

@@ -496,6 +496,65 @@ def object_order(folder):
                         ("objects",), f"{source}, {noise}")
 
 
+READERS = {"tables": "glint-tables --plain {0}", "summary": "glint-summary", "osi": "glint-osi --shift-s 1",
+           "mcap": """glint-mcap --shift-s 1 | grep -ao '"data": *"[^"]*"'""",  # points, without sums of the bytes of the file
+           "page": "glint-view", "still": "glint-view --svg", "check": "glint-check",
+           "detected": "glint-score-tracks --objects detected --tracks <(python3 {root}/scripts/tracker {list}) {list}",
+           "tracks": "python3 {root}/scripts/tracker {list}",
+           "export": "python3 {root}/scripts/export nuscenes --out {0} {list} && rm {0}/glint-boxes.csv",  # boxes have hashes of ids
+           "python": "python3 -c 'import glint; print([glint.detections(one) for one in glint.frames()])'"}
+
+
+def read_by_all(folder, name):
+    """A list and what every reader of labels makes of it, of a scene in which a car out of sight has this id."""
+    poles = {"kind": "poles", "from_x_m": -50, "from_y_m": 5, "to_x_m": 400, "to_y_m": 5}
+    cars = [{"id": one, "class": "car", "x_m": x, "y_m": 0, "speed_mps": 20} for one, x in (("ego", 0), ("lead", 60), (name, -30))]
+    scene = save(folder, "named.json", {
+        "origin": "For tests.", "ego": "ego", "rate_hz": 10, "duration_s": 1, "roadside": [poles], "objects": cars,
+        "conditions": {"clutter_per_m2": 0.02, "clutter_ercs": 0.3}})
+    words = "--sensors lrr77-full --effects all --sections account,quality,visibility"
+    found = {"list": piped(f"glint-traffic {scene} | glint-extract | glint-ideal {words} | glint-sensor | glint-noise")}
+    place = os.path.join(folder, "named.jsonl")
+    with open(place, "wb") as out:
+        out.write(found["list"])
+    for reader, command in READERS.items():
+        out = os.path.join(folder, "read")
+        found[reader] = piped(f"export PYTHONPATH={ROOT}/scripts PYTHONDONTWRITEBYTECODE=1; "
+                              + command.format(out, list=place, root=ROOT), found["list"])
+        for path in sorted(glob.glob(out + "/*.csv")):
+            with open(path, "rb") as file:
+                found[f"{reader} {os.path.basename(path)}"] = file.read()
+        shutil.rmtree(out, ignore_errors=True)
+    return found
+
+
+def names_of_no_object(folder):
+    """A car called as the labels of what is no object changes no list, and no reader takes those labels for the car's."""
+    for name in ("roadside", "clutter", "noise"):
+        other = name[:-1] + chr(ord(name[-1]) + 1)  # as long, and in the same order among all names
+        found, expected = read_by_all(folder, name), read_by_all(folder, other)
+        labels = {one["object"] for frame in parse(found["list"]) for target in frame["targets"] for one in target["contributors"]
+                  if one["path"] in ("clutter", "false_alarm")}
+        check(labels == {"roadside", "clutter", "noise"}, f"the list has only labels of {labels}")
+        for reader, text in expected.items():
+            if (name, reader) != ("noise", "page"):  # a page keeps each name once, that of the stage noise as well
+                check(found[reader] == text.replace(other.encode(), name.encode()), f"{name}: {reader} joins labels to the car")
+
+
+def times_below_zero(folder):
+    """A scene that is earlier by 1000 or 20000 cycles has as many scans and targets in each frame."""
+    frames = parse(piped("glint-traffic cut-in"))
+
+    def counts(earlier_s):
+        moved = write([dict(frame, time_s=round(frame["time_s"] - earlier_s, 9)) for frame in frames])
+        return [(frame["sensors"]["list"][0]["measured"], len(frame["targets"])) for frame in parse(fused(chain("lrr77"), moved))]
+
+    expected = counts(0)
+    check(len({measured for measured, _ in expected}) == 2, "frames with a scan and frames without are due")
+    for earlier_s in (72, 1440):
+        check(counts(earlier_s) == expected, f"{earlier_s} s earlier there are other scans")
+
+
 def shards(folder):
     text = chain("srr24-pair")
     traffic = piped("glint-traffic cut-in")
@@ -854,11 +913,13 @@ PROPERTIES = [
     ("a mirrored scene gives the mirrored list", mirror_symmetry),
     ("a scene turned, or shifted by 1e6 m, gives the same list", turn_and_shift),
     ("the order of objects does not matter", object_order),
+    ("a scene before time 0 has the scans of one after it", times_below_zero),
     ("frames can be taken one at a time and in shards", shards),
     ("a line is read and written as it is alone", lines_alone),
     ("frames of two scenes may interleave", interleaved_scenes),
     ("a seed may be given anywhere and touches noise alone", seeds),
     ("objects that no sensor sees leave no trace", unseen_objects),
+    ("an object may have the name that labels of no object have", names_of_no_object),
     ("a perfect sensor without noise shows every echo as it is", perfect_sensor),
     ("Gaussian noise has the sigmas of the suite", gauss_noise),
     ("stages can be swapped for others", swapped_stages),

@@ -63,8 +63,9 @@ def carried(item, seconds):
 
 
 def instant(sensor, frame):
-    """The instant of the scan that falls into (time_s - interval_s, time_s], or None."""
-    if not sensor.get("cycle_s"):
+    """The instant of the scan that falls into (time_s - interval_s, time_s], or None; that of a frame longer than the cycle
+    is the frame's."""
+    if frame["interval_s"] > sensor.get("cycle_s", 0) + NEAR or not sensor.get("cycle_s"):
         return frame["time_s"]
     last = math.floor(frame["time_s"] / sensor["cycle_s"] + NEAR) * sensor["cycle_s"]
     return last if last > frame["time_s"] - frame["interval_s"] + NEAR else None

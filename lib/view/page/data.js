@@ -139,9 +139,11 @@ function sensorOf(scan) {
     return head.sensors[column('scan_sensor')[scan]];
 }
 
-// The full widths of a scan's resolution cell.
+// The full widths of a scan's resolution cell: an echo within half of them of a stronger one shares its
+// cell. Null where the stream does not tell them.
 function cellOf(scan) {
-    return head.cells[column('scan_sensor')[scan]];
+    const {resolution_range_m: range, resolution_range_rate_mps: rate} = sensorOf(scan);
+    return range > 0 && rate > 0 ? {range_m: 2 * range, range_rate_mps: 2 * rate} : null;
 }
 
 // Sensors of the same name look alike in all scenes.

@@ -68,13 +68,20 @@ function rememberPlace() {
     }, 200);
 }
 
+// The number of an object's id. A word that labels of no object have, as "roadside", is chosen only where
+// no object has it as its id.
+function objectNamed(id) {
+    const number = column('object_id').find(one => names[one] === id);
+    return number !== undefined ? number : names.indexOf(id);
+}
+
 // What the address asks for: scene, row and object by number, as far as the stream has them.
 function placeOfLink(parts) {
     const named = head.scenes.findIndex(scene => sceneName(scene) === parts.get('scene'));
     const scene = Math.max(0, named);
     const row = !parts.get('frame') ? -1
         : sceneFrames[scene].findIndex(frame => frameNumber(frame) === Number(parts.get('frame')));
-    return {scene, place: row < 0 ? null : {row, object: names.indexOf(parts.get('object') || undefined)}};
+    return {scene, place: row < 0 ? null : {row, object: objectNamed(parts.get('object') || undefined)}};
 }
 
 function followChoices(parts) {

@@ -391,6 +391,10 @@ function labelFates() {
 // Draws the ring one cell wide in range around the leader of a target: other echoes in it with a
 // similar range rate have no target of their own.
 function drawCellRing(scan, target) {
+    const cell = cellOf(scan);
+    if (!cell) {
+        return;
+    }
     const range = column('contributor_range_m')[leaderOf(target)];
     const sensor = sensorOf(scan);
     const at = toScreen(scanPlace(scan, 0, 0));
@@ -401,7 +405,7 @@ function drawCellRing(scan, target) {
     context.setLineDash([3, 3]);
     for (const side of [-0.5, 0.5]) {
         context.beginPath();
-        context.arc(at.x, at.y, Math.max(0, range + side * cellOf(scan).range_m) * camera.scale,
+        context.arc(at.x, at.y, Math.max(0, range + side * cell.range_m) * camera.scale,
             middle - half, middle + half);
         context.stroke();
     }

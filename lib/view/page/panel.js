@@ -257,7 +257,7 @@ function objectTitle(id) {
 }
 
 function objectNotes() {
-    if (names[state.object] === names[head.scenes[state.scene].ego]) {
+    if (state.object === head.scenes[state.scene].ego) {
         return ['The ego carries the sensors. It neither reflects nor blocks.'];
     }
     const notes = state.fresh ? ['Click a target to see what it is made of.'] : [];
@@ -420,6 +420,9 @@ function showTarget() {
 
 // The resolution cell that is drawn around a chosen target.
 function cellWords(cell) {
+    if (!cell) {
+        return 'The stream does not tell the size of the radar’s cell.';
+    }
     return `The radar’s cell: ${metres(cell.range_m)} m (dashed arcs on the map) by ` +
         `${metres(cell.range_rate_mps)} m/s (a box in range over rate, if enlarged enough).`;
 }

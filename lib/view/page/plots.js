@@ -191,7 +191,7 @@ function plotTarget(plot, kind, drawing, size, axes, scan, target) {
 function plotCell(kind, drawing, size, axes, scan, target) {
     const cell = cellOf(scan);
     const leader = leaderOf(target);
-    if (kind !== 'rate' || state.rates === 'compensated') {
+    if (!cell || kind !== 'rate' || state.rates === 'compensated') {
         return;
     }
     const rate = column('contributor_range_rate_mps')[leader];

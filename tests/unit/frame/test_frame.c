@@ -116,6 +116,28 @@ static void dropped_sections_are_as_if_they_had_never_been(void **state)
     arena_free(&arena);
 }
 
+/* An object may have the name that clutter has in its place. */
+static void clutter_and_noise_are_of_no_object(void **state)
+{
+    (void)state;
+    struct object car = {.id = "roadside"};
+    struct contributor part = {.id = {.object = "roadside"}};
+    struct target target = {.contributors = {&part, 1, 1}};
+    struct frame frame = {.objects = {&car, 1, 1}, .targets = {&target, 1, 1}};
+    for (enum path path = PATH_DIRECT; path < PATH_COUNT; path++) {
+        bool none = path == PATH_CLUTTER || path == PATH_FALSE_ALARM;
+        part.id.path = path;
+        assert_ptr_equal(frame_object_of(&frame, &part.id), none ? NULL : &car);
+        assert_int_equal(frame_detects(&frame, "roadside"), !none);
+    }
+    struct echo_id clutter = {.object = "roadside", .path = PATH_CLUTTER};
+    assert_null(frame_object_of(&frame, &(struct echo_id){.object = "van"}));
+    assert_true(frame_same_object(&clutter, &clutter));
+    assert_false(frame_same_object(&clutter, &(struct echo_id){.object = "roadside"}));
+    assert_true(frame_same_object(&(struct echo_id){.object = "roadside", .path = PATH_WHEEL},
+                                  &(struct echo_id){.object = "roadside"}));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -124,6 +146,7 @@ int main(void)
         cmocka_unit_test(a_frame_without_account_forgets_its_losses),
         cmocka_unit_test(spans_are_the_sensors_own),
         cmocka_unit_test(dropped_sections_are_as_if_they_had_never_been),
+        cmocka_unit_test(clutter_and_noise_are_of_no_object),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,7 @@
 #include "radar/scan_timing.h"
 
+#include <stdbool.h>
+
 #include "check.h"
 
 static void known_frames_have_known_instants(void **state)
@@ -13,28 +15,30 @@ static void known_frames_have_known_instants(void **state)
         /* once a frame */
         {0, 12.34, 0.05, SCAN_TIMING_ONE, 12.34},
         {0, 0, 0.05, SCAN_TIMING_ONE, 0},
-        /* the frame at time 0 holds the first instant and none before it */
+        /* before time 0 as after it */
         {0.05, 0, 0.05, SCAN_TIMING_ONE, 0},
-        {0.04, 0, 0.1, SCAN_TIMING_ONE, 0},
-        {0.04, -0.02, 0.05, SCAN_TIMING_NONE, 0},
-        {0.04, -0.2, 0.1, SCAN_TIMING_NONE, 0},
-        {0.04, 0.02, 0.1, SCAN_TIMING_ONE, 0},
+        {0.04, -0.02, 0.03, SCAN_TIMING_ONE, -0.04},
+        {0.04, -0.01, 0.02, SCAN_TIMING_NONE, 0},
+        {0.04, -0.2, 0.04, SCAN_TIMING_ONE, -0.2},
+        {0.04, -999.99, 0.04, SCAN_TIMING_ONE, -1000},
         /* open at the start, closed at the end */
         {0.5, 1.0, 0.25, SCAN_TIMING_ONE, 1.0},
         {0.5, 1.25, 0.25, SCAN_TIMING_NONE, 0},
         {0.5, 1.125, 0.25, SCAN_TIMING_ONE, 1.0},
         {0.5, 1.0, 0.5, SCAN_TIMING_ONE, 1.0},
-        {0.5, 1.0, 0.75, SCAN_TIMING_SEVERAL, 0},
+        {0.5, 1.0, 0.75, SCAN_TIMING_LONG_FRAME, 1.0},
         {0.5, 1.0, 0, SCAN_TIMING_NONE, 0},
         /* 1e-9 of a cycle counts as on it */
         {0.5, 1 - 0.4e-9, 0.25, SCAN_TIMING_ONE, 1.0},
         {0.5, 1 - 0.6e-9, 0.25, SCAN_TIMING_NONE, 0},
         {0.5, 1.25, 0.25 + 0.4e-9, SCAN_TIMING_NONE, 0},
         {0.5, 1.25, 0.25 + 0.6e-9, SCAN_TIMING_ONE, 1.0},
-        /* too slow a frame rate */
-        {0.04, 0.1, 0.1, SCAN_TIMING_SEVERAL, 0},
-        {0.04, 0.2, 0.1, SCAN_TIMING_SEVERAL, 0},
-        {0.001, 100, 0.1, SCAN_TIMING_SEVERAL, 0},
+        /* frames that last longer than the cycle */
+        {0.04, 0, 0.1, SCAN_TIMING_LONG_FRAME, 0},
+        {0.04, 0.1, 0.1, SCAN_TIMING_LONG_FRAME, 0.1},
+        {0.04, -0.21, 0.1, SCAN_TIMING_LONG_FRAME, -0.21},
+        {0.001, 100, 0.1, SCAN_TIMING_LONG_FRAME, 100},
+        {0.05, 0.05, 0.05 + 1e-9, SCAN_TIMING_LONG_FRAME, 0.05},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double instant_s = 0;
@@ -68,6 +72,23 @@ static void seconds_since_1970_lose_no_scan(void **state)
     assert_int_equal(scans, 2000);
 }
 
+/* The instants before time 0 are those after it, mirrored. */
+static void scans_before_time_0_are_as_many_as_after_it(void **state)
+{
+    (void)state;
+    int before = 0, after = 0;
+    for (int i = 0; i < 30000; i++) {
+        double instant_s;
+        after += scan_timing_instant_s(0.072, i * 0.05 + 0.01, 0.05, &instant_s) == SCAN_TIMING_ONE;
+        bool scan =
+            scan_timing_instant_s(0.072, 0.04 - i * 0.05, 0.05, &instant_s) == SCAN_TIMING_ONE;
+        before += scan;
+        assert_true(!scan || (instant_s <= 0.04 - i * 0.05 && instant_s > -0.01 - i * 0.05));
+    }
+    assert_int_equal(before, after);
+    assert_int_equal(before, 20833); /* up to 1499.96 s, and that at 0 */
+}
+
 /* Frames at i / rate, a cycle of ticks thousandths of a second: instant k belongs to the frame
  * i = ceil(k ticks rate / 1000), counted in whole numbers. */
 static void every_instant_is_delivered_exactly_once(void **state)
@@ -96,25 +117,17 @@ static void every_instant_is_delivered_exactly_once(void **state)
     }
 }
 
-static void frames_slower_than_the_cycle_say_so(void **state)
+static void frames_longer_than_the_cycle_have_a_scan_at_their_time(void **state)
 {
     (void)state;
-    for (int64_t i = 1; i < 1000000; i++) {
-        double instant_s;
-        assert_int_equal(scan_timing_instant_s(0.04, (double)i / 10, 0.1, &instant_s),
-                         SCAN_TIMING_SEVERAL);
-    }
-}
-
-/* 20 Hz and 0.04 s: five instants in four frames, so one frame in four holds two. */
-static void a_slightly_slow_frame_rate_is_caught_within_a_beat(void **state)
-{
-    (void)state;
-    for (int64_t i = 1; i < 1000000; i++) {
-        double instant_s;
-        enum scan_timing_answer expected = i % 4 == 0 ? SCAN_TIMING_SEVERAL : SCAN_TIMING_ONE;
-        assert_int_equal(scan_timing_instant_s(0.04, (double)i / 20, 0.05, &instant_s), expected);
-    }
+    static const double rates_hz[] = {10, 20, 24.9};
+    for (size_t rate = 0; rate < 3; rate++)
+        for (int i = -1000; i < 1000; i++) {
+            double time_s = i / rates_hz[rate], instant_s;
+            assert_int_equal(scan_timing_instant_s(0.04, time_s, 1 / rates_hz[rate], &instant_s),
+                             SCAN_TIMING_LONG_FRAME);
+            assert_true(instant_s == time_s);
+        }
 }
 
 int main(void)
@@ -124,8 +137,8 @@ int main(void)
         cmocka_unit_test(every_instant_is_delivered_exactly_once),
         cmocka_unit_test(instants_are_the_decimals_they_should_be),
         cmocka_unit_test(seconds_since_1970_lose_no_scan),
-        cmocka_unit_test(frames_slower_than_the_cycle_say_so),
-        cmocka_unit_test(a_slightly_slow_frame_rate_is_caught_within_a_beat),
+        cmocka_unit_test(scans_before_time_0_are_as_many_as_after_it),
+        cmocka_unit_test(frames_longer_than_the_cycle_have_a_scan_at_their_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,6 @@
 
 #include <jansson.h>
 
-#include "documents/suite_file.h"
 #include "frame/frame_text.h"
 #include "view/view_data.h"
 #include "view/view_page.h"
@@ -408,43 +407,34 @@ static void a_ghost_is_not_at_the_spot_of_its_reflector(void **state)
     release(&packed);
 }
 
-/* The cell that the page draws for a sensor of this suite and digest, with a stated cell of 0.3 m.
- */
-static struct view_cell cell_drawn(const char *suite, const char *digest, const char *sensor)
+/* The sensor that the page has for this part of its record in the frame. */
+static struct sensor_view sensor_told(const char *part)
 {
     struct packed packed;
     char line[2048];
     snprintf(line, sizeof line,
              "{\"version\":0,\"scene\":\"x\",\"frame\":0,\"time_s\":4,\"interval_s\":0.04,"
-             "\"seed\":\"1\",\"ego\":\"e\",\"sections\":[],\"sensors\":{\"suite\":\"%s\","
-             "\"digest\":\"%s\",\"list\":[{\"name\":\"%s\",\"mount_x_m\":2,\"mount_y_m\":1,"
-             "\"mount_yaw_rad\":0.25,\"field_of_view_rad\":3,\"range_max_m\":30,"
-             "\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,\"measured\":true}]}}",
-             suite, digest, sensor);
+             "\"seed\":\"1\",\"ego\":\"e\",\"sections\":[],\"sensors\":{\"suite\":\"nowhere\","
+             "\"digest\":\"0123456789abcdef\",\"list\":[{\"name\":\"front\",\"mount_x_m\":2,"
+             "\"mount_y_m\":1,\"mount_yaw_rad\":0.25,\"field_of_view_rad\":3,\"range_max_m\":30,"
+             "\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,%s\"measured\":true}]}}",
+             part);
     begin(&packed);
     add_line(&packed, line);
-    struct view_cell cell = packed.data.cells.items[0];
+    struct sensor_view sensor = packed.data.sensors.items[0];
     finish(&packed);
     release(&packed);
-    return cell;
+    return sensor;
 }
 
-static void a_cell_is_as_wide_as_its_suite_resolves(void **state)
+static void the_resolution_is_the_frames_and_no_suites(void **state)
 {
     (void)state;
-    struct arena arena = {0};
-    struct diag diag = {0};
-    const struct suite *suite = suite_file_load("srr24-signal", &arena, &diag);
-    assert_non_null(suite);
-    const struct sensor *sensor = &suite->sensors.items[0];
-    struct view_cell known = cell_drawn("srr24-signal", suite->digest, sensor->name);
-    assert_close(known.range_m, 2 * sensor->half_range_m, 0);
-    assert_close(known.range_rate_mps, 2 * sensor->half_range_rate_mps, 0);
-    struct view_cell other = cell_drawn("srr24-signal", "0123456789abcdef", sensor->name);
-    assert_close(other.range_m, 0.3, 0);
-    assert_close(other.range_rate_mps, 0.5, 0);
-    assert_close(cell_drawn("nowhere", suite->digest, sensor->name).range_m, 0.3, 0);
-    arena_free(&arena);
+    struct sensor_view sensor =
+        sensor_told("\"resolution_range_m\":3.175,\"resolution_range_rate_mps\":0.25,");
+    assert_close(sensor.resolution_range_m, 3.175, 0);
+    assert_close(sensor.resolution_range_rate_mps, 0.25, 0);
+    assert_close(sensor_told("").resolution_range_m, 0, 0);
 }
 
 static void a_column_is_as_wide_as_its_largest_number(void **state)
@@ -504,7 +494,7 @@ int main(void)
         cmocka_unit_test(the_same_losses_share_a_pattern),
         cmocka_unit_test(a_loss_is_at_its_spot_or_has_its_place),
         cmocka_unit_test(a_ghost_is_not_at_the_spot_of_its_reflector),
-        cmocka_unit_test(a_cell_is_as_wide_as_its_suite_resolves),
+        cmocka_unit_test(the_resolution_is_the_frames_and_no_suites),
         cmocka_unit_test(a_column_is_as_wide_as_its_largest_number),
         cmocka_unit_test(an_empty_stream_has_a_head),
     };
