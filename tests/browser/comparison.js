@@ -77,6 +77,19 @@ module.exports = ({work, write, view, withPage}) => {
             });
         },
 
+        async 'each missed and each false target is an event of its own'() {
+            const {all} = JSON.parse(run('glint-score', '--summary', '--truth', file('truth.jsonl'), file('list.jsonl')));
+            await withPage(view(list, '--truth', file('truth.jsonl')), async page => {
+                await page.click('[aria-controls=over-time]');
+                const title = page.locator('#lanes [data-kind=difference]');
+                assert.strictEqual(await title.innerText(), `differences: ${all.missed_count + all.false_count}`);
+                await title.click();
+                const first = await page.evaluate(() => eventsOfScene().difference.indexOf(events.shown));
+                await page.keyboard.press('.');
+                assert.deepStrictEqual([first, await page.evaluate(() => eventsOfScene().difference.indexOf(events.shown))], [0, 1]);
+            });
+        },
+
         async 'tracks have ids and switches, as glint-score-tracks counts them'() {
             fs.writeFileSync(file('tracks.jsonl'), write(tracks()));
             const score = JSON.parse(run('glint-score-tracks', '--tracks', file('tracks.jsonl'), '--summary',

@@ -318,10 +318,17 @@ function fillComparison() {
         ...hasTracks ? [make('h2', 'Tracks'), ...comparedTracks()] : []);
 }
 
-// True if the frame has something missed, false or switched.
-function isDifferent(frame) {
-    return pairsOfFrame(frame).some(pair => kindOfPair(pair) !== 'matched') ||
-        (hasTracks && column('track_before').slice(tracksOf(frame).begin, tracksOf(frame).end).some(Boolean));
+// What a frame has missed, false or switched, as events.
+function differencesOf(frame) {
+    const targets = pairsOfFrame(frame).filter(pair => kindOfPair(pair) !== 'matched')
+        .map(pair => ({target: pair.target, object: -1, missed: pair.target < 0 ? pair : null}));
+    const {begin, end} = hasTracks ? tracksOf(frame) : {begin: 0, end: 0};
+    for (let i = begin; i < end; i++) {
+        if (column('track_before')[i] > 0) {
+            targets.push({target: -1, object: column('track_object')[i] - 1});
+        }
+    }
+    return targets;
 }
 
 function connectComparison() {
