@@ -161,5 +161,6 @@ const struct stage stage_cost = {
         "at the end of the stream; pipelines/README.md explains it.",
     .options = STAGE_OPTIONS(struct cost_state, cost_options),
     .reads = SECTION_OBJECTS,
+    .draws = true,
     .run = cost_run,
 };

@@ -37,6 +37,7 @@ struct stage {
     const char *operand;
     bool sink;
     bool into_folder; /* a tool's outputs are files in the folder that the operand names */
+    bool draws; /* a tool that draws random numbers by the frames' seed, and so takes --seed */
     /* Sets of enum section. A frame must have the sections that the stage reads. It must not yet
      * have those that the stage writes, except lost, counts and vehicles, which it adds to, and
      * sections that it reads as well, which it changes in place. The runner orders and checks only
