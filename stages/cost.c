@@ -119,7 +119,7 @@ static int cost_run(void *state, struct runner *runner)
         return -1;
     struct frame *frame;
     int more;
-    while ((more = runner_frame(runner, &frame)) > 0)
+    while ((more = runner_frame_ascending(runner, &frame)) > 0)
         if (chain_trials_sample(&own->cost.sample, frame, diag) != 0)
             return -1;
     return more < 0 || measure(own, diag) != 0 ? -1 : print(own, output, runner);
@@ -161,5 +161,6 @@ const struct stage stage_cost = {
         "at the end of the stream; pipelines/README.md explains it.",
     .options = STAGE_OPTIONS(struct cost_state, cost_options),
     .reads = SECTION_OBJECTS,
+    .draws = true,
     .run = cost_run,
 };

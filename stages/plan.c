@@ -47,5 +47,6 @@ const struct stage stage_plan = {
         "pipelines save and how much accuracy they lose.",
     .options = STAGE_OPTIONS(struct plan_state, plan_options),
     .reads = SECTION_OBJECTS,
+    .draws = true,
     .run = plan_run,
 };

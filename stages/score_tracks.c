@@ -72,7 +72,8 @@ static void compare_trackers(struct score_tracks *own, const struct frame *frame
         figures[i][TRACKER_FALSE] = (double)(tally->listed - tally->pairs);
         figures[i][TRACKER_SWITCHES] = (double)trackers[i]->switches;
     }
-    tracker_difference_add(&own->scenes, frame->scene, figures[0], figures[1], lasting);
+    if (own->tracker.tally.scans > 0)
+        tracker_difference_add(&own->scenes, frame->scene, figures[0], figures[1], lasting);
 }
 
 static int score_tracks_step(void *state, struct frame *frame, struct runner *runner)
@@ -122,10 +123,13 @@ static int score_tracks_stop(void *state, struct runner *runner)
         return -1;
     if (!own->summary)
         return 0;
+    int64_t unmatched = reference_stream_unmatched(own->tracker.stream);
+    if (own->other.stream != NULL)
+        unmatched += reference_stream_unmatched(own->other.stream);
     struct score_summary summary = {
         .frames = own->frames,
         .true_frames = own->true_frames - own->frames,
-        .listed_frames = reference_stream_unmatched(own->tracker.stream),
+        .listed_frames = unmatched,
         .cutoff_m = own->cutoff_m,
         .id_switches = own->id_switches,
         .all = score_of(&own->tally, 1, runner_arena(runner)),
@@ -177,7 +181,8 @@ const struct stage stage_score_tracks = {
         "with a covariance P also get the NEES e' P^-1 e of their distance e, 2 on average if P "
         "is right. --objects chooses the objects that count: in_view, if their centre is within "
         "the range and field of view of a sensor; detected, if a target of the frame contains one "
-        "of their echoes; all. The ego never counts. A frame that one side lacks is an error, "
+        "of their echoes, where frames without a measurement are counted and not scored; all. The "
+        "ego never counts. A frame that one side lacks is an error, "
         "unless --partial is given. Tracks have no seed, so each scene of the stream must have a "
         "single seed.\n\n"
         "--against has the tracks of another tracker, or those from another chain's lists. The "

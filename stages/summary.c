@@ -29,7 +29,7 @@ static int summary_run(void *state, struct runner *runner)
         return diag_prefix(diag, "--copy: ");
     struct frame *frame;
     int more;
-    while ((more = runner_frame(runner, &frame)) > 0)
+    while ((more = runner_frame_ascending(runner, &frame)) > 0)
         if (stream_counts_add(&summary->counts, frame, diag) != 0 ||
             write_copy(copy, frame, diag) != 0)
             return -1;
@@ -59,7 +59,8 @@ const struct stage stage_summary = {
         "glint-ideal was given --sections account, the output also says how many of the reflectors "
         "that a sensor looked for are in a target, and how many are lost for each reason. Frames "
         "that no sensor has seen, as those of glint-traffic, are counted by their objects: each "
-        "object once in its scene, by class. The output comes at the end of the stream. With "
+        "object once in its scene, by class. The frames of a scene must ascend, so that none is "
+        "counted twice. The output comes at the end of the stream. With "
         "--copy one run both counts the frames and stores them in a file.",
     .options = STAGE_OPTIONS(struct summary, summary_options),
     .reads = SECTION_OBJECTS,

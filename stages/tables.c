@@ -106,7 +106,7 @@ static int tables_run(void *state, struct runner *runner)
     if (more > 0)
         detection_tables_begin(&own->tables, own->part * DETECTION_TABLES_KEYS,
                                runner_arena(runner));
-    while (more > 0 && (more = runner_frame(runner, &frame)) > 0)
+    while (more > 0 && (more = runner_frame_ascending(runner, &frame)) > 0)
         if (add_frame(own, frame, runner) != 0)
             more = -1;
     return more == 0 && own->counts ? write_counts(own, runner) : more;

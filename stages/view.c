@@ -26,6 +26,26 @@ static int open_beside(const char *path, const struct record *record,
     return path == NULL || *stream != NULL ? 0 : -1;
 }
 
+/* Decides by --svg and the name of the output whether it is a page or a still. */
+static int choose_form(struct view *view, struct runner *runner)
+{
+    if (runner_output_is_terminal(runner))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "standard output is a terminal, which shows no page and no still; write "
+                         "it to a file: -o FILE");
+    if (runner_require_ending(runner, (const char *const[]){".html", ".svg", NULL}) != 0)
+        return -1;
+    if (view->svg && runner_output_ends(runner, ".html"))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--svg: a still is no page, but --output ends in .html; expected .svg");
+    view->svg = view->svg || runner_output_ends(runner, ".svg");
+    if (view->svg && (view->truth != NULL || view->tracks != NULL))
+        return diag_fail(
+            runner_diag(runner), DIAG_USAGE,
+            "--svg or an --output of .svg: the still shows neither --truth nor --tracks");
+    return 0;
+}
+
 static int view_start(void *state, struct runner *runner)
 {
     struct view *view = state;
@@ -37,18 +57,8 @@ static int view_start(void *state, struct runner *runner)
     struct document_names known = {0}; /* refuses a GLINT_DATA where no class could be found */
     if (document_list("vehicles", ".json", &known, runner_arena(runner), runner_diag(runner)) != 0)
         return -1;
-    if (runner_output_is_terminal(runner))
-        return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "standard output is a terminal, which shows no page and no still; write "
-                         "it to a file: -o FILE");
-    if (view->svg && runner_output_ends(runner, ".html"))
-        return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--svg: a still is no page, but --output ends in .html; expected .svg");
-    view->svg = view->svg || runner_output_ends(runner, ".svg");
-    if (view->svg && (view->truth != NULL || view->tracks != NULL))
-        return diag_fail(
-            runner_diag(runner), DIAG_USAGE,
-            "--svg or an --output of .svg: the still shows neither --truth nor --tracks");
+    if (choose_form(view, runner) != 0)
+        return -1;
     return open_beside(view->truth, &frame_record, &view->data.truth, runner) != 0
                ? -1
                : open_beside(view->tracks, &track_list_record, &view->data.tracks, runner);
@@ -142,7 +152,10 @@ const struct stage stage_view = {
     .name = "view",
     .summary = "Write an HTML page that plays the stream, or one frame as an SVG still.",
     .details =
-        "The page is one file that needs no network: open it in a browser. Without --frame the "
+        "The page is one file that needs no network: open it in a browser. An --output that ends "
+        "in "
+        ".html is a page, one that ends in .svg a still; .gz behind either compresses it. Without "
+        "--frame the "
         "page opens at the frame with most to see, and the still shows the frame with the most "
         "targets. If glint-ideal was given --sections account, the page also shows why a reflector "
         "is in no target. With --truth the page also shows the targets of another stream of the "

@@ -17,7 +17,17 @@ uint64_t osi_trace_ns(const struct osi_trace *trace, double time_s)
     return (uint64_t)whole_s * second_ns + (uint64_t)round((shifted_s - whole_s) * 1e9);
 }
 
-static int check_times(struct osi_trace *trace, const struct frame *frame, struct diag *diag)
+/* The age of the oldest scan: where the first frame is at 0 s, it was made that long before 0. */
+static double first_shift_s(const struct frame *frame)
+{
+    double age_s = 0;
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        age_s = elementary_max(age_s, frame->sensors.list.items[i].age_s);
+    return frame->time_s >= 0 && frame->time_s < age_s ? age_s : 0;
+}
+
+static int check_times(struct osi_trace *trace, const struct frame *frame, bool first,
+                       struct diag *diag)
 {
     double last_s = frame->time_s + trace->shift_s, first_s = last_s;
     for (size_t i = 0; i < frame->sensors.list.count; i++)
@@ -30,7 +40,7 @@ static int check_times(struct osi_trace *trace, const struct frame *frame, struc
                          first_s);
     uint64_t before_ns = trace->time_ns;
     trace->time_ns = osi_trace_ns(trace, frame->time_s);
-    if (before_ns > 0 && trace->time_ns <= before_ns)
+    if (!first && trace->time_ns <= before_ns)
         return diag_fail(diag, DIAG_DATA, "time_s: %.12g after %.12g; expected ascending times",
                          last_s, (double)before_ns / 1e9);
     return 0;
@@ -51,7 +61,10 @@ static int check_objects(const struct frame *frame, struct diag *diag)
 
 int osi_trace_take(struct osi_trace *trace, struct frame *frame, struct diag *diag)
 {
-    if (trace->scene == NULL) {
+    bool first = trace->scene == NULL;
+    if (first && isinf(trace->shift_s))
+        trace->shift_s = first_shift_s(frame);
+    if (first) {
         trace->scene = arena_text(trace->arena, frame->scene, strlen(frame->scene));
         trace->seed = frame->seed;
     }
@@ -60,7 +73,7 @@ int osi_trace_take(struct osi_trace *trace, struct frame *frame, struct diag *di
                          "scene: \"%s\" after \"%s\"; expected one scene of one seed", frame->scene,
                          trace->scene);
     frame_order_objects(frame);
-    return check_times(trace, frame, diag) != 0 ? -1 : check_objects(frame, diag);
+    return check_times(trace, frame, first, diag) != 0 ? -1 : check_objects(frame, diag);
 }
 
 /* ---- messages ---- */

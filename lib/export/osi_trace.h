@@ -14,7 +14,7 @@
 
 /* Zeroed before the first frame, but for the option and the arena. */
 struct osi_trace {
-    double shift_s; /* added to all times */
+    double shift_s; /* added to all times; infinite until the first frame: choose it there */
     struct arena *arena;
     const char *scene;
     uint64_t seed, time_ns;    /* of the latest frame */
@@ -26,7 +26,9 @@ struct osi_trace {
 #define OSI_TRACE_OPTION                                                                           \
     {                                                                                              \
         OPTIONAL_REAL(struct osi_trace, shift_s, -1e10, 1e10,                                      \
-                      "added to all times, which must not be below 0")                             \
+                      "added to all times; absent: the largest age of a scan in the first frame, " \
+                      "if one would be below 0, or else 0"),                                       \
+            .absent = (double)INFINITY                                                             \
     }
 
 /* Takes the next frame of a stream and sorts its objects. Refuses a second scene, a time that is

@@ -1,6 +1,7 @@
 #include "export/stream_counts.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 
 #include "base/sort.h"
 
@@ -115,6 +116,24 @@ static double share(int64_t part, int64_t whole)
     return whole > 0 ? (double)part / (double)whole : 0;
 }
 
+enum { PERCENT_SIZE = 8 };
+
+/* A share in per cent, with one decimal, or with as many more as it takes to differ from none and
+ * all.
+ */
+static const char *percent(int64_t part, int64_t whole, char text[PERCENT_SIZE])
+{
+    double exact = 100 * share(part, whole), half_step = 0.05;
+    for (int decimals = 1; decimals <= 3; decimals++, half_step /= 10) {
+        bool reads_as_none = part > 0 && exact < half_step;
+        bool reads_as_all = part < whole && exact >= 100 - half_step;
+        snprintf(text, PERCENT_SIZE, "%.*f", decimals, exact);
+        if (!reads_as_none && !reads_as_all)
+            return text;
+    }
+    return exact < 50 ? "<0.001" : ">99.999";
+}
+
 /* Counts, and their shares in per cent of the whole. */
 static void write_counts(const char *title, struct name_counts *names, int64_t whole,
                          struct text *text, struct arena *arena)
@@ -125,8 +144,8 @@ static void write_counts(const char *title, struct name_counts *names, int64_t w
     text_format(text, "\n%s\n", title);
     for (size_t i = 0; i < names->list.count; i++) {
         const struct name_count *item = &names->list.items[i];
-        text_format(text, "  %9" PRId64 "  %5.1f %%  %s", item->count,
-                    100 * share(item->count, whole), item->name);
+        text_format(text, "  %9" PRId64 "  %5s %%  %s", item->count,
+                    percent(item->count, whole, (char[PERCENT_SIZE]){0}), item->name);
         if (item->scans > 0)
             text_format(text, ": %.2f in each of %" PRId64 " scans",
                         share(item->count, item->scans), item->scans);
@@ -147,9 +166,9 @@ static void write_targets(struct stream_counts *counts, struct text *text)
     int64_t targets = counts->sensors.sum;
     text_format(text,
                 "%" PRId64 " targets, %.2f a scan, the farthest at %.1f m; %" PRId64
-                " (%.1f %%) of them merged from several objects\n",
+                " (%s %%) of them merged from several objects\n",
                 targets, share(targets, counts->scans), counts->farthest_m, counts->merged,
-                100 * share(counts->merged, targets));
+                percent(counts->merged, targets, (char[PERCENT_SIZE]){0}));
     write_counts("targets by sensor", &counts->sensors, targets, text, counts->arena);
     write_counts("targets by class of the object that made the most of them", &counts->classes,
                  targets, text, counts->arena);

@@ -116,6 +116,14 @@ struct object *frame_object(const struct frame *frame, const char *id)
     return NULL;
 }
 
+bool frame_measured(const struct frame *frame)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (frame->sensors.list.items[i].measured)
+            return true;
+    return false;
+}
+
 bool frame_detects(const struct frame *frame, const char *object)
 {
     for (size_t i = 0; i < frame->targets.count; i++) {

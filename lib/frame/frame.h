@@ -350,6 +350,9 @@ bool frame_same_object(const struct echo_id *a, const struct echo_id *b);
 /* The contributor of the greatest weight, the first of equals; NULL: the target has no label. */
 const struct contributor *frame_strongest(const struct target *target);
 
+/* True if a sensor measured in this frame. */
+bool frame_measured(const struct frame *frame);
+
 /* True if an echo of the object with this id is in a target. */
 bool frame_detects(const struct frame *frame, const char *object);
 

@@ -81,7 +81,7 @@ static bool applies(const struct stage *stage, const struct field *field)
     case offsetof(struct common_options, sections):
         return writes_frames;
     case offsetof(struct common_options, seed):
-        return kind != STAGE_TOOL || stage_takes_files(stage);
+        return writes_frames || stage->draws;
     case offsetof(struct common_options, complete):
         return stage_takes_files(stage);
     default:

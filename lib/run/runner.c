@@ -271,6 +271,17 @@ int runner_frame(struct runner *runner, struct frame **frame)
     return more > 0 && take_frame(runner, *frame) == 0 ? 1 : -1;
 }
 
+int runner_frame_ascending(struct runner *runner, struct frame **frame)
+{
+    int more = runner_frame(runner, frame);
+    if (more <= 0 || runner->common.complete)
+        return more;
+    return frame_sequence_ascend(&runner->sequence, *frame, runner_place(runner), &runner->arena,
+                                 &runner->diag) == 0
+               ? 1
+               : -1;
+}
+
 struct runner *runner_trial(struct runner *runner, const struct stage *stage,
                             const struct suite_choice *choice, struct effect_log *log)
 {
@@ -316,13 +327,40 @@ static struct output *add_output(struct runner *runner, const char *path)
     return output;
 }
 
+/* The length of a name without ".gz" at its end. */
+static size_t plain_length(const char *name)
+{
+    size_t length = strlen(name);
+    return length > 3 && strcmp(name + length - 3, ".gz") == 0 ? length - 3 : length;
+}
+
 bool runner_output_ends(const struct runner *runner, const char *ending)
 {
     const char *path = runner->common.output != NULL ? runner->common.output : "";
-    size_t length = strlen(path), end = strlen(ending);
-    if (length > 3 && strcmp(path + length - 3, ".gz") == 0)
-        length -= 3;
+    size_t length = plain_length(path), end = strlen(ending);
     return length > end && strncasecmp(path + length - end, ending, end) == 0;
+}
+
+int runner_require_ending(struct runner *runner, const char *const *endings)
+{
+    const char *path = runner->common.output != NULL ? runner->common.output : "";
+    const char *name = strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path;
+    size_t length = plain_length(name);
+    bool known = length < 2 || memchr(name + 1, '.', length - 1) == NULL;
+    struct text expected = {0};
+    for (size_t i = 0; endings[i] != NULL; i++) {
+        known = known || runner_output_ends(runner, endings[i]);
+        text_format(&expected, i > 0 ? ", %s" : "%s", endings[i]);
+    }
+    text_add(&expected, "", 1);
+    if (!known)
+        diag_fail(
+            &runner->diag, DIAG_USAGE,
+            "--output: the ending of \"%s\" is unknown; expected one of %s, with .gz behind it "
+            "or without",
+            path, expected.bytes);
+    text_free(&expected);
+    return known ? 0 : -1;
 }
 
 bool runner_output_is_terminal(const struct runner *runner)

@@ -37,6 +37,7 @@ struct stage {
     const char *operand;
     bool sink;
     bool into_folder; /* a tool's outputs are files in the folder that the operand names */
+    bool draws; /* a tool that draws random numbers by the frames' seed, and so takes --seed */
     /* Sets of enum section. A frame must have the sections that the stage reads. It must not yet
      * have those that the stage writes, except lost, counts and vehicles, which it adds to, and
      * sections that it reads as well, which it changes in place. The runner orders and checks only
@@ -113,6 +114,10 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
 
 /* True if the name that --output gives ends in this, or in this and .gz, in letters of any case. */
 bool runner_output_ends(const struct runner *runner, const char *ending);
+
+/* Refuses (64) a name that --output gives if it has an ending, and none of these, with .gz behind
+ * it or without. The list ends with NULL. */
+int runner_require_ending(struct runner *runner, const char *const *endings);
 
 /* True if nothing is given by --output, and standard output is a terminal. */
 bool runner_output_is_terminal(const struct runner *runner);

@@ -22,6 +22,10 @@ struct suite_choice;
  * stream expects. */
 int runner_frame(struct runner *runner, struct frame **frame);
 
+/* The same for tools that count: refuses (DIAG_DATA) a frame that is not behind the frames of its
+ * scene before it, as one that comes twice. Takes about 350 bytes a scene. */
+int runner_frame_ascending(struct runner *runner, struct frame **frame);
+
 /* The output that --output names, or standard output. NULL after a message. Open outputs before the
  * first frame, so that a place where nothing can be written is refused before the work. */
 struct output *runner_output(struct runner *runner);

@@ -12,7 +12,8 @@
 #define FEWEST_SEEDS 3
 #define RESAMPLES 4000
 
-/* A target list as it was read; the cells are those of its own stream. */
+/* A target list as it was read, without targets where the sensor did not measure; the cells are
+ * those of its own stream. */
 struct ensemble_list {
     int64_t frame;
     double time_s;
@@ -34,7 +35,11 @@ struct ensemble_scene {
 static const struct field scene_fields[] = {
     {FIELD_NAME_OF(struct ensemble_scene_score, scene, "its name; seeds are counted")},
     {FIELD_INTEGER_IN(struct ensemble_scene_score, lists, 0, 0x1p53,
-                      "frames times the sensors that measured in them")},
+                      "frames times the sensors that measured in them on both sides")},
+    {OPTIONAL_INTEGER(struct ensemble_scene_score, true_lists, 0, 0x1p53,
+                      "lists of the truth alone, which are not compared; absent: none")},
+    {OPTIONAL_INTEGER(struct ensemble_scene_score, listed_lists, 0, 0x1p53,
+                      "lists of the stream alone, which are not compared; absent: none")},
     {FIELD_INTEGER_IN(struct ensemble_scene_score, true_seeds, 0, 0x1p53, "of the truth")},
     {FIELD_INTEGER_IN(struct ensemble_scene_score, listed_seeds, 0, 0x1p53, "of the stream")},
     {FIELD_REAL_IN(struct ensemble_scene_score, true_targets, 0, 1e300, "mean number in a list")},
@@ -109,9 +114,8 @@ int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct di
                          frame->frame, frame->scene, frame->seed, seed->last);
     seed->last = frame->frame;
     for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (frame->sensors.list.items[i].measured)
-            *list_add(&seed->lists, ensemble->arena) =
-                list_of(frame, &frame->sensors.list.items[i], ensemble->arena);
+        *list_add(&seed->lists, ensemble->arena) =
+            list_of(frame, &frame->sensors.list.items[i], ensemble->arena);
     return 0;
 }
 
@@ -129,7 +133,7 @@ static bool same_cells(const struct sensor_view *a, const struct sensor_view *b)
            a->field_of_view_rad == b->field_of_view_rad;
 }
 
-/* True if both seeds have lists of the same scans. */
+/* True if both seeds have the same frames, times and sensors. */
 static bool same_lists(const struct ensemble_seed *first, const struct ensemble_seed *seed)
 {
     if (seed->lists.count != first->lists.count)
@@ -140,29 +144,50 @@ static bool same_lists(const struct ensemble_seed *first, const struct ensemble_
     return true;
 }
 
+static bool measured(const struct ensemble_scene *scene, size_t list)
+{
+    return scene->seeds.items[0].lists.items[list].view.measured;
+}
+
+/* The seeds of a stream are samples of the same lists, so the same sensors measured. */
+static int check_measured(const struct ensemble_scene *scene, const struct ensemble_seed *seed,
+                          const char *stream, struct diag *diag)
+{
+    for (size_t i = 0; i < seed->lists.count; i++)
+        if (seed->lists.items[i].view.measured != measured(scene, i))
+            return diag_fail(diag, DIAG_DATA,
+                             "scene \"%s\": sensor \"%s\" measured in frame %" PRId64
+                             " of %s with one of the seeds %" PRIu64 " and %" PRIu64 ", not both",
+                             scene->name, seed->lists.items[i].view.name,
+                             seed->lists.items[i].frame, stream, scene->seeds.items[0].seed,
+                             seed->seed);
+    return 0;
+}
+
 static int check_scene(const struct ensemble_scene *scene, const struct ensemble_seed *first,
                        const char *stream, struct diag *diag)
 {
     if (scene->seeds.count < FEWEST_SEEDS)
         return diag_fail(diag, DIAG_DATA, "scene \"%s\": seeds in %s: %zu; expected at least %d",
                          scene->name, stream, scene->seeds.count, FEWEST_SEEDS);
-    for (size_t i = 0; i < scene->seeds.count; i++)
-        if (!same_lists(first, &scene->seeds.items[i]))
+    for (size_t i = 0; i < scene->seeds.count; i++) {
+        const struct ensemble_seed *seed = &scene->seeds.items[i];
+        if (!same_lists(first, seed))
             return diag_fail(
                 diag, DIAG_DATA,
                 "scene \"%s\": seed %" PRIu64
                 " in %s has other frames, times or sensors than the first seed of the truth",
-                scene->name, scene->seeds.items[i].seed, stream);
+                scene->name, seed->seed, stream);
+        if (check_measured(scene, seed, stream, diag) != 0)
+            return -1;
+    }
     return 0;
 }
 
-/* The lists of the truth: there are any, and they have the same cells with a width for all seeds.
- */
+/* The sensors of the truth have the same cells with a width for all seeds. */
 static int check_cells(const struct ensemble_scene *truth, struct diag *diag)
 {
     const struct ensemble_seed *first = &truth->seeds.items[0];
-    if (first->lists.count == 0)
-        return diag_fail(diag, DIAG_DATA, "scene \"%s\": no sensor measured in it", truth->name);
     for (size_t k = 0; k < first->lists.count; k++) {
         const struct sensor_view *view = &first->lists.items[k].view;
         if (!target_score_has_cells(view))
@@ -218,26 +243,54 @@ struct embedded_list ensemble_embed(const struct frame *frame, const struct sens
     return embed(&list, &unit, arena);
 }
 
-static double mean_count(const struct ensemble_scene *scene)
+/* Sums the targets of a list over the seeds. */
+static double count_targets(const struct ensemble_scene *scene, size_t list)
 {
-    double sum = 0, lists = 0;
+    double sum = 0;
     for (size_t i = 0; i < scene->seeds.count; i++)
-        for (size_t k = 0; k < scene->seeds.items[i].lists.count; k++, lists++)
-            sum += (double)scene->seeds.items[i].lists.items[k].targets.count;
-    return lists > 0 ? sum / lists : 0;
+        sum += (double)scene->seeds.items[i].lists.items[list].targets.count;
+    return sum;
 }
 
-static struct ensemble_scene_score score_scene(const struct ensemble_scene *truth,
-                                               const struct ensemble_scene *listed,
-                                               double azimuth_rad, struct arena *arena)
+/* Counts the lists of both sides and of one alone, and the targets of the former. */
+static struct ensemble_scene_score count_lists(const struct ensemble_scene *truth,
+                                               const struct ensemble_scene *listed)
+{
+    struct ensemble_scene_score score = {
+        .scene = truth->name,
+        .true_seeds = (int64_t)truth->seeds.count,
+        .listed_seeds = (int64_t)listed->seeds.count,
+    };
+    for (size_t k = 0; k < truth->seeds.items[0].lists.count; k++) {
+        score.true_lists += measured(truth, k) && !measured(listed, k);
+        score.listed_lists += measured(listed, k) && !measured(truth, k);
+        if (!measured(truth, k) || !measured(listed, k))
+            continue;
+        score.lists++;
+        score.true_targets += count_targets(truth, k);
+        score.listed_targets += count_targets(listed, k);
+    }
+    score.true_targets /= (double)(score.lists * score.true_seeds);
+    score.listed_targets /= (double)(score.lists * score.listed_seeds);
+    return score;
+}
+
+static int score_scene(const struct ensemble_scene *truth, const struct ensemble_scene *listed,
+                       double azimuth_rad, struct arena *arena, struct ensemble_scene_score *score,
+                       struct diag *diag)
 {
     size_t ones = truth->seeds.count, all = ones + listed->seeds.count;
-    size_t lists = truth->seeds.items[0].lists.count;
+    *score = count_lists(truth, listed);
+    if (score->lists == 0)
+        return diag_fail(diag, DIAG_DATA, "scene \"%s\": no sensor measured in it on both sides",
+                         truth->name);
     double *distance = arena_get(arena, all * all * sizeof *distance);
     struct embedded_list *embedded = arena_get(arena, all * sizeof *embedded);
     const struct embedded_list **list = arena_get(arena, all * sizeof *list);
     struct arena scratch = {0};
-    for (size_t k = 0; k < lists; k++) {
+    for (size_t k = 0; k < truth->seeds.items[0].lists.count; k++) {
+        if (!measured(truth, k) || !measured(listed, k))
+            continue;
         struct target_cell unit =
             target_score_cell(&truth->seeds.items[0].lists.items[k].view, azimuth_rad, 0);
         for (size_t i = 0; i < all; i++) {
@@ -246,24 +299,17 @@ static struct ensemble_scene_score score_scene(const struct ensemble_scene *trut
             embedded[i] = embed(&seed->lists.items[k], &unit, &scratch);
             list[i] = &embedded[i];
         }
-        energy_distance_add(list, 0, all, 1 / (double)lists, distance);
+        energy_distance_add(list, 0, all, 1 / (double)score->lists, distance);
         arena_clear(&scratch);
     }
     arena_free(&scratch);
     const struct energy_sample sample = {distance, ones, all - ones};
     struct relative_error energy = relative_error_of(&sample, NULL);
-    return (struct ensemble_scene_score){
-        .scene = truth->name,
-        .lists = (int64_t)lists,
-        .true_seeds = (int64_t)ones,
-        .listed_seeds = (int64_t)(all - ones),
-        .true_targets = mean_count(truth),
-        .listed_targets = mean_count(listed),
-        .energy = energy.value,
-        .energy_error = energy.deviation,
-        .low = energy.low,
-        .high = energy.high,
-    };
+    score->energy = energy.value;
+    score->energy_error = energy.deviation;
+    score->low = energy.low;
+    score->high = energy.high;
+    return 0;
 }
 
 /* The percentile interval over resampled scenes. */
@@ -301,9 +347,10 @@ int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, doub
                              scene->name);
         if (check_scene(scene, first, "the truth", diag) != 0 ||
             check_scene(other, first, "the stream", diag) != 0 || check_cells(scene, diag) != 0 ||
-            check_independence(scene, other, diag) != 0)
+            check_independence(scene, other, diag) != 0 ||
+            score_scene(scene, other, azimuth_cell_rad, arena, list_add(&score->scenes, arena),
+                        diag) != 0)
             return -1;
-        *list_add(&score->scenes, arena) = score_scene(scene, other, azimuth_cell_rad, arena);
     }
     for (size_t i = 0; i < score->scenes.count; i++)
         score->energy += score->scenes.items[i].energy / (double)score->scenes.count;
@@ -318,6 +365,7 @@ int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, doub
 void ensemble_table(const struct ensemble_score *score, struct text *text)
 {
     int width = 32;
+    int64_t true_lists = 0, listed_lists = 0;
     for (size_t i = 0; i < score->scenes.count; i++)
         if ((int)strlen(score->scenes.items[i].scene) > width)
             width = (int)strlen(score->scenes.items[i].scene);
@@ -328,7 +376,14 @@ void ensemble_table(const struct ensemble_score *score, struct text *text)
         text_format(text, "%-*s %8" PRId64 " %9.2f %9.2f %11.5f %11.5f\n", width, scene->scene,
                     scene->lists, scene->listed_targets, scene->true_targets, scene->energy,
                     scene->energy_error);
+        true_lists += scene->true_lists;
+        listed_lists += scene->listed_lists;
     }
+    if (true_lists + listed_lists > 0)
+        text_format(text,
+                    "not compared: %" PRId64 " lists of the truth alone, %" PRId64
+                    " of the scored stream alone\n",
+                    true_lists, listed_lists);
     text_format(text, "mean %.5f, 95 %% interval %.5f to %.5f\n", score->energy, score->low,
                 score->high);
 }

@@ -22,7 +22,8 @@ struct ensemble {
 
 struct ensemble_scene_score {
     const char *scene;
-    int64_t lists; /* frames times the sensors that measured in them */
+    int64_t lists;                    /* frames times the sensors that measured on both sides */
+    int64_t true_lists, listed_lists; /* that one side alone has, which are not compared */
     int64_t true_seeds, listed_seeds;
     double true_targets, listed_targets; /* mean number in a list */
     double energy;                       /* D, dimensionless, of embedded lists */
@@ -44,15 +45,16 @@ extern const struct record ensemble_score_record;
 struct embedded_list ensemble_embed(const struct frame *frame, const struct sensor_view *view,
                                     struct arena *arena);
 
-/* Adds the lists of a frame, of every sensor that measured in it. Refuses a frame that does
+/* Adds the lists of a frame, of every sensor. Refuses a frame that does
  * not come behind the last one of its scene and seed (DIAG_DATA). */
 int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct diag *diag);
 
 /* Scores listed against truth. Cells are those of the sensors of the truth; azimuth_cell_rad counts
  * as one cell of azimuth (0: a twentieth of the field of view), 3 dB as one of level. Refuses with
  * DIAG_DATA streams of other scenes, frames, times or sensors, seeds of one scene with other
- * frames, scenes of fewer than 3 seeds on either side, a seed on both sides, scenes in which no
- * sensor measured, and a truth whose cells have no width or differ between seeds. */
+ * frames or scans, scenes of fewer than 3 seeds on either side, a seed on both sides, scenes in
+ * which no sensor measured on both sides, and a truth whose cells have no width or differ between
+ * seeds. */
 int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, double azimuth_cell_rad,
                      struct arena *arena, struct ensemble_score *score, struct diag *diag);
 

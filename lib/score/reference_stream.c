@@ -223,6 +223,14 @@ static int find(struct reference_stream *reference, const struct frame *frame, s
                      input_name(reference->input), (long long)frame->frame, frame->scene);
 }
 
+int reference_stream_lacks(const struct reference_stream *reference, const char *scene,
+                           struct diag *diag)
+{
+    return diag_fail(diag, DIAG_DATA,
+                     "%s has none of the frames of scene \"%s\"; expected the same scene",
+                     input_name(reference->input), scene);
+}
+
 bool reference_stream_same_time(double a_s, double b_s)
 {
     return fabs(a_s - b_s) <= 1e-6;

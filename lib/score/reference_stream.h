@@ -42,6 +42,10 @@ int reference_stream_tracks(struct reference_stream *reference, const struct fra
 /* Reads on to the end. Unless partial, refuses lines that matched no frame. */
 int reference_stream_finish(struct reference_stream *reference, struct diag *diag);
 
+/* Refuses (DIAG_DATA) the stream, as it has no frame of this scene. */
+int reference_stream_lacks(const struct reference_stream *reference, const char *scene,
+                           struct diag *diag);
+
 /* The number of lines so far that matched no frame, and of frames that had no line. */
 int64_t reference_stream_unmatched(const struct reference_stream *reference);
 int64_t reference_stream_missing(const struct reference_stream *reference);

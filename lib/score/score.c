@@ -10,7 +10,8 @@
 #include "score/gospa.h"
 
 #define COUNT(owner, member, help) FIELD_INTEGER_IN(owner, member, 0, 0x1p53, help)
-#define MEASURE(member, help) FIELD_REAL_IN(struct score, member, 0, 1e300, help)
+#define MEASURE(member, help) OPTIONAL_REAL(struct score, member, 0, 1e300, help)
+#define MEAN(member, help) MEASURE(member, help), .section = SCORE_SCANS
 #define DIFFERENCE(member, low, bit, help)                                                         \
     FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), FIELD_OPTIONAL,             \
         .section = (bit)
@@ -39,21 +40,26 @@ static const struct field score_fields[] = {
     {OPTIONAL_NAME(struct score, sensor, "name of the sensor; absent: all sensors")},
     {COUNT(struct score, scans,
            "pairs of lists: of one sensor in one frame, or the tracks of one frame")},
+    {COUNT(struct score, true_scans,
+           "scans of the truth alone, which are not compared; absent: none"),
+     FIELD_OPTIONAL},
+    {COUNT(struct score, listed_scans,
+           "scans of the scored stream alone, which are not compared; absent: none"),
+     FIELD_OPTIONAL},
     {COUNT(struct score, true_count, "items of the true lists")},
     {COUNT(struct score, listed_count, "items of the scored lists")},
     {COUNT(struct score, pair_count, "pairs closer than the cut-off")},
     {COUNT(struct score, missed_count, "true items without a pair")},
     {COUNT(struct score, false_count, "scored items without a pair")},
-    {MEASURE(gospa, "mean GOSPA over the scans")},
-    {MEASURE(gospa_rms,
-             "root mean square of GOSPA over the scans; its square is the sum of the parts")},
-    {MEASURE(gospa_max, "largest GOSPA of a scan")},
-    {MEASURE(gospa_localisation, "part of the pairs' squared distances, mean over the scans")},
-    {MEASURE(gospa_missed,
-             "part of missed items, half the squared cut-off each, mean over the scans")},
-    {MEASURE(gospa_false,
-             "part of false items, half the squared cut-off each, mean over the scans")},
-    {MEASURE(ospa, "mean OSPA over the scans")},
+    {MEAN(gospa, "mean GOSPA over the scans")},
+    {MEAN(gospa_rms,
+          "root mean square of GOSPA over the scans; its square is the sum of the parts")},
+    {MEAN(gospa_max, "largest GOSPA of a scan")},
+    {MEAN(gospa_localisation, "part of the pairs' squared distances, mean over the scans")},
+    {MEAN(gospa_missed,
+          "part of missed items, half the squared cut-off each, mean over the scans")},
+    {MEAN(gospa_false, "part of false items, half the squared cut-off each, mean over the scans")},
+    {MEAN(ospa, "mean OSPA over the scans")},
     {COMPONENT(range_m, SCORE_RANGE, "differences in range")},
     {COMPONENT(azimuth_rad, SCORE_AZIMUTH, "differences in azimuth")},
     {COMPONENT(range_rate_mps, SCORE_RANGE_RATE, "differences in range rate")},
@@ -64,17 +70,19 @@ static const struct field score_fields[] = {
     {COMPONENT(
         nees, SCORE_NEES,
         "squared distances over the tracks' covariances; mean 2 if the covariances are right")},
-    {MEASURE(nees_low,
-             "lower end of 95 % of all means over as many independent pairs; absent below 5 pairs"),
-     FIELD_OPTIONAL},
-    {MEASURE(nees_high, "upper end of these 95 %; absent below 5 pairs"), FIELD_OPTIONAL},
+    {MEASURE(
+        nees_low,
+        "lower end of 95 % of all means over as many independent pairs; absent below 5 pairs")},
+    {MEASURE(nees_high, "upper end of these 95 %; absent below 5 pairs")},
     {0},
 };
 
-const struct record score_record = {FIELD_TABLE(
-    struct score, score_fields, "score",
-    "How lists differ from the truth; GOSPA and OSPA are in cells for targets, in metres for "
-    "tracks.")};
+const struct record score_record = {
+    FIELD_TABLE(
+        struct score, score_fields, "score",
+        "How lists differ from the truth; GOSPA and OSPA are in cells for targets, in metres for "
+        "tracks, and absent without scans."),
+    .present_offset = offsetof(struct score, present)};
 
 #define LINE_HEAD                                                                                  \
     {FIELD_NAME_OF(struct score_line, scene, "scene of the frame")},                               \
@@ -84,9 +92,11 @@ const struct record score_record = {FIELD_TABLE(
     }
 #define SUMMARY_HEAD                                                                               \
     {COUNT(struct score_summary, frames, "frames in both streams, which are scored")},             \
-        {COUNT(struct score_summary, true_frames, "frames in the truth alone")},                   \
+        {COUNT(struct score_summary, true_frames,                                                  \
+               "frames of the truth that another stream lacks")},                                  \
     {                                                                                              \
-        COUNT(struct score_summary, listed_frames, "frames in the scored stream alone")            \
+        COUNT(struct score_summary, listed_frames,                                                 \
+              "frames of the other streams that the truth lacks")                                  \
     }
 #define SWITCHES(owner)                                                                            \
     COUNT(owner, id_switches, "objects paired with another track than the last time")
@@ -155,6 +165,8 @@ static void append(struct score_values *values, const struct score_values *more,
 static void add_sums(struct score_tally *tally, const struct score_tally *other)
 {
     tally->scans += other->scans;
+    tally->true_scans += other->true_scans;
+    tally->listed_scans += other->listed_scans;
     tally->truths += other->truths;
     tally->listed += other->listed;
     tally->pairs += other->pairs;
@@ -281,6 +293,9 @@ struct score score_of(const struct score_tally *tallies, size_t count, struct ar
     struct score score = {
         .sensor = count > 0 ? tallies->sensor : NULL,
         .scans = all.scans,
+        .true_scans = all.true_scans,
+        .listed_scans = all.listed_scans,
+        .present = all.scans > 0 ? SCORE_SCANS : 0,
         .true_count = all.truths,
         .listed_count = all.listed,
         .pair_count = all.pairs,

@@ -19,7 +19,12 @@ enum score_component {
     SCORE_COMPONENTS,
 };
 
-enum { SCORE_PAIRS = 1 << 0, SCORE_LISTS = 1 << 1, SCORE_DIFFERENCE = 1 << 2 };
+enum {
+    SCORE_PAIRS = 1 << 0,
+    SCORE_LISTS = 1 << 1,
+    SCORE_DIFFERENCE = 1 << 2,
+    SCORE_SCANS = 1 << 3,
+};
 
 /* The differences in one component, in its unit. */
 struct score_differences {
@@ -32,6 +37,7 @@ struct score_differences {
 struct score {
     const char *sensor; /* NULL: all sensors */
     int64_t scans;      /* pairs of lists: of one sensor in one frame, or the tracks of one frame */
+    int64_t true_scans, listed_scans; /* that one side alone made, which are not compared */
     int64_t true_count, listed_count, pair_count, missed_count, false_count;
     /* Over the scans: mean, root mean square and maximum of GOSPA, the parts of its mean square,
      * and the mean of OSPA. */
@@ -40,6 +46,7 @@ struct score {
     double ospa;
     double nees_low, nees_high; /* 95 % of mean NEES of as many pairs lie between; 0: few pairs */
     struct score_differences differences[SCORE_COMPONENTS];
+    unsigned present; /* SCORE_SCANS: there are scans, so GOSPA and OSPA have means */
 };
 
 /* The scores of one frame: of targets by sensor, of tracks all together. */
@@ -54,8 +61,8 @@ struct score_line {
 
 /* The scores of a stream. */
 struct score_summary {
-    int64_t frames, true_frames, listed_frames; /* in both streams, in the truth alone, in the
-                                                 * scored one alone */
+    int64_t frames, true_frames, listed_frames; /* in all streams; of the truth that another lacks;
+                                                 * of the others that the truth lacks */
     double cutoff, azimuth_cell_rad; /* of targets; azimuth_cell_rad 0: a twentieth of each field of
                                       * view */
     double cutoff_m;                 /* of tracks */
@@ -83,7 +90,7 @@ enum score_kind {
 
 struct score_tally {
     const char *sensor;
-    int64_t scans, truths, listed, pairs;
+    int64_t scans, true_scans, listed_scans, truths, listed, pairs;
     double gospa_sum, gospa_max, ospa_sum;
     double localisation, missed_part, false_part; /* sums over the scans */
     struct score_values values[SCORE_KINDS][SCORE_COMPONENTS];
@@ -106,7 +113,7 @@ void score_merge_sensor(struct score_tallies *tallies, const struct score_tally 
                         struct arena *arena);
 
 /* The score of several tallies together, under the sensor's name of the first. Without any scan all
- * is 0. */
+ * counts are 0, and nothing else is present. */
 struct score score_of(const struct score_tally *tallies, size_t count, struct arena *arena);
 
 /* Fills in the summary's scores, in ascending order of the sensors' names. */

@@ -224,10 +224,21 @@ struct target_pairs target_score_pairs(const char *sensor, const struct frame *t
     return pairs;
 }
 
+bool target_score_is_compared(const char *sensor, const struct frame *truth,
+                              const struct frame *listed)
+{
+    return frame_view(truth, sensor)->measured && frame_view(listed, sensor)->measured;
+}
+
 void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena)
 {
+    if (!target_score_is_compared(tally->sensor, truth, listed)) {
+        tally->true_scans += frame_view(truth, tally->sensor)->measured;
+        tally->listed_scans += frame_view(listed, tally->sensor)->measured;
+        return;
+    }
     struct target_pairs found = target_score_pairs(tally->sensor, truth, listed, cell, arena);
     double squares = 0;
     size_t pairs = 0, truths = 0, items = 0;

@@ -31,6 +31,11 @@ double target_score_distance(const struct target *a, const struct target *b,
  * their sensors; and cells and fields of view of the truth must be wider than 0. */
 int target_score_check(const struct frame *truth, const struct frame *listed, struct diag *diag);
 
+/* True if the sensor, which both frames have, measured in both: a scan that one side did not make
+ * has no targets to miss, and those of the other side are not false. */
+bool target_score_is_compared(const char *sensor, const struct frame *truth,
+                              const struct frame *listed);
+
 /* A true target and the listed one that it is paired with. truth is NULL for a false target, listed
  * for a missed one. */
 struct target_pair {
@@ -47,8 +52,8 @@ struct target_pairs target_score_pairs(const char *sensor, const struct frame *t
                                        const struct frame *listed, const struct target_cell *cell,
                                        struct arena *arena);
 
-/* Adds one scan to the tally: the targets of the tally's sensor in both frames. The order of
- * targets changes no bit. */
+/* Adds one scan to the tally: the targets of the tally's sensor in both frames; a scan that only
+ * one of them has is counted alone. The order of targets changes no bit. */
 void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena);

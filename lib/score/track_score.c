@@ -235,6 +235,10 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           const char *classes, double cutoff_m, struct track_memory *memory,
                           struct arena *lasting)
 {
+    if (truth == TRACK_TRUTH_DETECTED && !frame_measured(frame)) {
+        tally->listed_scans++;
+        return 0;
+    }
     struct track_pairs found = track_score_pairs(frame, list, truth, classes, cutoff_m);
     struct score_values *errors = tally->values[SCORE_ERROR];
     double squares = 0;

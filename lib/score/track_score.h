@@ -91,7 +91,8 @@ struct track_pairs track_score_pairs(const struct frame *frame, const struct tra
                                      enum track_truth truth, const char *classes, double cutoff_m);
 
 /* Adds one frame, with tracks in the order of their ids, to the tally. Pairs are recorded in
- * memory, which lies in the lasting arena. Returns the number of identity switches. */
+ * memory, which lies in the lasting arena. Where no sensor measured, no object can be detected: the
+ * tracks are counted as a scan of their own. Returns the number of identity switches. */
 int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           const struct track_list *list, enum track_truth truth,
                           const char *classes, double cutoff_m, struct track_memory *memory,

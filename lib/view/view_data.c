@@ -384,13 +384,16 @@ static int compare_targets(struct view_data *data, const struct frame *frame, st
     if (found < 0)
         return -1;
     put_count(data, COLUMN_FRAME_COMPARED, (uint32_t)found);
+    if (found > 0)
+        data->scenes.items[scene_of(data, frame)].compared = true;
     for (size_t i = 0; i < frame->sensors.list.count; i++) {
         struct target_pairs pairs = {0};
-        if (found > 0) {
-            const struct sensor_view *view = &truth->sensors.list.items[i];
+        const struct sensor_view *view = found > 0 ? &truth->sensors.list.items[i] : NULL;
+        if (found > 0 && target_score_is_compared(view->name, truth, frame)) {
             struct target_cell cell = target_score_cell(view, 0, TARGET_SCORE_CUTOFF);
             pairs = target_score_pairs(view->name, truth, frame, &cell, frame->arena);
         }
+        put_count(data, COLUMN_SCAN_TRUE, view != NULL && view->measured);
         put_count(data, COLUMN_SCAN_TRUTHS, add_truths(data, frame, &pairs));
     }
     return 0;
@@ -419,6 +422,8 @@ static int compare_tracks(struct view_data *data, const struct frame *frame, str
     if (track_score_check(frame, TRACK_TRUTH_IN_VIEW, diag) != 0)
         return -1;
     int found = reference_stream_tracks(data->tracks, frame, &tracks, diag);
+    if (found > 0)
+        data->scenes.items[scene_of(data, frame)].tracked = true;
     if (found > 0)
         pairs = track_score_pairs(frame, &tracks, TRACK_TRUTH_IN_VIEW, NULL, TRACK_SCORE_CUTOFF_M);
     for (size_t i = 0; i < pairs.list.count; i++) {
@@ -458,7 +463,16 @@ int view_data_add(struct view_data *data, const struct frame *frame, struct diag
 
 int view_data_finish(struct view_data *data, struct diag *diag)
 {
-    if (data->truth != NULL && reference_stream_finish(data->truth, diag) != 0)
+    if ((data->truth != NULL && reference_stream_finish(data->truth, diag) != 0) ||
+        (data->tracks != NULL && reference_stream_finish(data->tracks, diag) != 0))
         return -1;
-    return data->tracks != NULL ? reference_stream_finish(data->tracks, diag) : 0;
+    for (size_t i = 0; i < data->scenes.count; i++) {
+        const struct view_scene *scene = &data->scenes.items[i];
+        const char *name = intern_text(&data->names, (uint32_t)scene->name);
+        if (data->truth != NULL && !scene->compared)
+            return reference_stream_lacks(data->truth, name, diag);
+        if (data->tracks != NULL && !scene->tracked)
+            return reference_stream_lacks(data->tracks, name, diag);
+    }
+    return 0;
 }

@@ -12,8 +12,9 @@
  * the scene's ego in its first frame.
  *
  * Truths are the targets of the other stream, each with the number of the listed target that
- * glint-score pairs it with. Missed objects are tracks without an id and a place. Frames that the
- * other stream lacks have neither, and say so. */
+ * glint-score pairs it with; a scan that one of the streams did not make has none. Missed objects
+ * are tracks without an id and a place. Frames that the other stream lacks have neither, and say
+ * so. */
 #pragma once
 
 #include "base/intern.h"
@@ -39,6 +40,7 @@ struct view_scene {
     double anchor_x_m, anchor_y_m;
     LIST_OF(struct roadside_strip) roadside;
     bool ended;
+    bool compared, tracked; /* the other streams have a frame of it */
 };
 
 struct view_data {
@@ -62,5 +64,6 @@ void view_data_begin(struct view_data *data, struct arena *arena);
  * glint-score-tracks refuse. */
 int view_data_add(struct view_data *data, const struct frame *frame, struct diag *diag);
 
-/* Reads the other streams on to their ends. */
+/* Reads the other streams on to their ends. Refuses (DIAG_DATA) another stream that has no frame of
+ * a scene: it shows something else. */
 int view_data_finish(struct view_data *data, struct diag *diag);

@@ -77,6 +77,19 @@ module.exports = ({work, write, view, withPage}) => {
             });
         },
 
+        async 'each missed and each false target is an event of its own'() {
+            const {all} = JSON.parse(run('glint-score', '--summary', '--truth', file('truth.jsonl'), file('list.jsonl')));
+            await withPage(view(list, '--truth', file('truth.jsonl')), async page => {
+                await page.click('[aria-controls=over-time]');
+                const title = page.locator('#lanes [data-kind=difference]');
+                assert.strictEqual(await title.innerText(), `differences: ${all.missed_count + all.false_count}`);
+                await title.click();
+                const first = await page.evaluate(() => eventsOfScene().difference.indexOf(events.shown));
+                await page.keyboard.press('.');
+                assert.deepStrictEqual([first, await page.evaluate(() => eventsOfScene().difference.indexOf(events.shown))], [0, 1]);
+            });
+        },
+
         async 'tracks have ids and switches, as glint-score-tracks counts them'() {
             fs.writeFileSync(file('tracks.jsonl'), write(tracks()));
             const score = JSON.parse(run('glint-score-tracks', '--tracks', file('tracks.jsonl'), '--summary',
@@ -100,6 +113,27 @@ module.exports = ({work, write, view, withPage}) => {
                 await page.keyboard.press('Home');
                 await page.keyboard.press('u');
                 assert.match(await page.innerText('#comparison'), /before old/);
+            });
+        },
+
+        async 'scans of one stream alone are counted as glint-score counts them, and have no false targets'() {
+            const slow = (frames, every) => frames.map(frame => frame.frame % every === 0 ? frame : {...frame,
+                sensors: {...frame.sensors, list: frame.sensors.list.map(one => ({...one, measured: false}))},
+                targets: []});
+            fs.writeFileSync(file('every3.jsonl'), write(slow(lines('truth.jsonl'), 3)));
+            const every2 = slow(list.map(({counts, lost, ...frame}) => ({...frame, sections: []})), 2);
+            fs.writeFileSync(file('every2.jsonl'), write(every2));
+            const {all} = JSON.parse(run('glint-score', '--summary', '--truth', file('every3.jsonl'), file('every2.jsonl')));
+            assert.ok(all.true_scans > 0 && all.listed_scans > all.true_scans);
+            await withPage(view(every2, '--truth', file('every3.jsonl'), '--frame', '2'), async page => {
+                await page.click('[aria-controls=comparison]');
+                const text = await page.innerText('#comparison');
+                assert.ok(text.includes('In this frame 0 matched, 0 missed, 0 false.'), text);
+                assert.ok(text.includes('Not compared: 2 scans of this stream alone.'), text);
+                assert.ok(text.includes(`In the whole scene ${all.pair_count} matched, ${all.missed_count} missed, ` +
+                    `${all.false_count} false`), text);
+                assert.ok(text.includes(`Not compared: ${all.true_scans} scans of the other stream alone, ` +
+                    `${all.listed_scans} scans of this stream alone.`), text);
             });
         },
 

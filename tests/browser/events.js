@@ -10,9 +10,9 @@ const isGhost = target => target.contributors[0].path.includes('wall');
 const isBody = target => ['direct', 'wheel', 'limb'].includes(target.contributors[0].path);
 const leader = target => target.contributors[0].object;
 
-// The frames in which something begins, by kind: keys that a sensor's scan has and its scan before had not.
+// What begins, by kind: the row of the frame for each key that a sensor's scan has and its scan before had not.
 function eventsOf(frames) {
-    const rows = {ghost: new Set(), merge: new Set(), split: new Set(), miss: new Set(), false_alarm: new Set()};
+    const rows = {ghost: [], merge: [], split: [], miss: [], false_alarm: []};
     const before = new Map();
     frames.forEach((frame, row) => frame.sensors.list.filter(one => one.measured).forEach(({name}) => {
         const targets = frame.targets.filter(one => one.sensor === name);
@@ -26,20 +26,14 @@ function eventsOf(frames) {
         };
         const then = before.get(name) || {ghost: [], merge: [], split: [], seen: []};
         for (const kind of ['ghost', 'merge', 'split']) {
-            if (now[kind].some(key => !then[kind].includes(key))) {
-                rows[kind].add(row);
-            }
+            new Set(now[kind].filter(key => !then[kind].includes(key))).forEach(() => rows[kind].push(row));
         }
-        if (then.seen.some(id => !now.seen.includes(id) && frame.objects.some(one => one.id === id))) {
-            rows.miss.add(row);
-        }
-        if (targets.some(one => one.contributors[0].path === 'false_alarm')) {
-            rows.false_alarm.add(row);
-        }
+        new Set(then.seen.filter(id => !now.seen.includes(id) && frame.objects.some(one => one.id === id)))
+            .forEach(() => rows.miss.push(row));
+        targets.filter(one => one.contributors[0].path === 'false_alarm').forEach(() => rows.false_alarm.push(row));
         before.set(name, now);
     }));
-    return Object.fromEntries(Object.entries(rows).filter(([, list]) => list.size > 0)
-        .map(([kind, list]) => [kind, [...list]]));
+    return Object.fromEntries(Object.entries(rows).filter(([, list]) => list.length > 0));
 }
 
 module.exports = ({stream, view, withPage, targetOnMap, panelText, clock}) => {
@@ -63,7 +57,7 @@ module.exports = ({stream, view, withPage, targetOnMap, panelText, clock}) => {
                     assert.deepStrictEqual(titles.map(one => Number(/\d+$/.exec(one))).sort(),
                         Object.values(expected).map(list => list.length).sort());
                     await page.keyboard.press('Home');
-                    const every = [...new Set(Object.values(expected).flat())].sort((a, b) => a - b).filter(row => row > 0);
+                    const every = Object.values(expected).flat().sort((a, b) => a - b).filter(row => row > 0);
                     for (const row of every.slice(0, 3)) {
                         await page.keyboard.press('.');
                         assert.strictEqual(await page.evaluate(() => state.row), row);
@@ -78,12 +72,44 @@ module.exports = ({stream, view, withPage, targetOnMap, panelText, clock}) => {
             }
         },
 
+        async 'each event of a frame is reached, by keys, by the name of its lane and by its line'() {
+            const frames = stream('ghosts');
+            const {false_alarm: rows} = eventsOf(frames);
+            const crowded = rows.find((row, i) => rows[i + 1] === row);
+            const there = rows.filter(row => row === crowded).length;
+            const isAlarm = target => target.contributors[0].path === 'false_alarm';
+            await withPage(view(frames), async page => {
+                const target = () => page.evaluate(() => state.target);
+                await page.click('[aria-controls=over-time]');
+                const reached = {title: new Set(), back: new Set(), line: new Set()};
+                for (let i = 0; i < rows.length; i++) {
+                    await page.click('#lanes [data-kind=false_alarm]');
+                    reached.title.add(await target());
+                }
+                assert.strictEqual(reached.title.size, frames.flatMap(frame => frame.targets.filter(isAlarm)).length);
+                for (let i = 0; i < rows.length; i++) {
+                    reached.back.add(await target());
+                    await page.keyboard.press(',');
+                }
+                assert.deepStrictEqual([...reached.back].sort(), [...reached.title].sort());
+                const x = await page.evaluate(at => timePlace(laneSpan(control('series')), at), crowded);
+                for (let i = 0; i < there; i++) {
+                    await page.locator('#lanes [data-kind=false_alarm] + canvas').click({position: {x, y: 5}});
+                    assert.strictEqual(await page.evaluate(() => state.row), crowded);
+                    reached.line.add(await target());
+                }
+                assert.strictEqual(reached.line.size, there);
+            });
+        },
+
         async 'a click on a lane goes to the event there'() {
             const frames = stream('ghosts');
             const {ghost, false_alarm: alarms} = eventsOf(frames);
             await withPage(view(frames), async page => {
                 await page.click('[aria-controls=over-time]');
-                for (const [kind, row, words] of [['ghost', ghost[5], /, a ghost/], ['false_alarm', alarms[9], /, a false alarm/]]) {
+                const alone = list => list.filter(row => list.indexOf(row) === list.lastIndexOf(row));
+                for (const [kind, row, words] of [['ghost', alone(ghost)[2], /, a ghost/],
+                    ['false_alarm', alone(alarms)[4], /, a false alarm/]]) {
                     const x = await page.evaluate(at => timePlace(laneSpan(control('series')), at), row);
                     await page.locator(`#lanes [data-kind=${kind}] + canvas`).click({position: {x, y: 5}});
                     assert.strictEqual(await page.evaluate(() => state.row), row);

@@ -192,6 +192,24 @@ module.exports = ({stream, view, withPage, panelText}) => {
             }
         },
 
+        async 'a share reads as none or all only if it is'() {
+            const text = fs.readFileSync(path.join(root, 'pipelines', 'ambiguity.sh'), 'utf8');
+            const [frame] = execFileSync('glint', ['-c', text], {maxBuffer: 1 << 28, cwd: root}).toString().trim()
+                .split('\n').map(line => JSON.parse(line)).filter(one => one.targets.length > 0);
+            Object.assign(frame, {sections: [], lost: [], counts: []});
+            frame.targets[0].contributors = [{...frame.targets[0].contributors[0], weight: 0.996},
+                {...frame.targets[0].contributors[0], number: 1, path: 'wheel', weight: 0.004}];
+            await withPage(view([frame]), async page => {
+                const told = await page.evaluate(() => [0, 1e-9, 0.0004, 0.004, 0.006, 0.5, 0.99, 0.996, 1 - 1e-9, 1].map(
+                    share => percent(share)));
+                assert.deepStrictEqual(told, ['0 %', 'under 0.001 %', '0.04 %', '0.4 %', '1 %', '50 %', '99 %', '99.6 %',
+                    '100 %', '100 %']);
+                await page.evaluate(() => chooseObject(objectOfTarget(targetsOf(scansOf(state.frame).begin).begin)));
+                const rows = await page.locator('#panel .row:not(.lost) .what').allInnerTexts();
+                assert.ok(rows.some(row => row.includes('99.6 %') && row.includes('0.4 %')), rows.join('; '));
+            });
+        },
+
         async 'the quality of a target is told where the stream has it'() {
             const text = fs.readFileSync(path.join(root, 'pipelines', 'ambiguity.sh'), 'utf8')
                 .replace('--sections account', '--sections account,quality');

@@ -441,8 +441,6 @@ def refusals(folder):
     good = seen(path, scene(thing("ego", "car", 0, 0), thing("2", "car", 20, 0)))
     objects = json.loads(good)["objects"]
     flat = [objects[0] | {"height_m": 0}, objects[1]]
-    late = pipe("glint-traffic cut-in | glint-extract | glint-ideal --sensors lrr77-full --sections quality | glint-sensor"
-                " | glint-noise")
     for program in ("glint-osi", "glint-mcap"):
         pipe(program, good)
         for data, said in (
@@ -455,7 +453,8 @@ def refusals(folder):
                 (good + changed(good, scene="another"), ':2: scene: "another" after "by hand"; expected one scene of one seed'),
                 (good + changed(good, seed="2"), ':2: scene: "by hand" after "by hand"; expected one scene of one seed'),
                 (good + changed(good, frame=1), ":2: time_s: 7.24 after 7.24; expected ascending times"),
-                (late, ':1: time_s: a measurement at -0.05 s; expected one in [0, 1e10] s: --shift-s is added to all times')):
+                (changed(good, time_s=0) + changed(good, frame=1, time_s=0), ":2: time_s: 0 after 0; expected ascending times"),
+                (changed(good, time_s=0) + changed(good, frame=1, time_s=1e-10), ":2: time_s: 1e-10 after 0; expected")):
             text = pipe(program, data, 65)
             check(said in text.replace('"ego" has no', '"2" has no'), f"{said}: {text}")
         out = os.path.join(folder, "old")
@@ -467,6 +466,60 @@ def refusals(folder):
         pipe(f"{program} -o {out}", good)
         with open(out, "rb") as file:
             check(file.read() == pipe(program, good), "same bytes for the same stream, into a file or a pipe")
+
+
+def stamp_of(message, place):
+    return int(value_of(message, place, "seconds")) * 10**9 + int(value_of(message, place, "nanos"))
+
+
+def pair_of_ages(left_s, right_s, **members):
+    """A frame of two radars, each with its own age; None: it did not measure."""
+    line = pipe("glint-traffic two-vehicles --sections quality,objects | glint-extract | glint-ideal --sensors srr24-pair"
+                " | glint-sensor | glint-noise").splitlines()[0]
+    frame = json.loads(line) | members
+    for view, age_s in zip(frame["sensors"]["list"], (left_s, right_s), strict=True):
+        view["measured"] = age_s is not None
+        view["age_s"] = age_s or 0.03
+    silent = [view["name"] for view in frame["sensors"]["list"] if not view["measured"]]
+    frame["targets"] = [one for one in frame["targets"] if one["sensor"] not in silent]
+    return json.dumps(frame).encode() + b"\n"
+
+
+def stamps_of_scans():
+    """A scan is stamped with the time that it shows; the last measurement of a message is that of its youngest scan."""
+    for left_s, right_s, last_s in ((0.05, 0.02, 0.02), (0.01, 0.04, 0.01), (None, 0.04, 0.04), (None, None, None)):
+        line = pair_of_ages(left_s, right_s, time_s=7)
+        data, file = osi_of(line)[0], mcap_of(line)
+        check(stamp_of(data, "timestamp") == 7 * 10**9, "the time of a message is that of its frame")
+        wanted = [round((7 - age_s) * 1e9) for age_s in (left_s, right_s) if age_s is not None]
+        radars = data["feature_data"][0].get("radar_sensor", [])
+        found = [stamp_of(radar["header"][0], "measurement_time") for radar in radars]
+        check(found == wanted, f"measurement_time: {found}, not {wanted}")
+        if last_s is None:
+            check("last_measurement_time" not in data, "without a scan there is no last measurement")
+        else:
+            found = stamp_of(data, "last_measurement_time")
+            check(found == round((7 - last_s) * 1e9), f"last_measurement_time: {found}")
+        clouds = [json.loads(cloud) for one in file.channels.values() if one[0].startswith("/radar/")
+                  for _, cloud in file.of(one[0])]
+        found = sorted(one["timestamp"]["sec"] * 10**9 + one["timestamp"]["nsec"] for one in clouds)
+        check(found == sorted(wanted), f"the stamps of clouds: {found}, not {wanted}")
+        near(file.of("/scene")[0][0], 7e9, "the time of a message", 1)
+
+
+def shifts():
+    """A stream that begins at 0 is shifted by its largest age, if there is one; any other is not."""
+    for ages, words, time_s, shift_s in (((0.05, 0.02), "", 0, 0.05), ((0.05, None), "", 0.03, 0.05), ((0.05, 0.02), "", 0.05, 0),
+                                         ((None, None), "", 0, 0.03), ((0.05, 0.02), "--shift-s 1", 0, 1),
+                                         ((0.05, 0.02), "", 1e9, 0)):
+        lines = pair_of_ages(*ages, time_s=time_s) + pair_of_ages(*ages, time_s=time_s + 0.1, frame=1)
+        wanted = [round((time + shift_s) * 1e9) for time in (time_s, time_s + 0.1)]
+        found = [stamp_of(one, "timestamp") for one in osi_of(lines, words)]
+        check(max(abs(a - b) for a, b in zip(found, wanted, strict=True)) < 200, f"{ages} at {time_s} s: {found}, not {wanted}")
+        check([log for log, _ in mcap_of(lines, words).of("/scene")] == found, "MCAP has the same times")
+    for program in ("glint-osi --shift-s 0", "glint-mcap --shift-s 0.04"):
+        said = pipe(program, pair_of_ages(0.05, 0.02, time_s=0), 65)
+        check(":1: time_s: a measurement at -0.0" in said and "--shift-s is added to all times" in said, said)
 
 
 def labels_join_by_tables(folder):
@@ -529,6 +582,8 @@ with tempfile.TemporaryDirectory() as place_of_files:
         metadata_of_osi()
         ids_and_times(place_of_files)
         refusals(place_of_files)
+        stamps_of_scans()
+        shifts()
         labels_join_by_tables(place_of_files)
         poses_stay(place_of_files)
 print(f"traces: {recorded.checks} checks hold")

@@ -15,6 +15,11 @@ function truthsOf(scan) {
     return {begin: begin[scan], end: begin[scan + 1]};
 }
 
+// True if both streams have this scan; only then are its targets compared.
+function isScanCompared(scan) {
+    return column('scan_true')[scan] === 1 && column('scan_measured')[scan] === 1;
+}
+
 // The pairs of a scan: each has the row of a true and of a listed target, or -1 for none.
 function pairsOf(scan) {
     const truths = truthsOf(scan);
@@ -39,16 +44,27 @@ function isCompared(frame) {
     return hasTruth && column('frame_compared')[frame] === 1;
 }
 
-// The pairs of all scans of a frame whose sensors are switched on.
-function pairsOfFrame(frame) {
+// The scans of a frame whose sensors are switched on, if the other stream has the frame.
+function scansBeside(frame) {
     const {begin, end} = scansOf(frame);
-    const pairs = [];
-    for (let scan = begin; scan < end && isCompared(frame); scan++) {
-        if (isSensorShown(scan)) {
-            pairs.push(...pairsOf(scan));
+    const scans = isCompared(frame) ? Array.from({length: end - begin}, (_, i) => begin + i) : [];
+    return scans.filter(isSensorShown);
+}
+
+function pairsOfFrame(frame) {
+    return scansBeside(frame).filter(isScanCompared).flatMap(pairsOf);
+}
+
+// How many scans of a frame one of the streams made alone.
+function countAlone(frame) {
+    const alone = {truth: 0, listed: 0};
+    for (const scan of scansBeside(frame)) {
+        if (!isScanCompared(scan)) {
+            alone.truth += column('scan_true')[scan];
+            alone.listed += column('scan_measured')[scan];
         }
     }
-    return pairs;
+    return alone;
 }
 
 function kindOfPair({truth, target}) {
@@ -219,7 +235,8 @@ let totals = {scene: -1};
 // Counts over all frames of the scene, and the root mean squares of the differences.
 function comparisonTotals() {
     if (totals.scene !== state.scene) {
-        totals = {scene: state.scene, counts: {matched: 0, missed: 0, false: 0}, squares: [0, 0, 0, 0], switches: 0};
+        totals = {scene: state.scene, counts: {matched: 0, missed: 0, false: 0}, alone: {truth: 0, listed: 0},
+            squares: [0, 0, 0, 0], switches: 0};
         for (const frame of sceneFrames[state.scene]) {
             addToTotals(frame);
         }
@@ -235,6 +252,9 @@ function addToTotals(frame) {
             comparedParts.forEach((part, i) => { totals.squares[i] += differenceOf(pair, part) ** 2; });
         }
     }
+    const {truth, listed} = countAlone(frame);
+    totals.alone.truth += truth;
+    totals.alone.listed += listed;
     const {begin, end} = hasTracks ? tracksOf(frame) : {begin: 0, end: 0};
     for (let i = begin; i < end; i++) {
         totals.switches += column('track_before')[i] > 0 ? 1 : 0;
@@ -245,17 +265,26 @@ function kindsText({matched, missed, false: wrong}) {
     return `${matched} matched, ${missed} missed, ${wrong} false`;
 }
 
+// Scans that are not compared, as only one of the streams made them; nothing if there are none.
+function aloneLine({truth, listed}) {
+    const text = [[truth, 'of the other stream alone'], [listed, 'of this stream alone']]
+        .filter(([count]) => count > 0).map(([count, whose]) => `${plural(count, 'scan')} ${whose}`).join(', ');
+    return text ? [make('p', `Not compared: ${text}.`, 'soft')] : [];
+}
+
 function comparedTargets() {
     if (!isCompared(state.frame)) {
         return [make('p', 'The other stream has no such frame.', 'soft')];
     }
     const pairs = pairsOfFrame(state.frame);
-    const {counts, squares} = comparisonTotals();
+    const {counts, alone, squares} = comparisonTotals();
     const errors = comparedParts.map((part, i) =>
         `${round(Math.sqrt(squares[i] / Math.max(1, counts.matched)), 2)} ${part.title.split(' ')[1]}`);
     return [
         make('p', `In this frame ${kindsText(countKinds(pairs))}.`),
+        ...aloneLine(countAlone(state.frame)),
         make('p', `In the whole scene ${kindsText(counts)}; matched ones differ by ${errors.join(', ')} (RMS).`, 'soft'),
+        ...aloneLine(alone),
         ...pairsTable(pairs)];
 }
 
@@ -289,10 +318,17 @@ function fillComparison() {
         ...hasTracks ? [make('h2', 'Tracks'), ...comparedTracks()] : []);
 }
 
-// True if the frame has something missed, false or switched.
-function isDifferent(frame) {
-    return pairsOfFrame(frame).some(pair => kindOfPair(pair) !== 'matched') ||
-        (hasTracks && column('track_before').slice(tracksOf(frame).begin, tracksOf(frame).end).some(Boolean));
+// What a frame has missed, false or switched, as events.
+function differencesOf(frame) {
+    const targets = pairsOfFrame(frame).filter(pair => kindOfPair(pair) !== 'matched')
+        .map(pair => ({target: pair.target, object: -1, missed: pair.target < 0 ? pair : null}));
+    const {begin, end} = hasTracks ? tracksOf(frame) : {begin: 0, end: 0};
+    for (let i = begin; i < end; i++) {
+        if (column('track_before')[i] > 0) {
+            targets.push({target: -1, object: column('track_object')[i] - 1});
+        }
+    }
+    return targets;
 }
 
 function connectComparison() {

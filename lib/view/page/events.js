@@ -10,7 +10,8 @@ const eventKinds = {
     difference: {title: 'differences', tells: 'a missed or false target, or an identity switch'},
 };
 
-let events = {scene: -1, of: {}};
+// shown is the event to which the page went last.
+let events = {scene: -1, of: {}, shown: null};
 
 // The targets of a scan that show an event of each kind, by a key that is the same in the next scan.
 function keysOfScan(scan) {
@@ -35,11 +36,9 @@ function keysOfScan(scan) {
     return found;
 }
 
-function noteEvent(kind, row, target, object) {
-    const known = events.of[kind] = events.of[kind] || [];
-    if (known.length === 0 || known[known.length - 1].row !== row) {
-        known.push({row, target, object});
-    }
+function noteEvent(kind, event) {
+    events.of[kind] = events.of[kind] || [];
+    events.of[kind].push(event);
 }
 
 function noteScan(row, frame, scan, before) {
@@ -47,22 +46,22 @@ function noteScan(row, frame, scan, before) {
     for (const kind of ['ghost', 'merge', 'split', 'false_alarm']) {
         for (const [key, target] of now[kind]) {
             if (!before || !before[kind].has(key)) {
-                noteEvent(kind, row, target, objectOfTarget(target));
+                noteEvent(kind, {row, target, object: objectOfTarget(target)});
             }
         }
     }
     for (const object of before ? before.seen.keys() : []) {
         if (!now.seen.has(object) && objectRow(frame, object) >= 0) {
-            noteEvent('miss', row, -1, object);
+            noteEvent('miss', {row, target: -1, object});
         }
     }
     return now;
 }
 
-// The events of the scene by kind: at most one in a frame, in order of time.
+// The events of the scene by kind, in order of time.
 function eventsOfScene() {
     if (events.scene !== state.scene) {
-        events = {scene: state.scene, of: {}};
+        events = {scene: state.scene, of: {}, shown: null};
         const before = new Map();
         sceneFrames[state.scene].forEach((frame, row) => {
             const {begin, end} = scansOf(frame);
@@ -72,50 +71,80 @@ function eventsOfScene() {
                     before.set(style, noteScan(row, frame, scan, before.get(style)));
                 }
             }
-            if (isDifferent(frame)) {
-                noteEvent('difference', row, -1, -1);
-            }
+            differencesOf(frame).forEach(one => noteEvent('difference', {row, ...one}));
         });
     }
     return events.of;
 }
 
-// Shows an event: its frame, and its target or object in view.
-function showEvent({row, target, object}) {
-    setPlaying(false);
-    showRow(row);
+// Where an event is: at its target, at a true target that is missed, or at its object.
+function placeOfEvent({target, missed, object}) {
     if (target >= 0) {
-        chooseTarget(target);
-    } else if (object >= 0) {
-        chooseObject(object);
+        return targetPlace(scanOfTarget(state.frame, target), target);
     }
-    const scan = target >= 0 ? scanOfTarget(state.frame, target) : -1;
-    const place = scan >= 0 ? targetPlace(scan, target) : object >= 0 ? boxOf(objectRow(state.frame, object)) : null;
-    if (place && !onScreen(toScreen(place), -10)) {
+    return missed ? truePlace(missed.scan, missed.truth) : boxOf(objectRow(state.frame, object));
+}
+
+// Shows an event: its frame, and its target or object in view.
+function showEvent(event) {
+    setPlaying(false);
+    showRow(event.row);
+    events.shown = event;
+    if (event.target >= 0) {
+        chooseTarget(event.target);
+    } else if (event.object >= 0) {
+        chooseObject(event.object);
+    }
+    const place = placeOfEvent(event);
+    if (!onScreen(toScreen(place), -10)) {
         Object.assign(camera, cameraFor(placesToFit().concat(toLocal(place))));
         redraw();
     }
 }
 
-// Goes to the next or previous event of a kind, or of every kind that the legend of lanes has.
+// The events of a kind, or of all kinds for '', in order of time.
+function eventsOfKind(kind) {
+    const of = eventsOfScene();
+    return Object.keys(eventKinds).filter(one => of[one] && (kind === '' || one === kind))
+        .flatMap(one => of[one]).sort((a, b) => a.row - b.row);
+}
+
+// The event shown, while the page is at its frame.
+function shownEvent() {
+    return events.shown && events.shown.row === state.row ? events.shown : null;
+}
+
+// Goes to the next or previous event of a kind, or of every kind that has a lane: from the one shown, or
+// else from the frame.
 function stepEvent(step, kind = state.event) {
-    const listed = Object.entries(eventsOfScene()).filter(([one]) => kind === '' || one === kind)
-        .flatMap(([, list]) => list).filter(({row}) => step * (row - state.row) > 0)
-        .sort((a, b) => step * (a.row - b.row));
-    if (listed.length > 0) {
-        showEvent(listed[0]);
+    const listed = eventsOfKind(kind);
+    const at = listed.indexOf(shownEvent());
+    const beyond = listed.filter(({row}) => step * (row - state.row) > 0);
+    const next = at >= 0 ? listed[at + step] : beyond[step > 0 ? 0 : beyond.length - 1];
+    if (next) {
+        showEvent(next);
     }
 }
 
-// Lanes over time: a row for each kind that the scene has, with a line for each event.
+// Goes to the next frame that differs from the other stream.
+function stepDifference() {
+    const next = eventsOfKind('difference').find(({row}) => row > state.row);
+    if (next) {
+        showEvent(next);
+    }
+}
+
+// Lanes over time: a row for each kind that the scene has, with a line where there are events.
 
 const lanes = {scene: -1, drawn: '', canvases: new Map()};
 
 function makeLane(kind, list) {
     const title = button('', () => {
         const again = state.event === kind;
+        const at = list.indexOf(shownEvent());
+        const next = at >= 0 ? list[at + 1] : list.find(({row}) => row > state.row);
         state.event = kind;
-        showEvent((again && list.find(({row}) => row > state.row)) || list[0]);
+        showEvent((again && next) || list[0]);
     });
     title.textContent = `${eventKinds[kind].title}: ${list.length}`;
     title.title = `${capital(eventKinds[kind].tells)}. Click: to the first, again: to the next (. and ,)`;
@@ -123,11 +152,18 @@ function makeLane(kind, list) {
     const lane = make('canvas');
     lane.addEventListener('click', event => {
         state.event = kind;
-        const at = {x: event.offsetX, y: 0};
-        showEvent(nearest(list.map(one => ({...one, x: timePlace(laneSpan(lane), one.row), y: 0})), at, Infinity));
+        showEvent(eventInLane(list, laneSpan(lane), event.offsetX));
     });
     lanes.canvases.set(kind, lane);
     return [title, lane];
+}
+
+// The event of a lane that is nearest to a place in it; of several in that frame, the one after the one shown.
+function eventInLane(list, span, x) {
+    const places = list.map(({row}) => ({row, x: timePlace(span, row), y: 0}));
+    const {row} = nearest(places, {x, y: 0}, Infinity);
+    const there = list.filter(one => one.row === row);
+    return there[(there.indexOf(shownEvent()) + 1) % there.length];
 }
 
 function laneSpan(lane) {

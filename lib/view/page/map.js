@@ -326,8 +326,7 @@ function drawOriginal(scan, i) {
 
 function labelContributor(scan, i) {
     const from = toScreen(contributorPlace(scan, i));
-    const weight = Math.round(100 * column('contributor_weight')[i]);
-    putLabel(`${contributorWords(i)} ${weight} %`, from, ink.ink);
+    putLabel(`${contributorWords(i)} ${percent(column('contributor_weight')[i])}`, from, ink.ink);
 }
 
 function labelContributors(target) {

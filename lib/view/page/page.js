@@ -379,7 +379,7 @@ const keyActions = {
     'PageUp': () => stepScene(-1),
     '?': () => control('keys').showModal(),
     'm': enlargeNextPlot,
-    'u': () => stepEvent(1, 'difference'),
+    'u': stepDifference,
     '.': () => stepEvent(1),
     ',': () => stepEvent(-1),
     'Escape': () => (state.large ? enlargePlot('') : chooseNone()),

@@ -34,6 +34,17 @@ function round(value, digits) {
     return value === null ? '–' : value.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1');
 }
 
+// A share in per cent with these decimals, or with as many more as it takes to differ from none and all.
+function percent(share, digits = 0) {
+    for (let more = digits; more <= 3; more++) {
+        const told = round(100 * share, more);
+        if (Number(told) % 100 !== 0) {
+            return `${told} %`;
+        }
+    }
+    return share > 0 && share < 0.5 ? 'under 0.001 %' : `${round(100 * share, digits)} %`;
+}
+
 function plural(count, word) {
     return `${count} ${word}${count === 1 ? '' : 's'}`;
 }
@@ -153,7 +164,7 @@ function partsText(target, object) {
     }
     parts.sort((a, b) => b.weight - a.weight);
     const shown = parts.slice(0, parts.length > 5 ? 4 : 5); // a contour has hundreds
-    return shown.map(part => `${part.text} ${Math.round(100 * part.weight)} %`).join(' + ') +
+    return shown.map(part => `${part.text} ${percent(part.weight)}`).join(' + ') +
         (parts.length > shown.length ? ` and ${parts.length - shown.length} more` : '');
 }
 
@@ -214,7 +225,7 @@ function sightingWords(i) {
     const inView = value('in_view');
     const seen = `${value('in_range')} of ${plural(value('reflectors'), 'reflection centre')} in range, ${inView} in view`;
     const hidden = inView > 0
-        ? `, ${round(100 * value('blocked_share'), 0)} % of these blocked (visibility ${levels[value('visibility')]})` : '';
+        ? `, ${percent(value('blocked_share'))} of these blocked (visibility ${levels[value('visibility')]})` : '';
     const merged = value('merged') > 0 ? `, ${value('merged')} merged with something else` : '';
     const ghosts = value('ghosts') > 0 ? `, ${plural(value('ghosts'), 'ghost')}` : '';
     return `${seen}${hidden}. ${plural(value('detections'), 'detection')}${merged}${ghosts}.`;
@@ -346,7 +357,7 @@ function qualityRows(target) {
         ['deviation of range', number('range_sd_m', 3, ' m')],
         ['… of azimuth', number('azimuth_sd_rad', 2, '°', degrees)],
         ['… of range rate', number('range_rate_sd_mps', 3, ' m/s')],
-        ['exists with', number('existence', 1, ' %', 100)],
+        ['exists with', Number.isNaN(value('existence')) ? 'not known' : percent(value('existence'), 1)],
         ['rate less the sensor’s own', number('range_rate_over_ground_mps', 3, ' m/s')],
         ...folds,
         ['channels show several echoes', Number.isNaN(value('looks_merged')) ? 'not known' : value('looks_merged') ? 'yes' : 'no'],
@@ -390,7 +401,7 @@ function contributorRow(scan, target, i) {
         weightBar(value('weight'), colourOf(scan, target)),
         make('span', `${round(value('range_m'), 3)} m, ${round(value('azimuth_rad') * degrees, 2)}°, ` +
             `${round(value('range_rate_mps'), 3)} m/s, ERCS ${Number(value('ercs').toPrecision(3))}`, 'soft'));
-    return rowButton('●', [text], `${round(100 * value('weight'), 1)} %`,
+    return rowButton('●', [text], percent(value('weight'), 1),
         () => chooseReflector(reflector, object, echoOfContributor(i)));
 }
 
@@ -476,9 +487,9 @@ function reflectorFates(scan) {
         for (let i = begin; i < end; i++) {
             if (isListedEcho(column('contributor_object')[i], column('contributor_reflector')[i],
                 column('contributor_number')[i])) {
-                const weight = round(100 * column('contributor_weight')[i], 1);
+                const weight = percent(column('contributor_weight')[i], 1);
                 fates.push(rowButton(targetSymbol(scan, target),
-                    [`In target ${number}, with ${weight} % of its weight, ${contributorPath(i)}.`], '',
+                    [`In target ${number}, with ${weight} of its weight, ${contributorPath(i)}.`], '',
                     () => chooseTarget(target)));
             }
         }

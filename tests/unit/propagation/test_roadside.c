@@ -177,6 +177,45 @@ static void cells_strips_and_scenes_have_draws_of_their_own(void **state)
     }
 }
 
+/* Ten bins over a meadow of four cells, 16 m from side to side: each cell has its own part of them.
+ */
+static void scatterers_are_uniform_across_a_strip_and_each_in_its_cell(void **state)
+{
+    (void)state;
+    enum { BINS = 10 };
+    struct roadside_scatterer found[100];
+    double seen[BINS] = {0}, expected[BINS], count = 0;
+    for (int64_t cell = 0; cell < CELLS; cell++) {
+        int here = draw(&MEADOW, cell / 4, cell % 4, 0, found);
+        for (int i = 0; i < here; i++) {
+            double left_m = found[i].place_m.y - MEADOW.from_y_m + 8;
+            assert_int_equal((int64_t)floor(left_m / 4), cell % 4);
+            seen[(int)(BINS * left_m / 16)]++;
+            count++;
+        }
+    }
+    for (int i = 0; i < BINS; i++)
+        expected[i] = count / BINS;
+    assert_in_range((int64_t)chi_square(seen, expected, BINS), 0, (int64_t)CHI_SQUARE_9);
+}
+
+static void cells_beside_each_other_across_a_strip_have_draws_of_their_own(void **state)
+{
+    (void)state;
+    struct roadside_scatterer found[4][100];
+    int alike = 0, compared = 0;
+    for (int64_t along = 0; along < 100; along++)
+        for (int64_t across = 0; across < 4; across++) {
+            int count = draw(&MEADOW, along, across, 0, found[across]);
+            if (across == 0 || count == 0 || draw(&MEADOW, along, across - 1, 0, found[0]) == 0)
+                continue;
+            compared++;
+            alike += found[across][0].ercs == found[0][0].ercs;
+        }
+    assert_true(compared > 50);
+    assert_int_equal(alike, 0);
+}
+
 static void absent_numbers_are_those_of_the_kind(void **state)
 {
     (void)state;
@@ -220,6 +259,8 @@ int main(void)
         cmocka_unit_test(a_rail_has_one_post_a_spacing_at_a_uniform_place),
         cmocka_unit_test(nothing_stands_outside_a_strip),
         cmocka_unit_test(cells_strips_and_scenes_have_draws_of_their_own),
+        cmocka_unit_test(scatterers_are_uniform_across_a_strip_and_each_in_its_cell),
+        cmocka_unit_test(cells_beside_each_other_across_a_strip_have_draws_of_their_own),
         cmocka_unit_test(absent_numbers_are_those_of_the_kind),
         cmocka_unit_test(a_strip_without_length_or_number_has_nothing),
     };

@@ -117,6 +117,29 @@ static void chains_leave_out_each_effect_that_the_frames_call_for(void **state)
     end(&bench);
 }
 
+/* What Buehren and Yang's model has: the list of a radar is limited in it, too. */
+static void the_chain_of_the_paper_has_the_papers_effects_and_its_list_limit(void **state)
+{
+    (void)state;
+    static const char *const papers[] = {",-visibility",    ",-plane_reflection", ",-rows",
+                                         ",-occlusion",     ",-ambiguity",        ",-merging",
+                                         ",-superposition", ",-threshold",        ",-angle_noise",
+                                         ",-range_noise",   ",-final_threshold",  ",-list_limit"};
+    struct bench bench;
+    measure(&bench, 0);
+    const struct tried_chain *paper = &bench.cost.chains.items[1];
+    assert_string_equal(paper->chain, "paper");
+    size_t left_out = 0;
+    for (const char *at = paper->effects; (at = strstr(at, ",-")) != NULL; at++)
+        left_out++;
+    assert_int_equal(left_out, EFFECT_COUNT - sizeof papers / sizeof *papers);
+    for (size_t i = 0; i < sizeof papers / sizeof *papers; i++)
+        if (strstr(paper->effects, papers[i]) != NULL)
+            fail_msg("the paper's chain leaves out %s: %s", papers[i], paper->effects);
+    assert_string_equal(bench.cost.chains.items[0].effects, paper->effects);
+    end(&bench);
+}
+
 /* Times and errors that no machine changes. */
 static void set_chain(struct cost *cost, size_t at, double us, double error)
 {
@@ -351,6 +374,7 @@ int main(void)
         cmocka_unit_test(the_reference_is_the_signal_where_there_is_one),
         cmocka_unit_test(a_sample_has_250_frames_or_fewer_where_the_signal_is_long),
         cmocka_unit_test(chains_leave_out_each_effect_that_the_frames_call_for),
+        cmocka_unit_test(the_chain_of_the_paper_has_the_papers_effects_and_its_list_limit),
         cmocka_unit_test(the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found),
         cmocka_unit_test(an_effect_stays_unless_its_time_is_told_from_nothing),
         cmocka_unit_test(without_an_error_of_ideal_echoes_nothing_is_found),

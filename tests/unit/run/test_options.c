@@ -212,16 +212,35 @@ static void a_tools_operand_comes_before_the_files_that_it_reads(void **state)
 {
     (void)state;
     struct result result;
-    assert_int_equal(read_line(&tables, "folder --seed 3 a --complete b", &result), 0);
+    assert_int_equal(read_line(&tables, "folder a --complete b", &result), 0);
     assert_string_equal(result.choice.where, "folder");
     assert_int_equal(result.common.files.count, 2);
     assert_string_equal(result.common.files.items[0], "a");
-    assert_true(result.common.complete && result.common.seed == 3);
+    assert_true(result.common.complete);
     arena_free(&result.arena);
     assert_int_equal(read_line(&reader, "--where x a -o out", &result), 0);
     assert_int_equal(result.common.files.count, 1);
     assert_string_equal(result.common.output, "out");
     arena_free(&result.arena);
+}
+
+static void only_what_writes_frames_or_draws_takes_a_seed(void **state)
+{
+    (void)state;
+    struct result result;
+    struct stage drawer = tables, sink = filter;
+    drawer.draws = true;
+    sink.sink = true;
+    assert_int_equal(read_line(&drawer, "folder --seed 3", &result), 0);
+    assert_true(result.common.seed_given && result.common.seed == 3);
+    arena_free(&result.arena);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(i == 0 ? read_line(&tables, "folder --seed 3", &result)
+                                : read_line(&sink, "--where x --seed 3", &result),
+                         -1);
+        assert_string_equal(result.diag.text, "unknown option --seed; see --help");
+        arena_free(&result.arena);
+    }
 }
 
 static void a_tool_refuses_options_that_would_do_nothing(void **state)
@@ -304,6 +323,7 @@ int main(void)
         cmocka_unit_test(help_and_version_need_nothing_else),
         cmocka_unit_test(wrong_command_lines_are_refused),
         cmocka_unit_test(a_tools_operand_comes_before_the_files_that_it_reads),
+        cmocka_unit_test(only_what_writes_frames_or_draws_takes_a_seed),
         cmocka_unit_test(a_tool_refuses_options_that_would_do_nothing),
         cmocka_unit_test(help_names_every_option_with_unit_bounds_and_choices),
     };

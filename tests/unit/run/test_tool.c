@@ -64,6 +64,7 @@ static const struct stage counter = {.name = "counter",
                                      .options = &work_record,
                                      .operand = "DIR",
                                      .into_folder = true,
+                                     .draws = true,
                                      .reads = SECTION_OBJECTS,
                                      .run = count_frames};
 
