@@ -1,4 +1,4 @@
-/* Effects that the document of a sensor describes, and those that it does not.
+/* Effects that the document of a sensor describes.
  *
  * Only effects that a sensor may lack count: neither those of every sensor, such as threshold, nor
  * those that the scene describes, such as clutter and rain. Levels of bodies stand for fluctuation:
