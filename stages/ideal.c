@@ -17,9 +17,10 @@ static int ideal_start(void *state, struct runner *runner)
 {
     struct ideal *ideal = state;
     ideal->suite = suite_choice_load(runner, ideal->choice.sensors);
-    return ideal->suite == NULL ? -1
-                                : suite_choice_request(&ideal->choice, ideal->suite,
-                                                       &ideal->request, runner_diag(runner));
+    if (ideal->suite == NULL)
+        return -1;
+    suite_choice_doubt(runner, ideal->suite);
+    return suite_choice_request(&ideal->choice, ideal->suite, &ideal->request, runner_diag(runner));
 }
 
 static struct sensor_view view_of(const struct sensor *sensor, bool measured)

@@ -6,6 +6,8 @@
 #include "base/elementary.h"
 #include "base/units.h"
 #include "documents/consistency.h"
+#include "documents/suite_effects.h"
+#include "documents/usual_figures.h"
 #include "radar/detection.h"
 
 #define LEAST_GAIN 1e-6 /* less is rounding where a pattern ends in a zero */
@@ -178,6 +180,29 @@ static void add_limits(const struct sensor *sensor, struct text *text)
         text_add_word(text, "\n");
 }
 
+static void add_effects(const char *label, uint64_t set, struct text *text)
+{
+    text_add_word(text, label);
+    for (int i = 0, count = 0; i < EFFECT_COUNT; i++)
+        if ((set & EFFECT_BIT(i)) != 0)
+            text_format(text, "%s%s", count++ > 0 ? ", " : "", effects_names[i]);
+}
+
+/* The effects that the document lacks, and a suite to extend that has them. */
+static void add_missing(const struct sensor *sensor, struct text *text)
+{
+    uint64_t missing = suite_effects_missing(sensor);
+    struct suite_effects_example example = suite_effects_example(sensor);
+    uint64_t neither = missing & example.missing;
+    add_effects("  not described:     ", missing, text);
+    text_add_word(text, missing == 0 ? "no effect" : "");
+    if (neither != missing)
+        text_format(text, "; \"extends\": \"%s\" has them", example.name);
+    if (neither != missing && neither != 0)
+        add_effects(" without ", neither, text);
+    text_add_word(text, "\n  of the scene:      clutter, roadside, rain, fog, snow\n");
+}
+
 static void add_figures(const struct sensor *sensor, const struct datasheet *sheet,
                         struct text *text)
 {
@@ -197,6 +222,7 @@ static void add_figures(const struct sensor *sensor, const struct datasheet *she
         text_format(text, "  list               the %s %lld\n",
                     sensor->list_order == LIST_STRONGEST ? "strongest" : "nearest",
                     (long long)sensor->list_limit);
+    add_missing(sensor, text);
 }
 
 static void add_accuracy(const struct datasheet *sheet, struct text *text)
@@ -272,6 +298,16 @@ static void add_checks(const struct sensor *sensor, struct text *text)
     }
 }
 
+static void add_unusual(const struct sensor *sensor, struct text *text)
+{
+    struct usual_figure unusual[USUAL_FIGURES_MOST];
+    size_t count = usual_figures_list(sensor, unusual);
+    for (size_t i = 0; i < count; i++)
+        text_format(text, "  doubt: %s, %.4g%s, automotive radars have %.4g to %.4g%s\n",
+                    unusual[i].member, unusual[i].value, unusual[i].unit, unusual[i].least,
+                    unusual[i].most, unusual[i].unit);
+}
+
 static struct text sheet_of(const struct sensor *sensor)
 {
     struct text text = {0};
@@ -281,6 +317,7 @@ static struct text sheet_of(const struct sensor *sensor)
     add_accuracy(&sheet, &text);
     add_detection(sensor, &sheet, &text);
     add_checks(sensor, &text);
+    add_unusual(sensor, &text);
     return text;
 }
 

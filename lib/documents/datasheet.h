@@ -30,6 +30,6 @@ struct datasheet {
 void datasheet_of(const struct sensor *sensor, struct datasheet *sheet);
 
 /* Adds a sheet for every sensor, in degrees, dBsm, m and m/s. Neighbouring sensors that differ only
- * in name and mount share one. A check that does not hold is a line that begins with "doubt:". The
- * suite's assumptions follow. */
+ * in name and mount share one. A check that does not hold, and a figure that is not usual, is a
+ * line that begins with "doubt:". The suite's assumptions follow. */
 void datasheet_add(const struct suite *suite, struct text *text);

@@ -24,12 +24,18 @@ struct chain {
     struct progress progress;
 };
 
-/* "glint-NAME: MESSAGE" to stderr. */
+/* "glint-NAME: MESSAGE" to stderr, with the notices before it. */
 static void complain(const struct runner *runner)
 {
     char program[128];
     snprintf(program, sizeof program, "glint-%s", runner->stage->name);
-    diag_print(program, &runner->diag);
+    for (size_t i = 0; i < runner->notices.count; i++) {
+        struct diag notice = {0};
+        snprintf(notice.text, sizeof notice.text, "%s", runner->notices.items[i]);
+        diag_print(program, &notice);
+    }
+    if (runner->diag.text[0] != '\0')
+        diag_print(program, &runner->diag);
 }
 
 int64_t chain_cpu_ns(void)
@@ -247,8 +253,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
         *times = chain.times;
     int code = DIAG_OK;
     for (size_t i = 0; i < count; i++) {
-        if (runners[i].diag.text[0] != '\0')
-            complain(&runners[i]);
+        complain(&runners[i]);
         if (failed(&runners[i]))
             code = (int)runners[i].diag.code;
         runners[i].pause = (struct input_pause){0};

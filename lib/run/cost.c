@@ -106,6 +106,7 @@ int cost_begin(struct cost *cost, int64_t frames)
     const struct suite *suite = suite_choice_load(cost->runner, cost->suite);
     if (suite == NULL)
         return -1;
+    suite_choice_doubt(cost->runner, suite);
     int64_t samples = signal_samples(suite), most = FRAMES;
     bool built = stage_by_name(stage_name_in_path(SIGNAL)) != NULL;
     cost->no_signal = cost->reference == COST_ALL ? "it was not asked for"

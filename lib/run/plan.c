@@ -53,6 +53,7 @@ int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runn
     if (suite == NULL || suite_choice_request(choice, suite, &request, diag) != 0 ||
         effects_read(request.effects, &selection, diag) != 0)
         return -1;
+    suite_choice_doubt(runner, suite);
     struct suite_choice planned = {choice->sensors,
                                    plan_request(selection.allowed, runner_arena(runner))};
     *plan = (struct plan){

@@ -1,6 +1,7 @@
 #include "run/suite_choice.h"
 
 #include "documents/suite_file.h"
+#include "documents/usual_figures.h"
 #include "frame/frame_check.h"
 #include "propagation/ground_return.h"
 #include "run/runner.h"
@@ -26,6 +27,36 @@ const struct suite *suite_choice_load(struct runner *runner, const char *name)
         if (strcmp(runner->suites.items[i]->given, name) == 0)
             return runner->suites.items[i];
     return load_suite(runner, name, &runner->diag);
+}
+
+/* Has a sensor before this one the same value of the member? */
+static bool is_told(const struct suite *suite, size_t sensor, const struct usual_figure *figure)
+{
+    for (size_t i = 0; i < sensor; i++) {
+        struct usual_figure before[USUAL_FIGURES_MOST];
+        size_t count = usual_figures_list(&suite->sensors.items[i], before);
+        for (size_t k = 0; k < count; k++)
+            if (strcmp(before[k].member, figure->member) == 0 && before[k].value == figure->value)
+                return true;
+    }
+    return false;
+}
+
+void suite_choice_doubt(struct runner *runner, const struct suite *suite)
+{
+    struct usual_figure unusual[USUAL_FIGURES_MOST];
+    if (!document_is_path(suite->given))
+        return;
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        size_t count = usual_figures_list(&suite->sensors.items[i], unusual);
+        for (size_t k = 0; k < count; k++)
+            if (!is_told(suite, i, &unusual[k]))
+                *list_add(&runner->notices, &runner->arena) = arena_format(
+                    &runner->arena,
+                    "%s: sensors[%zu].%s: doubt: %g%s; automotive radars have %g to %g%s",
+                    suite->given, i, unusual[k].member, unusual[k].value, unusual[k].unit,
+                    unusual[k].least, unusual[k].most, unusual[k].unit);
+    }
 }
 
 static bool is_suite_of(const struct suite *suite, const struct frame *frame)

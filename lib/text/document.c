@@ -153,7 +153,7 @@ const char *document_find(const char *own, const char *kind, const char *name, c
                           struct arena *arena, struct diag *diag)
 {
     struct folders folders;
-    if (strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0)
+    if (document_is_path(name))
         return arena_text(arena, name, strlen(name));
     if (find_folders(kind, own, &folders, arena, diag) != 0)
         return NULL;

@@ -32,6 +32,12 @@ const char *document_find(const char *own, const char *kind, const char *name, c
 const char *document_find_file(const char *own, const char *kind, const char *name,
                                const char *ending, struct arena *arena, struct diag *diag);
 
+/* Is what names a document a path? */
+static inline bool document_is_path(const char *name)
+{
+    return strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0;
+}
+
 /* Refuses a path that is no folder; the message names the option or variable that gives the path.
  */
 int document_check_folder(const char *named_by, const char *folder, struct diag *diag);

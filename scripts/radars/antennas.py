@@ -105,25 +105,35 @@ def pair(scan, level, sigma, half_rad, snr):
 
 def tables(scan):
     """Tables of the antenna by the members that name them; none if the sheet states nothing of it and extends a suite."""
-    if "antenna_pattern" in scan.members and not any(name in scan.figures for name in STATED):
+    members, half_rad = scan.members, scan.members["field_of_view_rad"] / 2
+    if scan.own.keys() & {"antenna_pattern", "antenna_table", "array"}:
+        row = "array" in members
+        scan.assume("antenna_pattern", "array" if row else "table", "as members state the antenna")
+        scan.assume("angle_estimator", "beams" if row else "ratio", "as members state the antenna")
+        scan.assume("azimuth_sigma_rad", half_rad / 50, "a hundredth of the field of view")
         return {}
-    members, half_rad, snr = scan.members, scan.members["field_of_view_rad"] / 2, reference_snr(scan)
+    if "antenna_pattern" in members and not any(name in scan.figures for name in STATED):
+        return {}
+    snr = reference_snr(scan)
     stated, row, level = accuracy(scan), array(scan, half_rad), beam(scan, half_rad)
     places = [min(1.001 * half_rad, math.pi / 2) * i / ROWS for i in range(-ROWS, ROWS + 1)]
-    for member in ("azimuth_curve", "antenna_table", "azimuth_floor_curve", "azimuth_floor_rad"):
-        members.pop(member, None)
+    scan.drop("azimuth_curve", "antenna_table", "azimuth_floor_curve", "azimuth_floor_rad")
     if row:
         antenna = [row / math.sqrt(snr) / max(math.cos(at), 0.02) for at in places]
         scan.assume("azimuth_sigma_rad", antenna[ROWS], "that of the elements")
         scan.assume("cell_phase", "by_path", "echoes of a cell have the phases of their paths, without which azimuths cannot separate them")
-        members |= {"antenna_pattern": "array", "angle_estimator": "beams"}
+        scan.follow("antenna_pattern", "array")
+        scan.follow("angle_estimator", "beams")
         made = {"azimuth_curve": [(at, level(at)) for at in places]}
     else:
         scan.assume("azimuth_sigma_rad", half_rad / 50, "a hundredth of the field of view")
         antenna = [min(map(stated, places)) if stated else members["azimuth_sigma_rad"]] * len(places)
-        members |= {"antenna_pattern": "table", "angle_estimator": "ratio"}
+        scan.follow("antenna_pattern", "table")
+        scan.follow("angle_estimator", "ratio")
+        scan.drop("array")
         made = {"antenna_table": pair(scan, level, antenna[0], half_rad, snr)}
-    return made | floors(scan, [(at, stated(at), sigma) for at, sigma in zip(places, antenna)] if stated else [], snr)
+    made |= floors(scan, [(at, stated(at), sigma) for at, sigma in zip(places, antenna)] if stated else [], snr)
+    return {member: rows for member, rows in made.items() if member not in scan.own}
 
 
 def floors(scan, rows, snr):
@@ -137,7 +147,7 @@ def floors(scan, rows, snr):
     if all(stated < 1.01 * antenna for _, stated, antenna in rows):
         return {}
     curve = [(at, 10 * math.log10(max(stated ** 2 - antenna ** 2, 1e-4 * antenna ** 2))) for at, stated, antenna in rows]
-    scan.members["azimuth_floor_rad"] = 10 ** (curve[ROWS][1] / 20)
+    scan.follow("azimuth_floor_rad", 10 ** (curve[ROWS][1] / 20))
     return {"azimuth_floor_curve": curve}
 
 

@@ -51,7 +51,9 @@ class Law:
 
 def in_noise(amplitude, threshold):
     """The probability that noise leaves the amplitude above the threshold, by an integral around the threshold's circle: seen
-    from the echo, noise ends inside it with 1 - exp(-rho^2) along a ray that meets it at rho."""
+    from the echo, noise ends inside it with 1 - exp(-rho^2) along a ray that meets it at rho. Far above the noise the circle is straight."""
+    if threshold > 50:
+        return math.erfc(threshold - amplitude) / 2
     steps, inside = 16 + int(8 * threshold), 0
     for i in range(steps):
         cosine = math.cos(math.pi * (i + 0.5) / steps)

@@ -1,5 +1,6 @@
 """glint beside a recording: fitted on its first half, compared with its second half, in print."""
 import itertools
+import json
 import math
 import operator
 import os
@@ -75,17 +76,21 @@ def print_found(recording, fit, lost):
     azimuth_rad = math.hypot(sensor.get("azimuth_floor_rad", 0), fit.azimuth_noise / 10)
     speed_mps = statistics.fmean(statics.ego_speeds(recording.radar, recording.scans))
     stands = any(statics.ego_speed(recording.radar, scan) is not None for scan in recording.scans)
+    def told(member, text):
+        return text if fitted.is_found(fit, member) else f"{text} (not found: as lrr77-full)"
+
     print(f"""
 boxes      lists are {f"{lag_s:.2f} s older" if lag_s else "taken to be as old"}, and near faces lie {inset_m:.2f} m inside
 ego        {f"{speed_mps:.1f} m/s on average, by what stands" if stands else "taken to stand, as too few rates agree"}
 threshold  {sensor['threshold_db']:.1f} dB over the noise
 receiver   0 dBsm has {", ".join(f"{level:.1f} dB at {range_m:.0f} m" for range_m, level in law.over_range)}
            aside {", ".join(f"{level:.1f} dB at {math.degrees(angle):.1f}" for angle, level in law.over_azimuth)} degrees
-cells      {sensor['cell_range_m']:.2f} m, {sensor['cell_range_rate_mps']:.2f} m/s
-noise      {sensor['range_sigma_m']:.2f} m, {sensor['range_rate_sigma_mps']:.3f} m/s, {math.degrees(azimuth_rad):.2f} \
-degrees at 20 dB{" (no less is possible in so wide a view)" * (fit.azimuth_noise < 1.001 * fitted.least_noise_rad(law))}
+cells      {told("cell_range_m", f"{sensor['cell_range_m']:.2f} m")}, {told("cell_range_rate_mps", f"{sensor['cell_range_rate_mps']:.2f} m/s")}
+noise      {told("range_sigma_m", f"{sensor['range_sigma_m']:.2f} m")}, \
+{told("range_rate_sigma_mps", f"{sensor['range_rate_sigma_mps']:.3f} m/s")}, {told("azimuth_sigma_rad", f"{math.degrees(azimuth_rad):.2f} degrees at 20 dB")}\
+{" (no less is possible in so wide a view)" * (fit.azimuth_noise < 1.001 * fitted.least_noise_rad(law))}
 levels     keep the {fit.sensor['level_keeps']}: scores of blocks left out: {", ".join(f"{word} {own:.1f}" for word, own in lost.items()) or "none"}
-roadside   {", ".join(f"{100 * one['per_m2'] * one['width_m']:.1f} of {one['rcs_dbsm']:.0f} dBsm at {one['from_y_m']} m"
+roadside   {", ".join(f"{100 * one['per_m2'] * one['width_m']:.1f} of {one['rcs_dbsm']:.0f} dBsm at {one['from_y_m']} m{' (at its cap)' * roadside.at_cap(one)}"
                       for one in fit.roadside) or "nothing"}, in 100 m
 """)
 
@@ -143,7 +148,7 @@ def fits(recording, folder, keeps="median", **changed):
     made = [[scan._replace(detections=seen) for scan, seen in zip(own.scans, one)] for one in lists]
     behind = [statistics.fmean(of) for of in zip(*(fitted.annotation(recording._replace(scans=scans)) for scans in made))]
     noises_m = [fitted.noise(recording.radar, scans, 1e-3)[0].get("range_sigma_m") for scans in made]
-    wider = 1 if None in noises_m else statistics.fmean(noises_m) / found.sensor["range_sigma_m"]
+    wider = 1 if None in noises_m or not fitted.is_found(found, "range_sigma_m") else statistics.fmean(noises_m) / found.sensor["range_sigma_m"]
     drawn = Progress("fits").over([*score.resampled(len(recording.scans), chains.SEEDS, 3)])
     told = [found, *(fitted.fit(recording._replace(scans=[recording.scans[i] for i in one]), keeps) for one in drawn)]
     return [one._replace(annotation=fitted.Annotation(*map(operator.sub, one.annotation, behind)),
@@ -213,4 +218,14 @@ def compare(folder, suite_folder=None):
         if second.boxes:
             print_components(second, fit, place, scores)
     if suite_folder:
-        print(f"written: {os.path.relpath(suite)}")
+        print(f"written: {os.path.relpath(suite)} and {os.path.relpath(write_found(fit, recording, suite_folder))}")
+
+
+def write_found(fit, recording, folder):
+    """What is found beside the suite: strips for a scenario, age and size of the boxes, and which members are not the recording's."""
+    path = os.path.join(folder, "found.json")
+    with open(path, "w", encoding="utf-8") as out:
+        json.dump({"ego_mps": statistics.fmean(statics.ego_speeds(recording.radar, recording.scans)), **fit.annotation._asdict(), "roadside": fit.roadside,
+                   "roadside_at_cap_y_m": [one["from_y_m"] for one in fit.roadside if roadside.at_cap(one)],
+                   "not_found": [member for member in (*fitted.CELLS, *fitted.NOISES) if not fitted.is_found(fit, member)]}, out, indent=2)
+    return path

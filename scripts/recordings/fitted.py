@@ -19,11 +19,13 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 SLOWEST = 24  # dB a decade, the lesser of two 77 GHz radars on roads: few near detections are as weak as the threshold
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
 STEEPEST = 8  # extent of the view in noise of azimuth: delta is at most 140 times sum
+FEWEST_PAIRS = 8  # of neighbours that tell a cell
 WITHIN_2 = 0.7737  # variance of normal numbers within two standard deviations
 # Members that lists do not show, and figures for which a half may have too few detections: those of lrr77-full.
 SHIPPED = ("range_min_m range_floor_m diffraction curved_sides micro_motion bounces antenna_pattern phase_reference "
-           "angle_estimator final_threshold list_order list_limit azimuth_sigma_rad cell_range_m cell_range_rate_mps "
-           "range_sigma_m range_rate_sigma_mps").split()
+           "angle_estimator final_threshold list_order list_limit azimuth_sigma_rad range_sigma_m range_rate_sigma_mps").split()
+NOISES = "range_sigma_m", "range_rate_sigma_mps", "azimuth_sigma_rad"
+CELLS, FOUND = ("cell_range_m", "cell_range_rate_mps"), "[F] the recording, its first half"
 LEVEL = "[A] the middle between two 77 GHz radars on roads (MODEL 14.22)"
 ASSUMED = {"cell_phase": ("by_path", "[A] as lrr77-coherent"), "cell_extent": ("half_width", "[A] a least distance"),
            "pointer_sigma": (1, "[A] amplitudes are ratios to the noise"), "level_constant_db": (4.5, LEVEL), "level_slow_db": (2.5, LEVEL), "level_fast_db": (2.9, LEVEL)}
@@ -121,20 +123,31 @@ def completed(scans, law):
     return [scan._replace(detections=[of(one) for one in scan.detections]) for scan in scans]
 
 
+def edge(values):
+    """Where values begin to be dense, of few or many, some of which may lie below by mistake: of all places where a step of their
+    density is most likely, by their numbers up to it and up to three times as far."""
+    values, best, most = sorted(values), 0, 0
+    for i, value in enumerate(values):
+        count = bisect.bisect_left(values, 3 * value)
+        below = i / count
+        gain = count * ((below * math.log(3 * below) if below else 0) + (1 - below) * math.log(1.5 * (1 - below))) if below < 1 / 3 else 0
+        best, most = (value, gain) if gain > most else (best, most)
+    return values[bisect.bisect_left(values, 0.9 * best)]
+
+
 def cells(scans):
-    """The least distance in range of detections whose rates agree, and in rate of those whose ranges do. 1 in 100 pairs of
-    neighbours may be closer; as many again are farther apart than the least by about as much as that is too large."""
+    """The least distance in range of detections whose rates agree, and in rate of those whose ranges do, where there are enough."""
     pairs = [(abs(one.range_m - other.range_m), abs(one.range_rate_mps - other.range_rate_mps))
              for scan in scans[:50] for i, one in enumerate(scan.detections) for other in scan.detections[:i]]
     near = {"cell_range_m": [off_m for off_m, off_mps in pairs if off_mps < 0.1 and off_m < 10],
             "cell_range_rate_mps": [off_mps for off_m, off_mps in pairs if off_m < 0.3 and off_mps < 5]}
-    return {name: max(2 * quantile(found, 0.01) - quantile(found, 0.02), 0.01) for name, found in near.items()
-            if len(found) >= 5}
+    return {name: max(edge(found), 0.01) for name, found in near.items() if len(found) >= FEWEST_PAIRS}
 
 
 def noise(radar, scans, least_rad):
-    """Standard deviations of statics from scan to scan, of range, range rate and azimuth, and the azimuth's at a signal
-    as strong as the noise, at least least_rad. Scans that do not follow each other at the usual interval make no pairs."""
+    """Standard deviations of statics, as members of a sensor, as far as they are found: of range and azimuth from scan to scan, and
+    of the range rate ahead and behind, where azimuths hardly enter it. And the azimuth's at a signal as strong as the noise, at
+    least least_rad. Scans that do not follow each other at the usual interval make no pairs."""
     found, rates = [], []
     speeds = statics.ego_speeds(radar, scans)
     still = [statics.standing(radar, scan.detections, speed) for scan, speed in zip(scans, speeds)]
@@ -143,12 +156,13 @@ def noise(radar, scans, least_rad):
         if 0 < interval_s < 2 * statistics.median(intervals_s):
             own = statics.pairs(still[i - 1], still[i], speeds[i] * interval_s)
             found += own if len(own) >= 5 else []
-        rates += [one.range_rate_mps + speeds[i] * x / one.range_m for x, y, one in still[i] if abs(y) < 0.05 * x]
-    if len(found) < 40 or len(rates) < 20:
-        return {}, max(least_rad, 0.05)
+        rates += [one.range_rate_mps + speeds[i] * x / one.range_m for x, y, one in still[i] if abs(y) < 0.05 * abs(x)]
+    of_rate = {"range_rate_sigma_mps": spread(rates)} if len(rates) >= 20 else {}
+    if len(found) < 40:
+        return of_rate, max(least_rad, 0.05)
     floor, per_noise = azimuth_variances(found, least_rad ** 2)
-    return {"range_sigma_m": spread([pair[0] for pair in found]) / math.sqrt(2), "range_rate_sigma_mps": spread(rates),
-            "azimuth_floor_rad": math.sqrt(floor), "azimuth_sigma_rad": math.sqrt(floor)}, math.sqrt(per_noise)
+    return of_rate | {"range_sigma_m": spread([pair[0] for pair in found]) / math.sqrt(2),
+                      "azimuth_floor_rad": math.sqrt(floor), "azimuth_sigma_rad": math.sqrt(floor)}, math.sqrt(per_noise)
 
 
 def azimuth_variances(found, least):
@@ -163,6 +177,11 @@ def azimuth_variances(found, least):
         law[1] = max(least_squares(*zip(*near))[1], least)
         law[0] = max(sum(row[0] * (square - law[1] * row[1]) for row, square in near) / sum(row[0] ** 2 for row, _ in near), 1e-6)
     return law
+
+
+def is_found(of, member):
+    """Is a member of the sensor that of the recording?"""
+    return of.sensor.get("sources", {}).get(member, FOUND) == FOUND
 
 
 def least_noise_rad(law):
@@ -184,8 +203,9 @@ def fit(recording, level_keeps="median"):
              "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "antenna_table": "antenna.csv",
              "level_keeps": level_keeps, **cells(scans), **scatter}
     shipped = json_of(os.path.join(ROOT, "data", "sensors", "lrr77-full.json"))["sensors"][0]
-    members = {name: (shipped[name], shipped["sources"][name]) for name in SHIPPED} | ASSUMED | {
-        name: (value, "[F] the recording, its first half") for name, value in found.items()}
+    members = {name: (shipped[name], shipped["sources"][name]) for name in SHIPPED} | {
+        name: (shipped[name] / 2, f"[A] not found in the recording; as lrr77-full, {shipped[name]} wide") for name in CELLS} | ASSUMED | {
+        name: (value, FOUND) for name, value in found.items()}
     return Fit(annotation(recording), law, azimuth_noise,
                {"name": "radar", **{name: value for name, (value, _) in members.items()},
                 "sources": {name: source for name, (_, source) in members.items()}})

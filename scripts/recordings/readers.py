@@ -33,6 +33,7 @@ BOUNDS = {"range_m": (0, 1e4), "azimuth_rad": (-1.55, 1.55), "yaw_rad": (-10, 10
 FARTHEST = 1e4
 MOST = 400  # scans, so that 39 lists of each fit into memory
 ARTICULATED_M = 12  # longer trucks are articulated
+LONGEST_GAP_S = 5  # between lists of one sequence
 KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
 
 
@@ -131,9 +132,13 @@ def own(_, name):
 
 
 def aimotive(folder, extrinsics):
-    """A sequence of the aiMotive Multimodal Dataset, of the first radar that has both a matrix and lists."""
+    """A sequence of the aiMotive Multimodal Dataset, of the one radar that has both a matrix and lists."""
+    others = sorted(glob.glob(os.path.join(glob.escape(folder), "**", "extrinsic_matrices.json"), recursive=True))
+    if len(others) > 1:
+        raise ValueError(f"{others[1]} is another sequence; expected one a folder")
     prefix, matrices, boxes, scans = "RT_body_from_", json_of(extrinsics), numbered(folder, "frame_*.json"), []
-    radar = next(key for key in matrices if key.startswith(prefix) and numbered(folder, f"{key[len(prefix):]}_*.json"))
+    radars = [key for key in matrices if key.startswith(prefix) and numbered(folder, f"{key[len(prefix):]}_*.json")]
+    radar = next(iter(radars))
     for number, name in numbered(folder, f"{radar[len(prefix):]}_*.json").items():
         captured = json_of(boxes[number])
         scans.append(Scan(float(captured["Timestamp"]) * 1e-9,
@@ -142,7 +147,10 @@ def aimotive(folder, extrinsics):
                           list(map(aimotive_box, captured["CapturedObjects"]))))
     matrix = matrices[radar]
     mount = Radar(matrix[0][3], matrix[1][3], math.atan2(matrix[1][0], matrix[0][0]), 77e9)
-    return Recording(mount, scans, [f"other radars of the folder than {radar[len(prefix):]} are left out"])
+    for before, after in zip(scans, scans[1:]):
+        if not 0 < after.time_s - before.time_s < LONGEST_GAP_S:
+            raise ValueError(f"lists {after.time_s - before.time_s:.1f} s apart are of two sequences; expected one a folder")
+    return Recording(mount, scans, [f"other radars of the folder than {radar[len(prefix):]} are left out"] * (len(radars) > 1))
 
 
 def aimotive_box(told):

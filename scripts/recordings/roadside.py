@@ -18,13 +18,19 @@ def levels(part, lists):
     return found
 
 
+def at_cap(strip):
+    """Would the lists take more scatterers than a strip may have?"""
+    return strip["per_m2"] >= MOST_PER_M2
+
+
 def strips(chain, suite, fit, part):
     """Strips with which lists of a chain have as many statics, and as strong ones, as the recording. A strip where less
     than one is seen in two scans is left out."""
     seen = {at: own for at, own in levels(part, [scan.detections for scan in part.scans]).items()
             if 2 * len(own) >= len(part.scans) and WIDTH_M * abs(at) <= FARTHEST_M}
+    behind_m = min((x for scan, speed in zip(part.scans, part.speeds) for x, _, _ in statics.standing(part.radar, scan.detections, speed)), default=0)
     end_m = 400 + max(part.speeds) * (part.scans[-1].time_s - part.scans[0].time_s)
-    found = {at: BEGIN | {"from_x_m": -50, "from_y_m": WIDTH_M * at, "to_x_m": end_m, "to_y_m": WIDTH_M * at}
+    found = {at: BEGIN | {"from_x_m": min(behind_m, 0) - 50, "from_y_m": WIDTH_M * at, "to_x_m": end_m, "to_y_m": WIDTH_M * at}
              for at in sorted(seen)}
     for _ in range(ROUNDS):
         lists, _ = chains.run(chain, suite, fit._replace(roadside=list(found.values())), part, SEEDS)

@@ -4,6 +4,7 @@ import statistics
 
 AGREE_MPS = 0.3  # width of the window of speeds that agree
 AZIMUTH_SIGMA_RAD = 0.006  # assumed for errors of the rate that belongs to an azimuth
+ALONG = 0.3  # cosine from which on a rate tells the speed
 GATE_M, GATE_RAD = 0.4, math.radians(1)  # seen again within
 
 
@@ -15,7 +16,8 @@ def densest(values, width):
 
 def ego_speed(radar, scan):
     """Speed at which most detections stand still; None where fewer than five agree."""
-    same = densest([-one.range_rate_mps / math.cos(one.azimuth_rad + radar.yaw_rad) for one in scan.detections], AGREE_MPS)
+    along = [(one.range_rate_mps, math.cos(one.azimuth_rad + radar.yaw_rad)) for one in scan.detections]
+    same = densest([-rate_mps / cosine for rate_mps, cosine in along if abs(cosine) > ALONG], AGREE_MPS)
     return statistics.median(same) if len(same) >= 5 else None
 
 
@@ -42,8 +44,8 @@ def pairs(before, after, driven_m):
     found, places = [], [(math.hypot(x, y), math.atan2(y, x), one) for x, y, one in after]
     for x, y, one in before:
         range_m, angle = math.hypot(x - driven_m, y), math.atan2(y, x - driven_m)
-        near = [(there_m - range_m, azimuth - angle, one, other) for there_m, azimuth, other in places
-                if abs(azimuth - angle) <= 2 * GATE_RAD and abs(there_m - range_m) <= 2 * GATE_M]
+        near = [(there_m - range_m, off_rad, one, other) for there_m, azimuth, other in places if abs(there_m - range_m) <= 2 * GATE_M
+                and abs(off_rad := math.remainder(azimuth - angle, math.tau)) <= 2 * GATE_RAD]
         if near:
             found.append(min(near, key=lambda pair: math.hypot(pair[0] / GATE_M, pair[1] / GATE_RAD)))
     return found

@@ -49,24 +49,25 @@ def check(good, text):
         print(f"recordings: {text}", file=sys.stderr)
 
 
-def world(count, seed=5):
-    """Scans without detections: four vehicles at their own rates, and posts somewhere on both sides of the road."""
+def world(count, seed=5, way=1, number=300):
+    """Scans without detections: four vehicles at their own rates, and posts somewhere on both sides of the road; ahead of the ego
+    (way 1) or behind it (-1)."""
     scans, generator = [], random.Random(seed)
-    posts = [(generator.uniform(0, 900), generator.choice((14.0, 6.0, -7.0, -12.0))) for _ in range(300)]
+    posts = [(generator.uniform(0, 900) - 300 * (1 - way), generator.choice((14.0, 6.0, -7.0, -12.0))) for _ in range(number)]
     for i in range(count):
         then, boxes = i * INTERVAL_S, []
         for name, kind, x, y, vx in VEHICLES:
-            boxes.append(readers.Box(name, kind, x + vx * then, y, 0.0, vx, 0.0, *SIZES[kind]))
+            boxes.append(readers.Box(name, kind, way * (x + vx * then), y, 0.0, way * vx, 0.0, *SIZES[kind]))
         for k, (x, y) in enumerate(posts):
-            if 0 < x - EGO_MPS * then < 180:
+            if 0 < way * (x - EGO_MPS * then) < 180:
                 boxes.append(readers.Box(f"post{k}", "post", x - EGO_MPS * then, y, 0.0, -EGO_MPS, 0.0, *SIZES["post"]))
         scans.append(readers.Scan(then, [], boxes))
     return scans
 
 
-def truth():
+def truth(radar=RADAR):
     """The suite of the lists."""
-    sensor = {"name": "radar", "mount_x_m": RADAR.x_m, "mount_y_m": 0, "mount_yaw_rad": 0, "carrier_hz": RADAR.carrier_hz,
+    sensor = {"name": "radar", "mount_x_m": radar.x_m, "mount_y_m": radar.y_m, "mount_yaw_rad": radar.yaw_rad, "carrier_hz": radar.carrier_hz,
               "range_min_m": 5, "range_max_m": 180, "field_of_view_rad": 0.6, "threshold_db": 14,
               "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "cell_range_m": 1.4,
               "cell_range_rate_mps": 0.2, "range_sigma_m": 0.08, "range_rate_sigma_mps": 0.02,
@@ -77,10 +78,10 @@ def truth():
     return fitted.Fit(fitted.Annotation(0, 0), LAW, 0.04, sensor)
 
 
-def recorded(suite, scans, seed):
+def recorded(suite, scans, seed, radar=RADAR):
     """The scans with lists of one seed."""
-    part = beside.Part(RADAR, scans, [EGO_MPS] * len(scans), {})
-    lists, _ = chains.run(chains.ALL, suite, truth(), part, 1, seed)
+    part = beside.Part(radar, scans, [EGO_MPS] * len(scans), {})
+    lists, _ = chains.run(chains.ALL, suite, truth(radar), part, 1, seed)
     return [scan._replace(detections=own) for scan, own in zip(scans, lists[0])]
 
 
@@ -114,6 +115,83 @@ def the_first_half_gives_back_the_law(folder, scans):
     check(0.8 <= fit.sensor["cell_range_m"] < 2, f"cell_range_m: {fit.sensor['cell_range_m']:.2f} found, 1.4 planted")
     azimuth_rad = math.hypot(fit.sensor["azimuth_floor_rad"], fit.azimuth_noise / 10)
     check(0.0035 < azimuth_rad < 0.0065, f"noise of azimuths at 20 dB: {azimuth_rad:.4f} rad found, 0.005 planted")
+
+
+def write_aimotive(folder, radar, scans, first=100, begin_s=1000.0):
+    """The files of a sequence in the layout of the aiMotive data set; boxes without posts."""
+    def written(place, told):
+        os.makedirs(os.path.dirname(os.path.join(folder, place)), exist_ok=True)
+        with open(os.path.join(folder, place), "w", encoding="utf-8") as out:
+            json.dump(told, out)
+
+    c, s = math.cos(radar.yaw_rad), math.sin(radar.yaw_rad)
+    written("calibration/extrinsic_matrices.json", {"RT_body_from_B_N": [[c, -s, 0, radar.x_m], [s, c, 0, radar.y_m], [0, 0, 1, 0.4], [0, 0, 0, 1]]})
+    for i, scan in enumerate(scans):
+        written(f"radar/B_N_{first + i:07}.json", {"targets": [
+            {"range": one.range_m, "azimuth": one.azimuth_rad, "elevation": 0, "speed": one.range_rate_mps, "rcs": 10 ** (one.rcs_dbsm / 10),
+             "power": 103 + one.snr_db, "noise": 103} for one in scan.detections]})
+        written(f"boxes/frame_{first + i:07}.json", {"Timestamp": str(round((begin_s + scan.time_s) * 1e9)), "CapturedObjects": [
+            {"ObjectId": box.id, "ObjectType": box.kind, **dict(zip((f"BoundingBox3D {one}" for one in (
+                "Origin X", "Origin Y", "Extent X", "Extent Y", "Extent Z", "Orientation Quat W", "Orientation Quat X", "Orientation Quat Y",
+                "Orientation Quat Z")), (box.x_m, box.y_m, box.length_m, box.width_m, box.height_m, 1, 0, 0, 0))),
+             "Relative Velocity X": box.vx_mps, "Relative Velocity Y": box.vy_mps} for box in scan.boxes if box.kind != "post"]})
+
+
+def a_radar_that_looks_back_or_aside_gives_back_its_law(folder):
+    """As one that looks ahead does: in the layout of the aiMotive data set, with the axis of motion behind it."""
+    for name, radar, way in (("rear", readers.Radar(-0.9, 0.1, math.pi, 77e9), -1), ("corner", readers.Radar(-0.8, 0.8, math.radians(165), 77e9), -1)):
+        place = os.path.join(folder, name)
+        os.makedirs(place)
+        suite = fitted.write_suite(truth(radar), place)
+        write_aimotive(place, radar, recorded(suite, world(60, 5, way, 1200), 11, radar))
+        recording = readers.read(place)
+        fit = fitted.fit(recording)
+        check(math.isclose(abs(recording.radar.yaw_rad), abs(radar.yaw_rad)) and not recording.notes, f"{name}: {recording.radar}, {recording.notes}")
+        speed_mps = statistics.fmean(statics.ego_speeds(recording.radar, recording.scans))
+        for what, value, expected, within in (
+                ("ego_mps", speed_mps, EGO_MPS, 0.3), ("threshold_db", fit.sensor["threshold_db"], 14, 0.7),
+                ("dB at 30 m", fit.curve.snr_db(30, 0.1), LAW.snr_db(30, 0.1), 0.7), ("dB at 90 m", fit.curve.snr_db(90, 0), LAW.snr_db(90, 0), 0.7),
+                ("range_sigma_m", fit.sensor["range_sigma_m"], 0.08, 0.03), ("range_rate_sigma_mps", fit.sensor["range_rate_sigma_mps"], 0.02, 0.015),
+                ("cell_range_m", fit.sensor["cell_range_m"], 1.4, 0.6), ("cell_range_rate_mps", fit.sensor["cell_range_rate_mps"], 0.2, 0.06),
+                ("azimuth at 20 dB", math.hypot(fit.sensor["azimuth_floor_rad"], fit.azimuth_noise / 10), 0.005, 0.0015)):
+            unseen = name == "corner" and what == "cell_range_rate_mps"  # aside, statics of one range have many rates
+            check(abs(value - expected) <= within or unseen, f"{name}: {what}: {value:.3f} found, {expected} planted")
+        missing = [member for member in (*fitted.CELLS, *fitted.NOISES) if not fitted.is_found(fit, member)]
+        check(not missing, f"{name}: not found: {missing}")
+
+
+def two_sequences_in_one_folder_are_refused(folder):
+    """Whether each has its calibration, or one follows the other in one folder after a gap."""
+    scans = [scan._replace(boxes=[], detections=[readers.Detection(20.0 + 3 * k, 0.02 * k, -20.0, 20.0, 5.0) for k in range(9)]) for scan in world(8)]
+    for place in ("one", "other"):
+        write_aimotive(os.path.join(folder, "two", place), RADAR, scans)
+    write_aimotive(os.path.join(folder, "gap"), RADAR, scans)
+    write_aimotive(os.path.join(folder, "gap"), RADAR, scans, 300, 1300.0)
+    for name, expected in (("two", "is another sequence; expected one a folder"), ("gap", "lists 299.6 s apart are of two sequences")):
+        done = subprocess.run([os.path.join(ROOT, "scripts", "realism"), "--recordings", os.path.join(folder, name)], capture_output=True, text=True, check=False)
+        check(done.returncode == os.EX_DATAERR and expected in done.stderr, f"two sequences: {done.returncode}, {done.stderr}")
+
+
+def cells_are_found_beside_wrong_pairs():
+    """Few or many distances from 0.2 on, of which some are wrongly less."""
+    for count, wrong, within in ((12, 0, 0.12), (35, 2, 0.06), (60, 3, 0.06), (600, 12, 0.02)):
+        found = []
+        for generator in map(random.Random, range(40)):
+            found.append(fitted.edge([generator.uniform(0, 0.2) for _ in range(wrong)] + [0.2 + generator.expovariate(2) for _ in range(count - wrong)]))
+        check(abs(statistics.median(found) - 0.2) < within, f"{wrong} of {count} distances are wrong: {statistics.median(found):.3f} found, 0.2 planted")
+
+
+def what_is_not_found_is_said(folder):
+    """A recording with few statics has neither noise nor a cell of rates; the suite says whose figures stand there instead."""
+    write_own(folder, [scan._replace(boxes=[], detections=[readers.Detection(30.0 + 9 * k + 0.1 * i, 0.02 * k, -5.0 - 3 * k, 20.0 + k) for k in range(5)])
+                       for i, scan in enumerate(world(8))])
+    done = subprocess.run([os.path.join(ROOT, "scripts", "realism"), "--recordings", folder, "--write", folder], capture_output=True, text=True, check=False)
+    for line in ("m (not found: as lrr77-full), ", "m/s (not found: as lrr77-full)", "0.05 m (not found: as lrr77-full)", "found.json"):
+        check(line in done.stdout, f"{line} is not said: {done.stdout}{done.stderr}")
+    with open(os.path.join(folder, "found.json"), encoding="utf-8") as text:
+        told = json.load(text)
+    check(set(told["not_found"]) == {*fitted.CELLS, *fitted.NOISES}, f"not found: {told}")
+    check(roadside.at_cap({"per_m2": 1}) and not roadside.at_cap({"per_m2": 0.9}), "a strip at its cap")
 
 
 def the_law_of_levels_is_told_apart(folder):
@@ -368,7 +446,11 @@ def main():
     intervals_of_20_blocks_hold_the_expected_ratio()
     places_turn_with_their_box()
     noise_of_azimuths_is_parted_from_its_floor()
+    cells_are_found_beside_wrong_pairs()
     a_roadside_is_found_again()
+    for proof in (a_radar_that_looks_back_or_aside_gives_back_its_law, two_sequences_in_one_folder_are_refused, what_is_not_found_is_said):
+        with tempfile.TemporaryDirectory() as folder:
+            proof(folder)
     with tempfile.TemporaryDirectory() as folder:
         suite = fitted.write_suite(truth(), folder)
         scans = recorded(suite, world(40), 1006)
