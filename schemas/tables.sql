@@ -198,10 +198,10 @@ FROM read_csv(folder || '/frames.csv*', header = true, auto_detect = false, colu
     "origin_x_m": 'DOUBLE', -- m: origin of the frame's coordinates in those of the source
     "origin_y_m": 'DOUBLE', -- m: origin of the frame's coordinates in those of the source
     "suite": 'VARCHAR', -- name of the suite document
-    "objects": 'BIGINT', -- rows of that table
-    "scans": 'BIGINT', -- rows of that table
-    "detections": 'BIGINT', -- rows of that table
-    "contributors": 'BIGINT', -- rows of that table
-    "sightings": 'BIGINT', -- rows of that table
-    "lost": 'BIGINT', -- rows of that table
+    "objects": 'BIGINT', -- rows of objects of this frame
+    "scans": 'BIGINT', -- rows of scans of this frame
+    "detections": 'BIGINT', -- rows of detections of this frame
+    "contributors": 'BIGINT', -- rows of contributors of this frame
+    "sightings": 'BIGINT', -- rows of sightings of this frame
+    "lost": 'BIGINT', -- rows of lost of this frame
 });

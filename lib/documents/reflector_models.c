@@ -61,9 +61,14 @@ struct face {
     double dbsm;
 };
 
+/* A face that exceeds a whole number of pieces by less than this share of one, as rounding may, has
+ * no further piece. */
+#define PIECE_SLACK 1e-9
+
 static struct post_row row_of(const struct face *face, double oblique_dbsm, double spacing_m)
 {
-    double pieces = ceil(face->length_m / spacing_m), half_piece = 0.5 / pieces;
+    double pieces = elementary_max(1, ceil(face->length_m / spacing_m - PIECE_SLACK));
+    double half_piece = 0.5 / pieces;
     double along_x = face->to_x - face->from_x, along_y = face->to_y - face->from_y;
     struct contour_view view = reflector_models_contour_view(face->dbsm, oblique_dbsm);
     return (struct post_row){

@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "propagation/attenuation.h"
+#include "propagation/micro_doppler.h"
 #include "radar/scan_timing.h"
 
 #define EFFECT(id, name) extern const struct effect effect_##name;
@@ -192,7 +193,7 @@ void effect_measure(const struct effect_scan *scan, enum effect_step step,
 
 bool effect_has_moving_part(const struct echo *parent, enum moving_part part)
 {
-    return parent->moving_part == part && parent->ground_rate_mps != 0;
+    return parent->moving_part == part && micro_doppler_share(parent->ground_rate_mps) > 0;
 }
 
 bool effect_any_moving_part(const struct effect_scan *scan, enum moving_part part)
@@ -209,7 +210,7 @@ struct echo effect_part_of_echo(const struct echo *parent, enum path path, int64
     struct echo part = *parent;
     part.id.path = path;
     part.id.number = number;
-    part.ercs *= factor;
+    part.ercs *= factor * micro_doppler_share(parent->ground_rate_mps);
     part.moving_part = MOVING_NONE;
     part.effects |= EFFECT_BIT(effect);
     part.extra = NULL;

@@ -173,14 +173,14 @@ void effect_measure(const struct effect_scan *scan, enum effect_step step,
  * echoes of the same object and reflector on the path wheel or limb, with numbers from 1. A part
  * has its parent's height, time, effects and margins, and a share of its cross section.
  *
- * Does the echo have such a part, and a range rate by its motion over ground? Without that rate
- * every part has the echo's own range rate, and none is made. */
+ * Does the echo have such a part, and is its range rate by motion over ground above
+ * MICRO_DOPPLER_STILL_MPS? No part is made of one that is slower. */
 bool effect_has_moving_part(const struct echo *parent, enum moving_part part);
 
 /* Has any echo of the scan such a part? */
 bool effect_any_moving_part(const struct effect_scan *scan, enum moving_part part);
 
-/* Part `number` at its parent's place and range rate, with factor times its parent's ERCS. Adds the
- * effect to its label. */
+/* Part `number` at its parent's place and range rate, with factor times its parent's ERCS, less at
+ * low speed (propagation/micro_doppler.h). Adds the effect to its label. */
 struct echo effect_part_of_echo(const struct echo *parent, enum path path, int64_t number,
                                 double factor, enum effect_id effect);

@@ -19,6 +19,21 @@ static int check_objects(struct frame *frame, struct diag *diag)
     return 0;
 }
 
+/* Names of strips without ids are unique by their numbers. */
+static int check_roadside(const struct frame *frame, struct diag *diag)
+{
+    const struct roadside_strip *strips = frame->roadside.items;
+    size_t named = 0;
+    while (named < frame->roadside.count && strips[named].id == NULL)
+        named++;
+    if (named == frame->roadside.count)
+        return 0;
+    const char *twice = roadside_name_twice(strips, frame->roadside.count, frame->arena);
+    return twice == NULL
+               ? 0
+               : diag_fail(diag, DIAG_DATA, "roadside: the name \"%s\" stands twice", twice);
+}
+
 static const char *object_listed_twice(const struct reflector_set *set)
 {
     for (size_t i = 1; i < set->objects.count; i++)
@@ -131,7 +146,8 @@ static int check_sections(struct frame *frame, unsigned sections, struct diag *d
 {
     if ((sections & SECTION_SENSORS) != 0)
         sections |= SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS | SECTION_VISIBILITY;
-    if ((sections & frame->present & SECTION_OBJECTS) != 0 && check_objects(frame, diag) != 0)
+    if ((sections & frame->present & SECTION_OBJECTS) != 0 &&
+        (check_objects(frame, diag) != 0 || check_roadside(frame, diag) != 0))
         return -1;
     bool good = ((sections & SECTION_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
                 ((sections & SECTION_SENSORS) == 0 || check_views(frame, diag) == 0) &&

@@ -3,7 +3,6 @@
 #include "base/elementary.h"
 #include "base/units.h"
 #include "ideal/line_of_sight.h"
-#include "radar/level.h"
 
 /* The least amplitude of an echo over the threshold, and the part of it where the road strengthens
  * echoes (14.10). */
@@ -12,15 +11,12 @@
 
 /* A strip, as one sensor sees it. */
 struct roadside {
-    size_t number; /* in the frame's list */
     struct roadside_grid grid;
-    struct random_address scene; /* address of what is drawn */
-    struct echo echo;            /* what all its echoes have in common */
-    double level;                /* standard deviation of the logarithm of a level's factor */
-    double faintest;             /* amplitude below which echoes are left out */
-    double height_m;             /* of its scatterers' middle; the sensor's if it is not known */
-    int64_t cells;               /* of this and all other strips */
-    int64_t first_cell;          /* number of its first cell among them */
+    struct random_address address; /* of what is drawn */
+    struct echo echo;              /* what all its echoes have in common */
+    double level;                  /* standard deviation of the logarithm of a level's factor */
+    double faintest;               /* amplitude below which echoes are left out */
+    double height_m;               /* of its scatterers' middle; the sensor's if it is not known */
 };
 
 /* Distance of an echo from the borders of range, view and the bodies beside its sight line. */
@@ -33,18 +29,10 @@ static struct margins margins_of(const struct look *look, double reach_m,
         look, elementary_min(reach_m, line_of_sight_margin_m(look, NULL, 0, line, false, false)));
 }
 
-/* The factor on amplitude of a scatterer's level, which changes with its range. */
-static double level_of(const struct roadside *side, int64_t number, double range_m)
-{
-    struct random_address line = side->scene;
-    line.item = (uint64_t)number;
-    return elementary_exp(side->level * level_on_line(&line, RANDOM_ROADSIDE_LEVEL, range_m));
-}
-
 /* Adds the scatterer's echo if it is in range, in view, not hidden and, as the antenna sees it, not
  * below least_ercs. */
 static void add_scatterer(struct look *look, const struct roadside *side,
-                          const struct roadside_scatterer *one, int64_t cell, double least_ercs)
+                          const struct roadside_scatterer *one, double least_ercs)
 {
     struct frame *frame = look->frame;
     struct vec2 still = {0, 0};
@@ -61,11 +49,12 @@ static void add_scatterer(struct look *look, const struct roadside *side,
     struct line_of_sight sight = line_of_sight_along(look, &line, NULL, 0);
     if (sight.by != NULL)
         return;
-    echo.id.number = 1 + side->first_cell + cell + one->rank * side->cells;
+    double level = side->level * roadside_level(side->address, one->number, read.range_m);
+    echo.id.number = one->number;
     echo.range_m = read.range_m;
     echo.azimuth_rad = read.azimuth_rad;
     echo.range_rate_mps = read.range_rate_mps;
-    echo.ercs = sight.factor * gain * one->ercs * level_of(side, echo.id.number, read.range_m);
+    echo.ercs = sight.factor * gain * one->ercs * elementary_exp(level);
     if (echo.ercs * antenna_gain(&look->sensor->antenna, echo.azimuth_rad) < least_ercs)
         return;
     echo.effects |= sight.effects;
@@ -78,15 +67,14 @@ static void add_scatterer(struct look *look, const struct roadside *side,
 static void add_cell(struct look *look, const struct roadside *side, int64_t along, int64_t across)
 {
     const struct roadside_grid *grid = &side->grid;
-    struct roadside_series series =
-        roadside_series_of(grid, side->scene, side->number, along, across);
+    struct roadside_series series = roadside_series_of(grid, side->address, along, across);
     struct vec2 middle = roadside_cell_middle(grid, along, across);
     double range_m = vec2_length(vec2_sub(look->pose.position_m, middle));
     double least =
         side->faintest / radar_reference_amplitude(&look->sensor->amplitude_law, range_m);
     struct roadside_scatterer one;
     while (roadside_next(&series, least, &one))
-        add_scatterer(look, side, &one, along * grid->across_count + across, least);
+        add_scatterer(look, side, &one, least);
 }
 
 /* Adds the cells of a row along the strip, without those that are surely out of reach: always by
@@ -112,20 +100,22 @@ static void add_row(struct look *look, const struct roadside *side, int64_t acro
 
 static struct roadside roadside_of(const struct look *look, size_t number)
 {
-    const struct roadside_strip *strip = &look->frame->roadside.items[number];
-    struct roadside side = {.number = number,
-                            .grid = roadside_grid_of(strip),
-                            .scene = frame_draw_address_of_scene(look->frame),
+    struct frame *frame = look->frame;
+    const struct roadside_strip *strip = &frame->roadside.items[number];
+    const char *name = roadside_name(strip, number + 1, frame->arena);
+    struct random_address scene = frame_draw_address_of_scene(frame);
+    struct roadside side = {.grid = roadside_grid_of(strip),
+                            .address = roadside_address(scene, strip, number + 1),
                             .level = units_amplitude_logarithm(strip->level_db)};
     double top_m = side.grid.height_m;
     bool latency = look->ego_moved;
-    bool mirroring = look->frame->conditions.road != ROAD_UNKNOWN && look->height_m > 0;
+    bool mirroring = frame->conditions.road != ROAD_UNKNOWN && look->height_m > 0;
     side.faintest = FAINTEST * look->sensor->threshold * (mirroring ? MIRRORED : 1);
     side.height_m = top_m > 0 ? 0.5 * top_m : look->height_m;
     side.echo = (struct echo){
         .sensor = look->sensor->name,
         .id.object = "roadside",
-        .id.reflector = roadside_kinds[strip->kind],
+        .id.reflector = name,
         .id.path = PATH_CLUTTER,
         .height_m = mirroring && top_m > 0 ? side.height_m : 0,
         .extent_m = mirroring ? top_m : 0,
@@ -138,21 +128,15 @@ static struct roadside roadside_of(const struct look *look, size_t number)
 void roadside_echoes_add(struct look *look)
 {
     struct frame *frame = look->frame;
-    int64_t before = look->echoes, cells = 0;
+    int64_t before = look->echoes;
     effects_note(look->selection, EFFECT_ROADSIDE, false);
     if (frame->roadside.count == 0 || !effects_enabled(look->selection, EFFECT_ROADSIDE))
         return;
     line_of_sight_note(look, look->indexed_count > 0);
-    struct roadside *sides = arena_get(frame->arena, frame->roadside.count * sizeof *sides);
     for (size_t i = 0; i < frame->roadside.count; i++) {
-        sides[i] = roadside_of(look, i);
-        sides[i].first_cell = cells;
-        cells += sides[i].grid.along_count * sides[i].grid.across_count;
-    }
-    for (size_t i = 0; i < frame->roadside.count; i++) {
-        sides[i].cells = cells;
-        for (int64_t across = 0; across < sides[i].grid.across_count; across++)
-            add_row(look, &sides[i], across);
+        struct roadside side = roadside_of(look, i);
+        for (int64_t across = 0; across < side.grid.across_count; across++)
+            add_row(look, &side, across);
     }
     frame_count_echoes(frame, look->sensor->name, PATH_CLUTTER, look->echoes - before);
 }

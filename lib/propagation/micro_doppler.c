@@ -7,6 +7,13 @@
 #define SLOWEST (-1.0)
 #define FASTEST 1.5
 
+double micro_doppler_share(double ground_mps)
+{
+    double over_mps = fabs(ground_mps) - MICRO_DOPPLER_STILL_MPS;
+    double share = over_mps / (MICRO_DOPPLER_FULL_MPS - MICRO_DOPPLER_STILL_MPS);
+    return elementary_min(elementary_max(share, 0), 1);
+}
+
 struct wheel_point micro_doppler_wheel_point(const double uniform[2])
 {
     return (struct wheel_point){0.3 + 0.7 * uniform[0], 2 * PI * uniform[1]};

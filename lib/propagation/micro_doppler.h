@@ -10,6 +10,15 @@
 #define MICRO_DOPPLER_WHEEL_COUNT 1.5
 #define MICRO_DOPPLER_WHEEL_FACTOR 0.316227766016837933200
 
+/* Wheels and limbs whose motion over ground changes the range by this speed or less echo with their
+ * body alone; from the second speed on their parts have their full amplitude. Both are assumed. */
+#define MICRO_DOPPLER_STILL_MPS 0.05
+#define MICRO_DOPPLER_FULL_MPS 0.5
+
+/* The share of their amplitude that parts have at this rate over ground, of either sign: 0 to 1,
+ * linear between the two speeds, so that no rounding of a speed makes another echo. */
+double micro_doppler_share(double ground_mps);
+
 struct wheel_point {
     double fraction;  /* rho */
     double angle_rad; /* psi, 0 at the top */

@@ -1,10 +1,20 @@
 #include "propagation/roadside.h"
 
+#include "base/hash.h"
 #include "base/units.h"
+#include "radar/level.h"
 #include "radar/radar_equation.h"
 
 /* Length of a cell of a strip without a spacing, and the greatest width of any cell. */
 #define CELL_M 4.0
+
+/* A length that exceeds a whole number of cells by less than this share of a cell, as rounding may,
+ * has no further cell. */
+#define CELL_SLACK 1e-9
+
+/* More scatterers than a cell may have. With the greatest mean, 160, a Poisson count reaches it
+ * with a probability below 1e-300. */
+#define CELL_RANKS 1024
 
 /* Value of a member that the strip leaves to its kind. */
 #define OF_KIND (-1e3)
@@ -15,8 +25,10 @@ const char *const roadside_kinds[] = {
     [ROADSIDE_VEGETATION] = "vegetation", NULL};
 
 static const struct field strip_fields[] = {
+    {OPTIONAL_NAME(struct roadside_strip, id,
+                   "unique in the scene; absent: kind and number in the list, as in rail_2")},
     {FIELD_CHOICE_OF(struct roadside_strip, kind, roadside_kinds,
-                     "names the echoes, and has the numbers that are absent here")},
+                     "has the numbers that are absent here")},
     {FIELD_REAL_IN(struct roadside_strip, from_x_m, -1e7, 1e7, "where the strip begins")},
     {FIELD_REAL_IN(struct roadside_strip, from_y_m, -1e7, 1e7, "where the strip begins")},
     {FIELD_REAL_IN(struct roadside_strip, to_x_m, -1e7, 1e7, "where the strip ends")},
@@ -60,6 +72,40 @@ void roadside_shift(struct roadside_strip *strip, struct vec2 by_m)
     strip->to_y_m += by_m.y;
 }
 
+const char *roadside_name(const struct roadside_strip *strip, size_t number, struct arena *arena)
+{
+    if (strip->id != NULL)
+        return strip->id;
+    return arena_format(arena, "%s_%zu", roadside_kinds[strip->kind], number);
+}
+
+static bool is_called(const void *names, uint32_t index, const void *name)
+{
+    const char *const *list = names;
+    return strcmp(list[index], name) == 0;
+}
+
+const char *roadside_name_twice(const struct roadside_strip *strips, size_t count,
+                                struct arena *arena)
+{
+    const char **names = arena_room(arena, count * sizeof *names);
+    struct hash_table numbers = hash_table_begin(count, arena);
+    for (uint32_t i = 0; i < count; i++) {
+        names[i] = roadside_name(&strips[i], i + 1, arena);
+        uint64_t hash = hash_table_hash(0, names[i], strlen(names[i]));
+        uint32_t *slot = hash_table_slot(&numbers, hash, is_called, names, names[i]);
+        if (*slot != 0)
+            return names[i];
+        *slot = i + 1;
+    }
+    return NULL;
+}
+
+static int64_t cells_in(double length_m, double cell_m)
+{
+    return (int64_t)ceil(length_m / cell_m - CELL_SLACK);
+}
+
 static double said(double member, double of_kind)
 {
     return member == OF_KIND ? of_kind : member;
@@ -70,8 +116,8 @@ static void divide(struct roadside_grid *grid, double width_m, double spacing_m,
 {
     grid->spaced = spacing_m > 0;
     grid->along_m = grid->spaced ? spacing_m : CELL_M;
-    grid->along_count = (int64_t)ceil(grid->length_m / grid->along_m);
-    grid->across_count = grid->spaced || width_m <= CELL_M ? 1 : (int64_t)ceil(width_m / CELL_M);
+    grid->along_count = cells_in(grid->length_m, grid->along_m);
+    grid->across_count = grid->spaced || width_m <= CELL_M ? 1 : cells_in(width_m, CELL_M);
     grid->across_m = width_m / (double)grid->across_count;
     grid->mean = grid->spaced ? 1 : per_m2 * grid->along_m * grid->across_m;
 }
@@ -109,24 +155,38 @@ struct vec2 roadside_cell_middle(const struct roadside_grid *grid, int64_t along
     return place_at(grid, (double)along + 0.5, (double)across + 0.5);
 }
 
+struct random_address roadside_address(struct random_address scene,
+                                       const struct roadside_strip *strip, size_t number)
+{
+    scene.frame = strip->id != NULL ? hash_text(HASH_START, strip->id) : number - 1;
+    return scene;
+}
+
 struct roadside_series roadside_series_of(const struct roadside_grid *grid,
-                                          struct random_address scene, size_t strip, int64_t along,
+                                          struct random_address strip, int64_t along,
                                           int64_t across)
 {
-    scene.frame = strip;
-    scene.sensor = (uint64_t)along;
-    scene.item = (uint64_t)across;
+    strip.sensor = (uint64_t)along;
+    strip.item = (uint64_t)across;
     return (struct roadside_series){
-        .grid = grid, .address = scene, .along = along, .across = across};
+        .grid = grid, .address = strip, .along = along, .across = across};
+}
+
+static int64_t number_of(const struct roadside_series *series, int64_t rank)
+{
+    const struct roadside_grid *grid = series->grid;
+    int64_t cell = series->along * grid->across_count + series->across;
+    return grid->spaced ? 1 + cell : 1 + cell * CELL_RANKS + rank;
 }
 
 bool roadside_next(struct roadside_series *series, double least_ercs,
                    struct roadside_scatterer *found)
 {
     const struct roadside_grid *grid = series->grid;
+    const uint32_t ranks = grid->spaced ? 1 : CELL_RANKS;
     double uniform[4], along;
     do {
-        if (grid->spaced && series->taken > 0)
+        if (series->taken == ranks)
             return false;
         random_uniform(&series->address, RANDOM_ROADSIDE, series->taken, uniform);
         double stronger = uniform[0];
@@ -136,7 +196,7 @@ bool roadside_next(struct roadside_series *series, double least_ercs,
         }
         if (!(stronger < 1))
             return false;
-        found->rank = series->taken++;
+        found->number = number_of(series, series->taken++);
         found->ercs =
             grid->median_ercs * elementary_exp(grid->spread * random_gaussian_exceeded(stronger));
         if (found->ercs < least_ercs)
@@ -145,4 +205,11 @@ bool roadside_next(struct roadside_series *series, double least_ercs,
     } while (along * grid->along_m > grid->length_m);
     found->place_m = place_at(grid, along, (double)series->across + uniform[2]);
     return true;
+}
+
+double roadside_level(struct random_address strip, int64_t number, double range_m)
+{
+    strip.sensor = strip.frame; /* level_on_line has its own use for the frame */
+    strip.item = (uint64_t)number;
+    return level_on_line(&strip, RANDOM_ROADSIDE_LEVEL, range_m);
 }

@@ -84,6 +84,7 @@ static uint32_t scene_of(struct view_data *data, const struct frame *frame)
         for (size_t i = 0; i < frame->roadside.count; i++) {
             struct roadside_strip *strip = list_add(&scene->roadside, data->arena);
             *strip = frame->roadside.items[i];
+            strip->id = NULL; /* lies in the frame's memory; the page does not show it */
             roadside_shift(strip, vec2_scale(-1, ego));
         }
     }

@@ -362,8 +362,6 @@ def general_position(name):
             for key, offset in zip(("x_m", "y_m"), moved):
                 spot[key] = round((spot.get(key, 0) + offset) * 2**30) / 2**30
         body["yaw_rad"] = body.get("yaw_rad", 0) + moved[2]
-    for strip in document.get("roadside", []):  # not a whole number of cells, which rounding would make one more
-        strip["to_x_m"] += 0.25
     return document
 
 

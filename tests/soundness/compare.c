@@ -93,11 +93,14 @@ static const struct field *section(const char *name)
     return field_find(&frame_record, name, strlen(name));
 }
 
-int compare_bits(const struct frame *all, const struct frame *chosen, struct diag *diag)
+int compare_bits(const struct frame *all, const struct frame *chosen, bool account,
+                 struct diag *diag)
 {
-    unsigned both = SECTION_TARGETS | SECTION_LOST;
+    unsigned both = account ? SECTION_TARGETS | SECTION_LOST : SECTION_TARGETS;
     if ((all->present & chosen->present & both) != both)
         return diag_fail(diag, DIAG_DATA, "targets or lost: missing");
     int result = compare_members(section("targets"), all, chosen, diag);
-    return result == 0 ? compare_members(section("lost"), all, chosen, diag) : result;
+    if (result == 0 && account)
+        result = compare_members(section("lost"), all, chosen, diag);
+    return result;
 }

@@ -4,6 +4,7 @@
 
 #include "frame/frame.h"
 
-/* Compares targets and lost bit by bit. Returns 0, or -1 with the first difference in the diag,
- * such as "targets[3].range_m". */
-int compare_bits(const struct frame *all, const struct frame *chosen, struct diag *diag);
+/* Compares targets, and with an account lost too, bit by bit. Returns 0, or -1 with the first
+ * difference in the diag, such as "targets[3].range_m". */
+int compare_bits(const struct frame *all, const struct frame *chosen, bool account,
+                 struct diag *diag);

@@ -1,6 +1,8 @@
 /* Is it sound to choose effects from the scene? Random scenes are seen with every effect and with
  * those that a planner chose, in this process and without text. A planner is a way to choose
- * effects: auto, or auto without one of them.
+ * effects: auto, or auto without one of them. What judges keeps an account of every echo and a log
+ * of every effect, which switch shortcuts off; both words are compared with it again as users run
+ * them, without account and log.
  *
  * Frame number n is that of glint-traffic-random (or, of the tests' own, glint-traffic-adversarial)
  * --draw-conditions --first n --frames 1 with the same options; --first n --frames 1 --print writes
@@ -33,6 +35,7 @@ struct finding {
 /* One way to choose effects, with the stages that work by it and what it has found. */
 struct planner {
     const char *effects;
+    bool plain; /* keeps neither account nor log */
     struct runner runners[STEPS];
     struct effect_log logs[STEPS];
     struct arena arena;
@@ -58,8 +61,8 @@ struct bench {
     struct runner source, extract;
     struct arena arena, documents;
     struct frame scene;
-    struct planner planners[EFFECT_COUNT +
-                            1]; /* the first simulates all effects; its frames judge the others */
+    /* The first simulates all effects; its frames judge the others. */
+    struct planner planners[EFFECT_COUNT + 1];
     size_t count;
 };
 
@@ -154,46 +157,56 @@ static int start_scenes(struct bench *bench)
  * place of the suite. */
 static int start_step(struct planner *planner, int step, const struct soundness *wanted)
 {
-    const char *const of_ideal[] = {"--sensors",  wanted->sensors,
-                                    "--effects",  planner->effects,
-                                    "--sections", wanted->margins ? "account,margins" : "account",
+    const char *sections = wanted->margins ? "account,margins" : "account";
+    if (planner->plain)
+        sections = wanted->margins ? "margins" : NULL;
+    const char *const of_ideal[] = {"--sensors",
+                                    wanted->sensors,
+                                    "--effects",
+                                    planner->effects,
+                                    sections != NULL ? "--sections" : NULL,
+                                    sections,
                                     NULL};
     const char *const of_others[] = {"--sensors", wanted->sensors, NULL};
     return start_stage(&planner->runners[step], steps[step], step == 0 ? of_ideal : of_others);
 }
 
-static int start_planner(struct planner *planner, const struct bench *bench, const char *effects)
+static int start_planner(struct planner *planner, const struct bench *bench, const char *effects,
+                         bool plain)
 {
-    *planner = (struct planner){.effects = effects};
+    *planner = (struct planner){.effects = effects, .plain = plain};
     for (int i = 0; i < STEPS; i++) {
         if (start_step(planner, i, bench->wanted) != 0)
             return -1;
-        planner->runners[i].log = &planner->logs[i];
+        planner->runners[i].log = plain ? NULL : &planner->logs[i];
     }
     return 0;
 }
 
 /* Adds the next planner: the word (auto or all) without the effects that nobody simulates and
  * without one more. */
-static int add_planner(struct bench *bench, const char *word, const char *but)
+static int add_planner(struct bench *bench, const char *word, const char *but, bool plain)
 {
     const char *without = bench->wanted->without;
     size_t size = FIELD_NAME_SIZE;
     char *effects = arena_get(&bench->documents, size);
     snprintf(effects, size, "%s%s%s%s%s", word, without != NULL ? "," : "",
              without != NULL ? without : "", but != NULL ? ",-" : "", but != NULL ? but : "");
-    return start_planner(&bench->planners[bench->count++], bench, effects);
+    return start_planner(&bench->planners[bench->count++], bench, effects, plain);
 }
 
 static int start(struct bench *bench)
 {
     enum planners planners = bench->wanted->planners;
-    if (start_scenes(bench) != 0 || add_planner(bench, "all", NULL) != 0)
+    if (start_scenes(bench) != 0 || add_planner(bench, "all", NULL, false) != 0)
         return -1;
     if (planners == PLANNERS_AUTO)
-        return add_planner(bench, "auto", NULL);
+        return add_planner(bench, "auto", NULL, false) == 0 &&
+                       add_planner(bench, "all", NULL, true) == 0
+                   ? add_planner(bench, "auto", NULL, true)
+                   : -1;
     for (int i = 0; i < EFFECT_COUNT; i++)
-        if (add_planner(bench, "auto", effects_names[i]) != 0)
+        if (add_planner(bench, "auto", effects_names[i], false) != 0)
             return -1;
     return 0;
 }
@@ -218,7 +231,7 @@ static int run(struct planner *planner, const struct frame *scene)
 static void judge(const struct frame *all, int64_t number, struct planner *planner)
 {
     struct diag diag = {0};
-    if (compare_bits(all, &planner->frame, &diag) == 0)
+    if (compare_bits(all, &planner->frame, !planner->plain, &diag) == 0)
         return;
     if (planner->violations < SHOWN) {
         struct finding *finding = &planner->findings[planner->violations];
@@ -332,9 +345,10 @@ static void tell_effects(struct text *text, const struct planner *planner)
 static void tell_planner(struct text *text, const struct planner *planner)
 {
     text_format(text,
-                "{\"planned\":\"%s\",\"frames\":%" PRId64 ",\"ns\":%" PRId64
+                "{\"planned\":\"%s\",\"plain\":%s,\"frames\":%" PRId64 ",\"ns\":%" PRId64
                 ",\"violations\":%" PRId64 ",\"first_violations\":[",
-                planner->effects, planner->frames, planner->spent_ns, planner->violations);
+                planner->effects, planner->plain ? "true" : "false", planner->frames,
+                planner->spent_ns, planner->violations);
     for (int64_t i = 0; i < planner->violations && i < SHOWN; i++) {
         const struct finding *finding = &planner->findings[i];
         text_format(text, "%s{\"frame\":%" PRId64 ",\"what\":", i > 0 ? "," : "", finding->frame);

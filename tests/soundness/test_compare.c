@@ -117,7 +117,7 @@ static void every_difference_is_found_and_named(void **state)
         make_sample(&all);
         make_sample(&chosen);
         change(&chosen, cases[i].change);
-        check_answer(compare_bits(&all.frame, &chosen.frame, &diag), &diag, cases[i].answer);
+        check_answer(compare_bits(&all.frame, &chosen.frame, true, &diag), &diag, cases[i].answer);
     }
 }
 

@@ -108,6 +108,20 @@ static void a_longer_object_has_more_power_in_proportion(void **state)
     assert_close(more_db, 10 * log10(3), 0.05);
 }
 
+static void rounding_of_a_length_makes_no_post(void **state)
+{
+    (void)state;
+    for (int i = -3; i <= 3; i++) {
+        struct arena arena = {0};
+        struct reflector_set set = {.model = "m"};
+        double length_m = 4.8 * (1 + i * 2.220446049250313e-16);
+        reflector_models_of_contour(&car, length_m, 1.8, 0.1, &set, &arena);
+        for (size_t j = 0; j < set.rows.count; j++)
+            assert_near(set.rows.items[j].spacing_m, 0.1, 1e-12);
+        arena_free(&arena);
+    }
+}
+
 static void a_face_has_half_of_the_oblique_cross_section_at_45_degrees(void **state)
 {
     (void)state;
@@ -211,6 +225,7 @@ int main(void)
         cmocka_unit_test(the_powers_of_all_posts_are_the_class_cross_section),
         cmocka_unit_test(between_normal_and_diagonal_no_aspect_is_stronger),
         cmocka_unit_test(a_longer_object_has_more_power_in_proportion),
+        cmocka_unit_test(rounding_of_a_length_makes_no_post),
         cmocka_unit_test(a_face_has_half_of_the_oblique_cross_section_at_45_degrees),
         cmocka_unit_test(
             with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_it_does),

@@ -77,6 +77,27 @@ static void a_wheel_that_does_not_roll_along_the_sight_line_has_no_points(void *
         }
 }
 
+/* A parked car whose speed is the difference of two rounded places is the parked car of a scenario.
+ */
+static void points_fade_in_with_the_speed_and_none_is_made_of_rounding(void **state)
+{
+    struct effect_bench *bench = *state;
+    double rates[] = {1e-300, 1e-12, -0.05, 0.050001, -0.275, 0.4999999, 0.5};
+    double shares[] = {0, 0, 0, 1e-6 / 0.45, 0.5, 0.4499999 / 0.45, 1};
+    size_t seen = 0;
+    for (bench->frame.frame = 0; bench->frame.frame < 20; bench->frame.frame++)
+        for (size_t i = 0; i < COUNT(rates); i++) {
+            struct echo slow = hub();
+            slow.ground_rate_mps = rates[i];
+            struct echo_span points = points_of(bench, EFFECT_BIT(EFFECT_WHEELS), slow);
+            for (size_t j = 0; j < points.count; j++)
+                assert_close(points.items[j].ercs, shares[i] * pow(10, -0.5), 1e-15);
+            assert_true(shares[i] > 0 || points.count == 0);
+            seen += points.count;
+        }
+    assert_true(seen > 40);
+}
+
 static void without_the_effect_a_wheel_has_no_points(void **state)
 {
     struct effect_bench *bench = *state;
@@ -90,6 +111,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(points_have_the_count_and_the_rates_of_their_draws),
         EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_no_points),
+        EFFECT_TEST(points_fade_in_with_the_speed_and_none_is_made_of_rounding),
         EFFECT_TEST(without_the_effect_a_wheel_has_no_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
 #include "check.h"
 
+#include <float.h>
 #include <stdlib.h>
 
 #include "propagation/roadside.h"
@@ -39,7 +40,8 @@ static int draw(const struct roadside_strip *strip, int64_t along, int64_t acros
                 double least_ercs, struct roadside_scatterer *found)
 {
     struct roadside_grid grid = roadside_grid_of(strip);
-    struct roadside_series series = roadside_series_of(&grid, SCENE, 3, along, across);
+    struct random_address address = roadside_address(SCENE, strip, 3);
+    struct roadside_series series = roadside_series_of(&grid, address, along, across);
     int count = 0;
     while (count < 100 && roadside_next(&series, least_ercs, &found[count]))
         count++;
@@ -84,7 +86,7 @@ static void levels_are_normal_in_decibels_and_fall_in_a_cell(void **state)
         for (int i = 0; i < here; i++) {
             double dbsm = 10 * log10(radar_cross_section_m2(found[i].ercs));
             assert_true(i == 0 || found[i].ercs < found[i - 1].ercs);
-            assert_int_equal(found[i].rank, i);
+            assert_int_equal(found[i].number, 1 + 1024 * cell + i);
             sum += dbsm;
             squares += dbsm * dbsm;
             count++;
@@ -146,8 +148,9 @@ static void nothing_stands_outside_a_strip(void **state)
         assert_int_equal(grid.along_count, 3);
         assert_int_equal(grid.across_count, 2);
         for (int64_t cell = 0; cell < 6; cell++) {
-            struct random_address scene = {.seed = 7, .scene = (uint64_t)i};
-            struct roadside_series series = roadside_series_of(&grid, scene, 0, cell / 2, cell % 2);
+            struct random_address strip_address = {.seed = 7, .scene = (uint64_t)i};
+            struct roadside_series series =
+                roadside_series_of(&grid, strip_address, cell / 2, cell % 2);
             while (roadside_next(&series, 0, found)) {
                 struct vec2 from = vec2_sub(found->place_m, grid.from_m);
                 double along_m = vec2_dot(from, grid.heading);
@@ -168,8 +171,8 @@ static void cells_strips_and_scenes_have_draws_of_their_own(void **state)
     struct roadside_scatterer one;
     for (int i = 0; i < 5; i++) {
         struct random_address scene = {.seed = 7 + (i == 1), .scene = 11 + (i == 2)};
-        struct roadside_series series =
-            roadside_series_of(&grid, scene, i == 3 ? 1 : 0, i == 4 ? 1 : 0, 0);
+        struct random_address strip = roadside_address(scene, &RAIL, i == 3 ? 2 : 1);
+        struct roadside_series series = roadside_series_of(&grid, strip, i == 4 ? 1 : 0, 0);
         assert_true(roadside_next(&series, 0, &one));
         ercs[i] = one.ercs;
         for (int before = 0; before < i; before++)
@@ -238,6 +241,84 @@ static void absent_numbers_are_those_of_the_kind(void **state)
     assert_close(grid.spread, 0, 0);
 }
 
+/* What another strip has, and how long it is, is no part of an address. */
+static void the_level_of_a_scatterer_is_its_own_and_changes_with_range(void **state)
+{
+    (void)state;
+    struct random_address one = roadside_address(SCENE, &RAIL, 1);
+    struct random_address other = roadside_address(SCENE, &RAIL, 2);
+    double level = roadside_level(one, 7, 30.5);
+    assert_true(level == roadside_level(one, 7, 30.5));
+    assert_true(level != roadside_level(one, 8, 30.5));
+    assert_true(level != roadside_level(other, 7, 30.5));
+    assert_close(roadside_level(one, 7, 30.5 + 1e-9), level, 1e-7);
+    assert_true(fabs(roadside_level(one, 7, 33.5) - level) > 1e-3);
+}
+
+static void rounding_of_a_length_makes_no_cell(void **state)
+{
+    (void)state;
+    struct roadside_strip rail = RAIL, meadow = MEADOW;
+    for (int i = -3; i <= 3; i++) {
+        rail.to_y_m = 600 * (1 + i * DBL_EPSILON);
+        assert_int_equal(roadside_grid_of(&rail).along_count, 150);
+        meadow.width_m = 16 * (1 + i * DBL_EPSILON);
+        assert_int_equal(roadside_grid_of(&meadow).across_count, 4);
+    }
+    rail.to_y_m = 600.001;
+    assert_int_equal(roadside_grid_of(&rail).along_count, 151);
+}
+
+/* Turned by any angle and anywhere, a strip has the same scatterers at the same places along it. */
+static void a_turned_and_shifted_strip_has_the_same_scatterers(void **state)
+{
+    (void)state;
+    struct roadside_scatterer found[100], turned[100];
+    for (int turn = 1; turn < 12; turn++) {
+        struct roadside_strip strip = RAIL;
+        strip.from_x_m = 3e5;
+        strip.from_y_m = 5e6;
+        strip.to_x_m = strip.from_x_m + 600 * sin(turn * 0.5);
+        strip.to_y_m = strip.from_y_m + 600 * cos(turn * 0.5);
+        assert_int_equal(roadside_grid_of(&strip).along_count, 150);
+        for (int64_t cell = 0; cell < 150; cell++) {
+            assert_int_equal(draw(&RAIL, cell, 0, 0, found), 1);
+            assert_int_equal(draw(&strip, cell, 0, 0, turned), 1);
+            struct vec2 from = {strip.from_x_m, strip.from_y_m};
+            assert_int_equal(found->number, turned->number);
+            assert_true(found->ercs == turned->ercs);
+            assert_close(vec2_length(vec2_sub(turned->place_m, from)), found->place_m.y, 1e-8);
+        }
+    }
+}
+
+static void a_name_is_the_id_or_else_kind_and_number(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct roadside_strip strips[] = {RAIL, MEADOW, RAIL};
+    assert_string_equal(roadside_name(&strips[1], 2, &arena), "vegetation_2");
+    strips[0].id = "left";
+    assert_string_equal(roadside_name(&strips[0], 1, &arena), "left");
+    assert_null(roadside_name_twice(strips, 3, &arena));
+    strips[0].id = "rail_3";
+    assert_string_equal(roadside_name_twice(strips, 3, &arena), "rail_3");
+    arena_free(&arena);
+}
+
+static void a_strip_with_an_id_has_the_same_draws_anywhere_in_the_list(void **state)
+{
+    (void)state;
+    struct roadside_strip left = RAIL, right = RAIL;
+    left.id = "left";
+    right.id = "right";
+    struct random_address first = roadside_address(SCENE, &left, 1);
+    struct random_address moved = roadside_address(SCENE, &left, 7);
+    assert_memory_equal(&first, &moved, sizeof first);
+    assert_true(first.frame != roadside_address(SCENE, &right, 1).frame);
+    assert_true(roadside_address(SCENE, &RAIL, 1).frame != roadside_address(SCENE, &RAIL, 2).frame);
+}
+
 static void a_strip_without_length_or_number_has_nothing(void **state)
 {
     (void)state;
@@ -262,6 +343,11 @@ int main(void)
         cmocka_unit_test(scatterers_are_uniform_across_a_strip_and_each_in_its_cell),
         cmocka_unit_test(cells_beside_each_other_across_a_strip_have_draws_of_their_own),
         cmocka_unit_test(absent_numbers_are_those_of_the_kind),
+        cmocka_unit_test(the_level_of_a_scatterer_is_its_own_and_changes_with_range),
+        cmocka_unit_test(rounding_of_a_length_makes_no_cell),
+        cmocka_unit_test(a_turned_and_shifted_strip_has_the_same_scatterers),
+        cmocka_unit_test(a_name_is_the_id_or_else_kind_and_number),
+        cmocka_unit_test(a_strip_with_an_id_has_the_same_draws_anywhere_in_the_list),
         cmocka_unit_test(a_strip_without_length_or_number_has_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
