@@ -364,7 +364,7 @@ int recorded_plausibility_check(const struct recorded_plausibility *plausibility
     uint64_t against = plausibility->rests.ways + plausibility->leaps.ways;
     size_t denied = plausibility->standing + plausibility->driving;
     bool enough = plausibility->stretches_m >= SURE_M || denied >= SURE_DENIED;
-    if (plausibility->learned)
+    if (plausibility->learned || (plausibility->whole && !ended))
         return 0;
     if (plausibility->rest.ways > 0)
         return refuse_rest(plausibility, format, diag);

@@ -64,6 +64,7 @@ enum { RECORDED_FASTEST_MPS = 200, RECORDED_SCATTER_BINS = 200 };
 
 /* Begins as {0}. */
 struct recorded_plausibility {
+    bool whole;   /* the recording is judged at its end alone */
     bool learned; /* the whole recording has been judged; only denied ways are counted again */
     uint64_t ways, scatter[RECORDED_SCATTER_BINS]; /* ways by their deviations */
     uint64_t agreeing;                             /* ways */

@@ -369,6 +369,7 @@ int recorded_steps_judge(struct recorded_steps *steps, struct diag *diag)
     struct recorded_plausibility *plausibility = &steps->plausibility;
     const int64_t to_ns = steps->to_ns;
     steps->to_ns = INT64_MAX;
+    plausibility->whole = true;
     while (!steps->ended)
         read_step(steps);
     if (recorded_plausibility_check(plausibility, steps->reader.format, true, diag) != 0)
@@ -380,7 +381,7 @@ int recorded_steps_judge(struct recorded_steps *steps, struct diag *diag)
     steps->read = 0;
     steps->jumps = (struct recorded_jump_counts){0};
     steps->fault = (struct diag){0};
-    steps->ended = false;
+    steps->row_waits = steps->ended = false;
     return 0;
 }
 

@@ -316,6 +316,37 @@ static void a_hermite_span_keeps_its_end_velocities_and_a_standing_body(void **s
     }
 }
 
+/* The least speed of a span on a line of 1 m in 1 s, among 2,001 of them. */
+static double least_mps(double from_mps, double to_mps)
+{
+    double least = INFINITY;
+    for (int i = 0; i <= 2000; i++) {
+        struct hermite at;
+        motion_hermite((struct vec2){0, 0}, (struct vec2){from_mps, 0}, (struct vec2){1, 0},
+                       (struct vec2){to_mps, 0}, 1, i / 2000.0, &at.position_m, &at.velocity_mps,
+                       &at.acceleration_mps2);
+        least = fmin(least, at.velocity_mps.x);
+    }
+    return least;
+}
+
+static void a_monotone_share_stops_spans_from_running_back_and_leaves_all_others(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 60; i++) {
+        for (int k = 0; k <= 60; k++) {
+            double from_mps = i / 10.0, to_mps = k / 10.0;
+            double share = motion_monotone_share(from_mps, to_mps, 1);
+            double least = least_mps(from_mps, to_mps);
+            assert_true(least_mps(share * from_mps, share * to_mps) >= -1e-12);
+            assert_true(share == 1 ? least >= -1e-12 : share < 1 && least < 1e-5);
+        }
+    }
+    assert_true(motion_monotone_share(0, 0, 0) == 1);
+    assert_true(motion_monotone_share(1, 0, 0) == 0);
+    assert_true(motion_monotone_share(1, 2, 1e-300) < 1e-299);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +364,7 @@ int main(void)
         cmocka_unit_test(a_mirrored_drive_ends_mirrored_to_the_last_bit),
         cmocka_unit_test(a_hermite_span_of_a_cubic_is_that_cubic),
         cmocka_unit_test(a_hermite_span_keeps_its_end_velocities_and_a_standing_body),
+        cmocka_unit_test(a_monotone_share_stops_spans_from_running_back_and_leaves_all_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
