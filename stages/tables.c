@@ -139,7 +139,11 @@ const struct stage stage_tables = {
         "frame, with the same names and units. Columns that end in _key are whole numbers that "
         "join the rows of two tables. The parts of one set need different keys: --part gives each "
         "part its own. schemas/README.md describes the tables. A folder that has a table of the "
-        "other kind, packed (.csv.gz) or plain (.csv), is refused, as readers take both.",
+        "other kind, packed (.csv.gz) or plain (.csv), is refused, as readers take both. Old "
+        "tables "
+        "go before the first new one comes: where a run is killed meanwhile, some tables are "
+        "missing, "
+        "and none is older than another. Run it again then.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,

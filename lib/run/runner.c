@@ -395,11 +395,8 @@ struct output *runner_output_in(struct runner *runner, const char *folder, const
 
 int runner_close_outputs(struct runner *runner, bool whole)
 {
-    for (size_t i = 0; i < runner->outputs.count; i++)
-        output_finish(runner->outputs.items[i], &runner->diag);
     whole = whole && runner->diag.code == DIAG_OK;
-    for (size_t i = 0; i < runner->outputs.count; i++)
-        output_close(runner->outputs.items[i], whole, &runner->diag);
+    output_close_all(runner->outputs.items, runner->outputs.count, whole, &runner->diag);
     runner->outputs.count = 0;
     return runner->diag.code == DIAG_OK ? 0 : -1;
 }

@@ -5,8 +5,10 @@
  * runs a tool that reads frames at the end of a pipeline.
  *
  * The runner owns the outputs. None of them takes its name before all of them are whole and on the
- * disk; after a failure, or if the program is killed, the files that had these names before are
- * unchanged (text/output.h). What goes to standard output cannot be taken back.
+ * disk; after a failure, or if the program is killed until then, the files that had these names
+ * before are unchanged. Then the old files go before the first new one comes, so that no kill
+ * leaves an old file beside a new one (text/output.h). What goes to standard output cannot be taken
+ * back.
  *
  * Functions return 0, or -1 after a message in the runner's diag. Beside those below, tools may
  * call runner_arena, runner_diag and the like (stage.h). */

@@ -29,8 +29,9 @@
 struct whole_file {
     int fd;
     char *path, *folder;
-    struct text temporary;
-    bool named; /* the file is called temporary */
+    struct text temporary, aside; /* its name until it has its own; and that of the old file */
+    bool named;                   /* the file is called temporary */
+    bool replaces, taken;         /* the old file is aside; this one has its name */
 };
 
 static char *copy(const char *text)
@@ -143,6 +144,7 @@ static int close_file(struct whole_file *file)
         unlink(file->temporary.bytes);
     int result = file->fd >= 0 ? close(file->fd) : 0, why = errno;
     text_free(&file->temporary);
+    text_free(&file->aside);
     free(file->path);
     free(file->folder);
     free(file);
@@ -166,17 +168,58 @@ static struct whole_file *make_file(const char *path)
     return NULL;
 }
 
+static void block_signals(sigset_t *before)
+{
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, before);
+}
+
 /* Gives the file its name: 0, or -1 with errno. */
 static int take_name(struct whole_file *file)
 {
-    sigset_t all, before;
-    sigfillset(&all);
-    sigprocmask(SIG_SETMASK, &all, &before);
+    sigset_t before;
+    block_signals(&before);
     int result = name_file(file) == 0 ? rename(file->temporary.bytes, file->path) : -1, why = errno;
     file->named = file->named && result != 0;
+    file->taken = result == 0;
     sigprocmask(SIG_SETMASK, &before, NULL);
     errno = why;
     return result;
+}
+
+/* Takes the memory for both names: where there is none, the program ends before a file has one. */
+static void reserve_names(struct whole_file *file)
+{
+    struct utsname system;
+    size_t size = strlen(file->folder) + sizeof MARK + 64 + sizeof system.nodename;
+    text_room(&file->temporary, size);
+    text_room(&file->aside, size);
+}
+
+/* Gives the old file of this name, if there is one, a name like the temporary ones, with which the
+ * next run removes it if this one is killed: 0, or -1 with errno. */
+static int set_aside(struct whole_file *file)
+{
+    remove_leftovers(file->folder);
+    if (name_file(file) != 0)
+        return -1;
+    const char *name = file->temporary.bytes;
+    int stem = (int)(strrchr(name, '@') - name);
+    text_format(&file->aside, "%.*s-old%s", stem, name, name + stem);
+    file->replaces = rename(file->path, file->aside.bytes) == 0;
+    return file->replaces || errno == ENOENT ? 0 : -1;
+}
+
+/* Removes the old file, or gives it its name again. */
+static void end_aside(struct whole_file *file, bool whole)
+{
+    if (file->replaces && whole)
+        unlink(file->aside.bytes);
+    else if (file->replaces)
+        rename(file->aside.bytes, file->path);
+    else if (file->taken && !whole)
+        unlink(file->path);
 }
 
 /* ---- outputs ---- */
@@ -363,6 +406,47 @@ int output_close(struct output *output, bool whole, struct diag *diag)
     if (closed != 0 && result == 0)
         result = cannot_write(output, diag);
     discard(output);
+    return result;
+}
+
+/* Gives all finished files their names. The old files of these names go aside before the first new
+ * one comes, and come back if there is a failure. */
+static int name_together(struct output *const *outputs, size_t count, struct diag *diag)
+{
+    int result = 0;
+    for (size_t i = 0; i < count; i++)
+        if (outputs[i]->file != NULL)
+            reserve_names(outputs[i]->file);
+    for (size_t i = 0; i < count && result == 0; i++)
+        if (outputs[i]->file != NULL && set_aside(outputs[i]->file) != 0)
+            result = cannot_create(outputs[i]->name, diag);
+    for (size_t i = 0; i < count && result == 0; i++)
+        if (outputs[i]->file != NULL && take_name(outputs[i]->file) != 0)
+            result = cannot_create(outputs[i]->name, diag);
+    for (size_t i = 0; i < count; i++)
+        if (outputs[i]->file != NULL)
+            end_aside(outputs[i]->file, result == 0);
+    return result;
+}
+
+int output_close_all(struct output **outputs, size_t count, bool whole, struct diag *diag)
+{
+    sigset_t before;
+    size_t files = 0;
+    int result = 0;
+    for (size_t i = 0; i < count; i++) {
+        files += outputs[i]->file != NULL;
+        result = output_finish(outputs[i], diag) != 0 ? -1 : result;
+    }
+    block_signals(&before);
+    whole = whole && result == 0;
+    if (whole && files > 1) {
+        result = name_together(outputs, count, diag);
+        whole = false; /* none has a name to take any more */
+    }
+    for (size_t i = 0; i < count; i++)
+        result = output_close(outputs[i], whole, diag) != 0 ? -1 : result;
+    sigprocmask(SIG_SETMASK, &before, NULL);
     return result;
 }
 

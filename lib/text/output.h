@@ -38,12 +38,19 @@ int output_flush(struct output *output, struct diag *diag);
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag);
 
 /* Writes all that is held, to the disk if it is a file, so that closing it only gives it its name.
- * Programs whose outputs belong together call it before they close any of them. */
+ */
 int output_finish(struct output *output, struct diag *diag);
 
 /* Finishes, closes and names the file; the output is gone afterwards. If whole is false, a file is
  * removed instead; what was written to standard output or to a device stays written. */
 int output_close(struct output *output, bool whole, struct diag *diag);
+
+/* The same for outputs that belong together, as tables do: none has its name before all are on the
+ * disk, and the old files of these names go aside before the first new one comes. If one cannot
+ * have its name, all old ones come back. A program that is killed meanwhile leaves some old files
+ * or some new ones, or none, but no old one beside a new one; the next one that writes there
+ * removes those that are aside. */
+int output_close_all(struct output **outputs, size_t count, bool whole, struct diag *diag);
 
 /* Writes bytes to an open file: 0, or -1 with errno. Waits where there is no room, also if the
  * file was opened non-blocking. */

@@ -53,6 +53,8 @@ def rows(folder, name):
                     raise ValueError(f"no {', '.join(sorted(lacking))}")
                 row.place = place
                 yield row
+    except FileNotFoundError as error:
+        raise Fault(NO_INPUT, f"{path}: no such table; expected all those of glint-tables: run it again if it was killed") from error
     except (AttributeError, EOFError, KeyError, TypeError, ValueError, csv.Error, gzip.BadGzipFile, zlib.error) as error:
         raise Fault(BAD_DATA, f"{place}: {error!r}; expected a table of glint-tables") from error
 

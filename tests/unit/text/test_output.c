@@ -296,6 +296,83 @@ static pid_t end_early(const char *path, int signal)
     return child;
 }
 
+/* The library's unlink and rename are these: a process can be killed before its Nth change of a
+ * name. */
+static int changes_left = -1;
+
+static void change_name(void)
+{
+    if (changes_left >= 0 && changes_left-- == 0)
+        raise(SIGKILL);
+}
+
+int unlink(const char *path)
+{
+    change_name();
+    return unlinkat(AT_FDCWD, path, 0);
+}
+
+int rename(const char *from, const char *to)
+{
+    change_name();
+    return renameat(AT_FDCWD, from, AT_FDCWD, to);
+}
+
+enum { TOGETHER = 3 };
+
+/* Writes three files that belong together; true if that was ended before its Nth change of a name.
+ */
+static bool write_together(const char *const *paths, const char *word, int changes)
+{
+    int code = 0;
+    pid_t child = fork();
+    if (child == 0) {
+        struct output *outputs[TOGETHER];
+        struct diag diag = {0};
+        changes_left = changes;
+        for (int i = 0; i < TOGETHER; i++) {
+            outputs[i] = output_open(paths[i], &diag);
+            output_write(outputs[i], word, 3, &diag);
+        }
+        _exit(output_close_all(outputs, TOGETHER, true, &diag) == 0 ? 0 : DIAG_IO);
+    }
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_true(WIFSIGNALED(code) || WEXITSTATUS(code) == 0);
+    return WIFSIGNALED(code);
+}
+
+static void files_that_belong_together_are_never_old_beside_new(void **state)
+{
+    struct scratch *scratch = *state;
+    char names[TOGETHER][96];
+    const char *paths[TOGETHER] = {names[0], names[1], names[2]};
+    int kills = 0, before = files_in(scratch->directory);
+    bool killed = true;
+    for (int i = 0; i < TOGETHER; i++)
+        snprintf(names[i], sizeof names[i], "%s/%d.csv", scratch->directory, i);
+    for (int changes = 0; killed; changes++) {
+        int old = 0, new = 0;
+        assert_false(write_together(paths, "old", -1));
+        killed = write_together(paths, "new", changes);
+        kills += killed;
+        for (int i = 0; i < TOGETHER; i++) {
+            if (access(paths[i], F_OK) != 0)
+                continue;
+            struct text text = read_all(paths[i]);
+            old += memcmp(text.bytes, "old", 3) == 0;
+            new += memcmp(text.bytes, "new", 3) == 0;
+            text_free(&text);
+        }
+        assert_true(old == 0 || new == 0);
+        assert_true(killed || new == TOGETHER);
+    }
+    assert_int_equal(kills,
+                     3 * TOGETHER); /* an old file goes aside, a new one comes, the old ends */
+    assert_int_equal(files_in(scratch->directory), before + TOGETHER);
+    for (int i = 0; i < TOGETHER; i++)
+        unlink(paths[i]);
+}
+
 /* "DIRECTORY/.glint-PROCESS-NUMBER@HOST" */
 static const char *temporary(const struct scratch *scratch, pid_t process, int number)
 {
@@ -739,6 +816,7 @@ int main(void)
         cmocka_unit_test(appended_text_is_written_in_whole_pieces),
         cmocka_unit_test(gz_is_gzip_and_depends_on_nothing_but_its_content),
         cmocka_unit_test(the_name_is_taken_only_when_the_file_is_complete),
+        cmocka_unit_test(files_that_belong_together_are_never_old_beside_new),
         cmocka_unit_test(a_file_that_is_replaced_keeps_its_mode),
         cmocka_unit_test(a_run_that_is_ended_leaves_the_folder_as_it_was),
         cmocka_unit_test(what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next),
