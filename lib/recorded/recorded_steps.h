@@ -73,7 +73,7 @@ struct recorded_steps {
     struct diag fault;
 };
 
-/* Judges a recording that is stored (recorded_row_store) as a whole before its first step is given:
+/* Judges a recording that is stored (recorded_store.h) as a whole before its first step is given:
  * -1 after the message that refuses it. Faults of its rows are left to recorded_steps_next. */
 int recorded_steps_judge(struct recorded_steps *steps, struct diag *diag);
 
