@@ -133,8 +133,8 @@ void recorded_memory_link_by_stamp(struct recorded_memory *memory)
 {
     for (size_t i = 0; i < memory->stamps.count; i++)
         memory->stamps.items[i].first = RECORDED_NONE;
-    for (size_t i = 0; i < memory->order.count; i++) {
-        uint32_t row = memory->tracks[memory->order.items[i]].first, next;
+    for (size_t i = memory->order.count; i > 0; i--) {
+        uint32_t row = memory->tracks[memory->order.items[i - 1]].first, next;
         for (; row != RECORDED_NONE; row = next) {
             struct recorded_stamp *stamp = &memory->stamps.items[memory->stamp_at[row]];
             next = recorded_memory_next(memory, row);
