@@ -424,6 +424,9 @@ def sets(bin_dir):
         os.remove(stranger)
         done = run(f"BUILD={build} scripts/check-set {folder}/set >/dev/full", bin_dir)
         check(done.returncode == 74 and b"check-set: No space left" in done.stderr, f"a full disk: {done.stderr.decode()}")
+        for what, status, message in (("nowhere", 66, "nowhere/datapackage.json"), (f"{folder}/set", 69, "/glint-check: no such program; make builds it")):
+            done = run(f"BUILD={build if status == 66 else '/nowhere'} scripts/check-set {what}", bin_dir)
+            check(done.returncode == status and message in done.stderr.decode(), f"{what}: {done.returncode}: {done.stderr.decode()}")
         other_table(folder, package)
         done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
         check(done.returncode == 65 and "other rows than those of the stream" in done.stdout.decode(),
