@@ -115,7 +115,8 @@ static const struct record of_frame_record = RECORD(of_frame_fields);
 #define ROWS_OF(table, name_)                                                                      \
     {                                                                                              \
         .name = (name_), .kind = FIELD_INTEGER, .low = 0, .high = 0x1p53,                          \
-        .offset = offsetof(struct row_counts, of[table]), .help = "rows of " name_ " of this frame"             \
+        .offset = offsetof(struct row_counts, of[table]),                                          \
+        .help = "rows of " name_ " of this frame"                                                  \
     }
 static const struct field row_counts_fields[] = {
     ROWS_OF(TABLE_OBJECTS, "objects"),
