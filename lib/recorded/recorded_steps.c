@@ -104,11 +104,20 @@ static void place_object(struct recorded_state *state, const struct recorded_sta
 static bool agree(struct recorded_state *state, const struct recorded_state *other)
 {
 #define MEMBER(name) offsetof(struct recorded_state, name)
-    static const size_t members[] = {
-        MEMBER(object.x_m),      MEMBER(object.y_m),     MEMBER(object.yaw_rad),
-        MEMBER(object.vx_mps),   MEMBER(object.vy_mps),  MEMBER(object.yaw_rate_radps),
-        MEMBER(object.length_m), MEMBER(object.width_m), MEMBER(object.height_m),
-        MEMBER(direction_rad),   MEMBER(ahead_m),        MEMBER(speed_mps)};
+    static const size_t members[] = {MEMBER(object.x_m),
+                                     MEMBER(object.y_m),
+                                     MEMBER(object.yaw_rad),
+                                     MEMBER(object.vx_mps),
+                                     MEMBER(object.vy_mps),
+                                     MEMBER(object.yaw_rate_radps),
+                                     MEMBER(object.length_m),
+                                     MEMBER(object.width_m),
+                                     MEMBER(object.height_m),
+                                     MEMBER(direction_rad),
+                                     MEMBER(ahead_m),
+                                     MEMBER(speed_mps),
+                                     MEMBER(z_m),
+                                     MEMBER(slope)};
 #undef MEMBER
     for (size_t i = 0; i < sizeof members / sizeof members[0]; i++) {
         double *mine = (double *)((char *)state + members[i]);
