@@ -64,7 +64,9 @@ parts_start() { # TITLE COMMAND...
 # Waits until a part ends, or for a second, after which the line of progress is drawn again.
 parts_collect() {
     local job still=() runs
-    [ -z "$parts_shown" ] || sleep 1 &
+    if [ -n "$parts_shown" ]; then
+        sleep 1 &
+    fi
     wait -n || true
     runs=" $(jobs -rp | tr '\n' ' ')"
     for job in "${parts_running[@]}"; do

@@ -76,6 +76,10 @@ progress_end() { # takes the line away
 
 # Waits for a command in the background and tells how many of the files that it makes are there. Its exit status.
 progress_wait() { # PID EXPECTED UNIT FOLDER SUFFIX
+    if [ ! -t 2 ] && [ -z "${GLINT_PROGRESS:-}" ]; then
+        wait "$1"
+        return
+    fi
     progress_mark=$(mktemp)
     while sleep 0.2 && kill -0 "$1" 2>/dev/null; do
         # The folder may not be there yet, and files go while find looks: no failure under pipefail.
