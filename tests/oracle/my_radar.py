@@ -355,6 +355,35 @@ def random_sheets(bench):
     bench.check(accepted >= RANDOM_SHEETS / 3, f"only {accepted} of {RANDOM_SHEETS} sheets make a suite")
 
 
+def members_come_first(bench):
+    """What is detected where holds for the members that the sheet states, and they are in the suite as they are."""
+    for members in ({"level_constant_db": 6, "level_keeps": "median"}, {"exponent": 1.4}, {"fluctuation": "swerling_1"}, {"pointer_sigma": 0.2},
+                    {"threshold_db": 18}, {"cell_range_m": 2}, {"cell_range_m": 1, "cell_extent": "half_width"}, {"level_fast_db": 4, "exponent": 1.8}):
+        for sheet in (PLAIN | {"range_max_m": 400, "detected_at_m": 150, "members": members}, {"extends": "lrr77", "detected_at_m": 150, "members": members}):
+            done, out = made(bench, sheet)
+            bench.check(done.returncode == 0, f"{sheet}: {done.stderr}")
+            text = subprocess.run([bench.bin / "glint", "--datasheet", out], capture_output=True, check=True, text=True).stdout
+            hold(bench, f"10 dBsm with {sheet}", reach_m(text, 0, 10)[0], 150, 0.02)
+            sensor = json.loads(out.read_text())["sensors"][0]
+            bench.check(all(sensor[member] == value for member, value in members.items()), f"{sheet}: members are {sensor}")
+
+
+def kept(bench):
+    """Neither the extended suite nor its tables are written over, whatever the sheet asks."""
+    folder = bench.scratch / "kept"
+    folder.mkdir()
+    for name, sheet, out in (("base", PLAIN, "base"), ("other", {"extends": "./base.json", "range_max_m": 90}, "base"),
+                             ("third", {"extends": "./linked.json", "azimuth_accuracy_deg": 2, "radars": [{"name": "front"}]}, "base")):
+        (folder / "linked.json").unlink(missing_ok=True)
+        if name == "third":
+            (folder / "linked.json").write_text((folder / "base.json").read_text())
+        (folder / f"{name}.sheet").write_text(json.dumps(sheet))
+        before = {path: path.read_bytes() for path in folder.glob("*.*")}
+        done = run(folder / f"{name}.sheet", "-o", folder / f"{out}.json")
+        good = done.returncode == 0 if name == "base" else done.returncode == 65 and "need this file" in done.stderr
+        bench.check(good and (name == "base" or before == {path: path.read_bytes() for path in folder.glob("*.*")}), f"{name}: {done.stderr}")
+
+
 def levels(bench):
     """Members of the sheet hold for radars with members of their own, for which null takes one away; a table among them is as it is."""
     radars = [{"name": "a"}, {"name": "b", "members": {"diffraction": True, "bounces": None}}, {"name": "c", "members": {"antenna_table": "own.csv"}}]
@@ -436,6 +465,15 @@ REFUSED = [
     ({"members": {"cycle_s": "x"}}, "front/cycle_s: 'x'; expected number"),
     ({"members": {"name": "x"}}, 'members is {"name": "x"}; expected an object of members other than name'),
     ({"members": {"cycle": 1}}, "front/cycle: unknown member"),
+    ({"members": {"cell_range_m": 2, "cell_extent": "half_width"}}, "range_resolution_m 1 and members, cell_range_m 2, contradict each other: 1 follows"),
+    ({"cycle_ms": 50, "members": {"cycle_s": 0.06}}, "cycle_ms 50 and members, cycle_s 0.06, contradict each other: 0.05 follows"),
+    ({"false_alarm_rate": 1e-6, "members": {"threshold_db": 20}}, "false_alarm_rate 1e-06 and members, threshold_db 20, contradict each other"),
+    ({"detected_at_m": 90, "members": {"calibration_ercs": 1, "calibration_range_m": 60}}, "detected_at_m: not used beside the other figures"),
+    ({"azimuth_accuracy_deg": 1, "members": {"azimuth_floor_rad": 0.1}}, "azimuth accuracy at 0 degrees 1 is asked, and the suite's printed data sheet has 5.8"),
+    ({"speed_max_kmh": 180, "members": {"unambiguous_middle_mps": 5}}, "speed_max_kmh 180 is asked, and the suite's printed data sheet has none"),
+    ({"elevation_one_way_full_width_deg": 14, "members": {"mount_z_m": None}}, "glint refuses the suite: "),
+    ({"radars": [{"name": "a", "range_resolution_m": 4}]}, "range_resolution_m 1 holds for no scan; a has range_resolution_m 4"),
+    ({"radars": [{"name": "a", "range_cell_m": 4}]}, "range_resolution_m 1 and range_cell_m 4 contradict each other"),
     ({"list_limit": 2.5}, "front/list_limit: 2.5; expected integer"),
     ({"range_max_m": 9e4, "range_resolution_m": 1e4}, "front/range_sigma_m: 2500.0; expected at most 1000"),
     ({"document": "\ud800"}, "/document: '\\ud800'; expected one line"),
@@ -489,6 +527,8 @@ CHECKS = [
     ("accuracy, resolution and speeds hold in the whole chain, up to the borders", edges),
     ("what a sheet does not state is among the printed assumptions", assumptions),
     ("a sheet extends a suite", extended),
+    ("what is detected holds for the members of the sheet", members_come_first),
+    ("the extended suite is never written over", kept),
     ("a random sheet makes a suite that has what it asks, or none", random_sheets),
     ("every shipped suite can be extended, from anywhere", shipped),
     ("members of the sheet hold beside those of a radar", levels),
