@@ -35,17 +35,19 @@ enum diag_code diag_code_by_errno(enum diag_code otherwise)
 
 void diag_print(const char *program, const struct diag *diag)
 {
-    fprintf(stderr, "%s: ", program);
+    char line[4 * sizeof diag->text + 2];
+    size_t length = 0;
     const unsigned char *at = (const unsigned char *)diag->text;
     for (; *at != '\0'; at++) {
         bool wide = at[0] == 0xc2 && at[1] >= 0x80 && at[1] < 0xa0; /* U+0080 to U+009F */
         at += wide;
         if (wide || *at < 0x20 || *at == 0x7f)
-            fprintf(stderr, "\\x%02x", (unsigned)*at);
+            length +=
+                (size_t)snprintf(line + length, sizeof line - length, "\\x%02x", (unsigned)*at);
         else
-            fputc(*at, stderr);
+            line[length++] = (char)*at;
     }
-    fputc('\n', stderr);
+    fprintf(stderr, "%s: %.*s\n", program, (int)length, line);
 }
 
 int diag_prefix(struct diag *diag, const char *format, ...)

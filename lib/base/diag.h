@@ -38,6 +38,6 @@ enum diag_code diag_code_by_errno(enum diag_code otherwise);
  * knows; returns -1. */
 int diag_prefix(struct diag *diag, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Prints "PROGRAM: MESSAGE" to stderr, with control characters, also U+0080 to U+009F, as \xNN,
- * because a message may quote input. */
+/* Prints "PROGRAM: MESSAGE" to stderr as one line, which no other process's output parts, with
+ * control characters, also U+0080 to U+009F, as \xNN, because a message may quote input. */
 void diag_print(const char *program, const struct diag *diag);

@@ -24,18 +24,24 @@ struct chain {
     struct progress progress;
 };
 
-/* "glint-NAME: MESSAGE" to stderr, with the notices before it. */
-static void complain(const struct runner *runner)
+/* "glint-NAME: MESSAGE" to stderr, if there is a message. */
+static void complain(const struct runner *runner, const struct diag *diag)
 {
     char program[128];
     snprintf(program, sizeof program, "glint-%s", runner->stage->name);
+    if (diag->text[0] != '\0')
+        diag_print(program, diag);
+}
+
+/* Prints the notices that are new. */
+static void print_notices(struct runner *runner)
+{
     for (size_t i = 0; i < runner->notices.count; i++) {
         struct diag notice = {0};
         snprintf(notice.text, sizeof notice.text, "%s", runner->notices.items[i]);
-        diag_print(program, &notice);
+        complain(runner, &notice);
     }
-    if (runner->diag.text[0] != '\0')
-        diag_print(program, &runner->diag);
+    runner->notices.count = 0;
 }
 
 int64_t chain_cpu_ns(void)
@@ -246,6 +252,8 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     if (chain.timed)
         time_clock(&chain);
     start(&chain);
+    for (size_t i = 0; i < count; i++)
+        print_notices(&runners[i]);
     run(&chain);
     finish(&chain);
     chain.times.bytes_read = chain.input.bytes;
@@ -253,7 +261,8 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
         *times = chain.times;
     int code = DIAG_OK;
     for (size_t i = 0; i < count; i++) {
-        complain(&runners[i]);
+        print_notices(&runners[i]);
+        complain(&runners[i], &runners[i].diag);
         if (failed(&runners[i]))
             code = (int)runners[i].diag.code;
         runners[i].pause = (struct input_pause){0};
@@ -276,7 +285,7 @@ static int print_about(struct runner *runner)
     output_print(text.bytes, text.length, &runner->diag);
     text_free(&text);
     if (failed(runner))
-        complain(runner);
+        complain(runner, &runner->diag);
     return (int)runner->diag.code;
 }
 
@@ -290,7 +299,7 @@ int chain_main(const struct stage *stage, int count, char **words)
     runner_prepare(&runner, stage, given, options);
     int code = (int)runner.diag.code;
     if (failed(&runner))
-        complain(&runner);
+        complain(&runner, &runner.diag);
     else
         code = runner.common.help || runner.common.version ? print_about(&runner)
                                                            : chain_run(&runner, 1, NULL);

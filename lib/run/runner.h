@@ -30,7 +30,8 @@ struct runner {
     const struct frame_stream *input; /* what the chain reads; NULL: it begins with a source */
     const struct runner *before; /* runs before this one in the same process; NULL: none does */
     LIST_OF(const struct suite *) suites;
-    LIST_OF(const char *) notices; /* printed at the end of the run, a line each */
+    LIST_OF(const char *)
+    notices; /* a line each, printed before the first frame, or at a tool's end */
     LIST_OF(const struct vehicle *) vehicles;
     struct frame_sequence sequence; /* of the frames so far, under --complete */
     int64_t expected_frames;        /* 0 if the source does not say */

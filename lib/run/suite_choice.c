@@ -42,6 +42,15 @@ static bool is_told(const struct suite *suite, size_t sensor, const struct usual
     return false;
 }
 
+/* Adds a notice that the runner does not have yet: a tool may choose one suite several times. */
+static void add_notice(struct runner *runner, const char *text)
+{
+    for (size_t i = 0; i < runner->notices.count; i++)
+        if (strcmp(runner->notices.items[i], text) == 0)
+            return;
+    *list_add(&runner->notices, &runner->arena) = text;
+}
+
 void suite_choice_doubt(struct runner *runner, const struct suite *suite)
 {
     struct usual_figure unusual[USUAL_FIGURES_MOST];
@@ -49,13 +58,15 @@ void suite_choice_doubt(struct runner *runner, const struct suite *suite)
         return;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         size_t count = usual_figures_list(&suite->sensors.items[i], unusual);
-        for (size_t k = 0; k < count; k++)
-            if (!is_told(suite, i, &unusual[k]))
-                *list_add(&runner->notices, &runner->arena) = arena_format(
-                    &runner->arena,
-                    "%s: sensors[%zu].%s: doubt: %g%s; automotive radars have %g to %g%s",
-                    suite->given, i, unusual[k].member, unusual[k].value, unusual[k].unit,
-                    unusual[k].least, unusual[k].most, unusual[k].unit);
+        for (size_t k = 0; k < count; k++) {
+            const struct usual_figure *one = &unusual[k];
+            if (!is_told(suite, i, one))
+                add_notice(runner, arena_format(&runner->arena,
+                                                "%s: sensors[%zu].%s: doubt: %g%s; automotive "
+                                                "radars have %g to %g%s",
+                                                suite->given, i, one->member, one->value, one->unit,
+                                                one->least, one->most, one->unit));
+        }
     }
 }
 
