@@ -43,6 +43,14 @@ static struct utm draw_utm(uint64_t *random)
     return utm;
 }
 
+/* Ten seconds later, at 1 m/s along x, half a metre off at most. */
+static struct utm draw_later(struct utm utm, uint64_t *random)
+{
+    utm.x_um += INT64_C(10000000) + sample_integer(random, 500000);
+    utm.y_um += sample_integer(random, 500000);
+    return utm;
+}
+
 static int write_tracks(const char *path, struct utm *places, int steps)
 {
     uint64_t random = 23;
@@ -50,7 +58,7 @@ static int write_tracks(const char *path, struct utm *places, int steps)
     assert_non_null(file);
     fputs("track_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n", file);
     for (int i = 0; i < steps * TRACKS; i++) {
-        places[i] = draw_utm(&random);
+        places[i] = i < TRACKS ? draw_utm(&random) : draw_later(places[i - TRACKS], &random);
         fprintf(file, "%03d,%d,car,%lld.%06d,%lld.%06d,1,0,0,4,2\n", i % TRACKS, i / TRACKS * 10000,
                 (long long)(places[i].x_um / 1000000), (int)(places[i].x_um % 1000000),
                 (long long)(places[i].y_um / 1000000), (int)(places[i].y_um % 1000000));
