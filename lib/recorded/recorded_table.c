@@ -1,7 +1,7 @@
 /* Rows of a CSV table of recorded traffic. */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <strings.h>
 
 #include "base/intern.h"
 #include "base/units.h"
@@ -44,6 +44,8 @@ struct table {
     struct fit fit;
     const struct csv_table *names;
     struct intern places;         /* of the columns, by their names */
+    struct intern folded;         /* names in lower case */
+    LIST_OF(int) folded_places;   /* the first column of each, by the number of the name */
     const struct csv_table *rows; /* of the last line, or NULL */
     size_t row;                   /* of those, which is read */
     size_t part;                  /* of the row, which is next */
@@ -54,16 +56,37 @@ struct table {
     LIST_OF(struct track) track_list; /* by the number of the id */
 };
 
-/* Where letters differ in case a column is found by looking at all of them. */
+static void fold(const char *name, char *room)
+{
+    size_t length = 0;
+    for (; name[length] != '\0' && length + 1 < NAME_ROOM; length++)
+        room[length] = (char)tolower((unsigned char)name[length]);
+    room[length] = '\0';
+}
+
+/* Names the places of all columns. */
+static void name_places(struct table *table)
+{
+    char room[NAME_ROOM];
+    for (size_t i = 0; i < table->names->columns; i++) {
+        const char *name = table->names->header[i];
+        intern_word(&table->places, name, table->arena);
+        fold(name, room);
+        if (intern_word(&table->folded, room, table->arena) == table->folded_places.count)
+            *list_add(&table->folded_places, table->arena) = (int)i;
+    }
+}
+
+/* The place of a column, else of one whose letters differ in case alone. */
 static int place_of(const struct table *table, const char *name)
 {
+    char room[NAME_ROOM];
     uint32_t place;
     if (intern_find(&table->places, name, strlen(name), &place))
         return (int)place;
-    for (size_t i = 0; i < table->names->columns; i++)
-        if (strcasecmp(table->names->header[i], name) == 0)
-            return (int)i;
-    return ABSENT;
+    fold(name, room);
+    bool known = intern_find(&table->folded, room, strlen(room), &place);
+    return known ? table->folded_places.items[place] : ABSENT;
 }
 
 /* ---- the layout ---- */
@@ -324,8 +347,7 @@ static int read_header(struct table *table, const char *path, struct diag *diag)
     if (table->lines == NULL)
         return -1;
     table->names = csv_table_names(table->lines);
-    for (size_t i = 0; i < table->names->columns; i++)
-        intern_word(&table->places, table->names->header[i], table->arena);
+    name_places(table);
     if (find_layout(table, diag) != 0)
         return -1;
     return table->fit.layout->beside.id == NULL ||

@@ -48,6 +48,11 @@ def run(words, **more):
     return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE_S, **more)
 
 
+def printed(words, **more):
+    """What a program prints, without its notices."""
+    return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=PATIENCE_S, **more).stdout
+
+
 def begin(folder, plan, name="set"):
     """Lays a set out; its folder, and what scripts/dataset says."""
     path = os.path.join(folder, f"{name}.json")
@@ -98,7 +103,7 @@ def sha256(data):
 
 def shards_join_to_the_bytes_of_one_run(folder):
     chain = CHAIN.format(suite=SUITE)
-    right = run(["glint", "-c", f"glint-traffic-random --density medium --frames 64 | {chain}"]).stdout.encode()
+    right = printed(["glint", "-c", f"glint-traffic-random --density medium --frames 64 | {chain}"]).encode()
     for size, count in ((64, 1), (10, 7), (1, 64)):
         place = made(folder, snapshots(64, frames_per_shard=size), f"by-{size}")
         assert len(manifest(place)["resources"]) == count, f"{size} frames a shard: {len(manifest(place)['resources'])} shards"
@@ -110,7 +115,7 @@ def scenes_and_seeds_are_played_whole(folder):
                {"random": "medium", "seconds": 2, "scenes": [4, 9], "rate_hz": 10}]
     words = ("glint-traffic cut-in --scene cut-in/{seed}", "glint-traffic varied-cut-in --scenes 3:8 --scene varied-cut-in/{seed}",
              "glint-traffic-random --density medium --seconds 2 --scenes 4:9 --rate-hz 10")
-    right = "".join(run(["glint", "-c", f"{source.format(seed=seed)} --seed {seed} | {CHAIN.format(suite=SUITE)}"]).stdout
+    right = "".join(printed(["glint", "-c", f"{source.format(seed=seed)} --seed {seed} | {CHAIN.format(suite=SUITE)}"])
                     for seed in (1, 2) for source in words)
     for size, count in ((10000, 1), (300, 8), (100, 14)):
         place = made(folder, plan_of(sources, seeds=[1, 2], frames_per_shard=size), f"by-{size}")
@@ -132,7 +137,7 @@ def the_manifest_says_what_is_there(folder):
         assert (len(plain), sha256(plain)) == (resource["content_bytes"], resource["content_hash"])
         assert plain.count(b"\n") == resource["rows"]
         rows[resource["split"], resource["suite"]] = rows.get((resource["split"], resource["suite"]), 0) + resource["rows"]
-        again = "".join(run(["glint", "-c", command], env=os.environ | {"GLINT_DATA": place + "/documents"}).stdout
+        again = "".join(printed(["glint", "-c", command], env=os.environ | {"GLINT_DATA": place + "/documents"})
                         for command in resource["commands"])
         assert again.encode() == plain, f"{resource['path']}: its commands make other bytes"
     suites = (SUITE, "lrr77-every-frame")
@@ -443,7 +448,7 @@ def blocks_of_time_keep_their_gap(folder):
 def blocks_of_a_resampled_recording_have_all_frames(folder):
     source = {"recording": "highway", "egos": ["1", "7"], "from_s": 0.1, "to_s": 10.1, "block_s": 1.3, "rate_hz": 40}
     place = made(folder, plan_of([source]))
-    played = run(["glint-traffic", "highway", "--ego", "1,7", "--rate-hz", "40", "--from-s", "0.1", "--to-s", "10.099999"]).stdout
+    played = printed(["glint-traffic", "highway", "--ego", "1,7", "--rate-hz", "40", "--from-s", "0.1", "--to-s", "10.099999"])
     right = sorted((frame["ego"], frame["time_s"]) for frame in map(json.loads, played.splitlines()))
     frames = map(json.loads, frames_of(place, "all/*").splitlines())
     assert sorted((frame["ego"], frame["time_s"]) for frame in frames) == right and len(right) == 800, len(right)
@@ -472,7 +477,7 @@ def no_two_scenes_share_a_draw(folder):
         commands = [command.split(" | ")[0] for shard in json.load(file)["shards"] for command in shard["commands"]]
     first, owner = {}, {}
     for command in commands:
-        for frame in map(json.loads, run(["glint", "-c", command], cwd=folder).stdout.splitlines()):
+        for frame in map(json.loads, printed(["glint", "-c", command], cwd=folder).splitlines()):
             first.setdefault(frame["scene"], frame)
     assert len(first) == 2 * 12 * 9, len(first)
     for scene, frame in first.items():
@@ -856,7 +861,7 @@ def a_chain_that_fails_is_named(folder):
         json.dump({"origin": "a test", "ego": "ego", "rate_hz": 10, "duration_s": 1, "objects": [body]}, file)
     place, done = begin(folder, plan_of([{"scenario": "./mine.json", "scenes": [0, 20]}]))
     assert done.returncode == 0, done.stdout
-    played = run(["glint-traffic", "./mine.json", "--scenes", "0:20"], cwd=folder).stdout
+    played = printed(["glint-traffic", "./mine.json", "--scenes", "0:20"], cwd=folder)
     wrong = sorted({int(frame["scene"].split("/")[2]) for frame in map(json.loads, played.splitlines())
                     if frame["objects"][0]["class"] == "unicycle"})
     done = make(place)
