@@ -26,10 +26,11 @@ COMPARED = 300
 
 
 def source(density, suite, frames, first=0, seed=1):
+    """Frames that last longer than a radar's cycle, so that each has a scan at its time."""
     kind = ["glint-traffic-random", "--density", density]
     if density == "adversarial":
         kind = ["glint-traffic-adversarial", "--sensors", suite]
-    return [*kind, "--frames", str(frames), "--first", str(first), "--seed", str(seed)]
+    return [*kind, "--rate-hz", "10", "--frames", str(frames), "--first", str(first), "--seed", str(seed)]
 
 
 def chain(suite, more=""):

@@ -147,6 +147,7 @@ static int start_scenes(struct bench *bench)
     bench->scene.arena = &bench->arena;
     return start_stage(&bench->source, adversarial ? "traffic-adversarial" : "traffic-random",
                        (const char *const[]){adversarial ? "--sensors" : "--density", around,
+                                             "--rate-hz", "10", /* a scan in every frame */
                                              "--first", first, "--frames", frames,
                                              "--draw-conditions", NULL}) == 0
                ? start_stage(&bench->extract, "extract", (const char *const[]){NULL})

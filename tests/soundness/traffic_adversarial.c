@@ -82,9 +82,11 @@ static const struct field traffic_adversarial_options[] = {
      FIELD_OPTIONAL, .absent = 100},
     {FIELD_INTEGER_IN(struct traffic_adversarial, first, 0, 1e9, "number of the first frame"),
      FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct traffic_adversarial, rate_hz, 1, 1e4,
-                   "frame number n is at time n / rate; absent: 20"),
-     FIELD_OPTIONAL, .absent = 20},
+    {FIELD_REAL_IN(
+         struct traffic_adversarial, rate_hz, 1, 1e4,
+         "frame number n is at time n / rate; absent: 10, so that frames last longer than a "
+         "radar's cycle and every scan is at the time of its frame"),
+     FIELD_OPTIONAL, .absent = 10},
     {FIELD_FLAG_OF(struct traffic_adversarial, draw_conditions,
                    "draw road, weather and other radars too"),
      FIELD_OPTIONAL},
