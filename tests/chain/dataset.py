@@ -667,8 +667,6 @@ def what_no_frame_of_a_rehearsal_meets_is_refused(folder):
         (plan_of([timed | {"options": "--class-map car=carr"}]), "/chain: this fails: glint -c"),
         (plan_of([moving | {"options": "--draw-conditions=7"}]), "/sources/0: this fails: glint -c"),
         (plan_of([moving | {"options": "--colour red"}]), "/sources/0: this fails: glint -c"),
-        (plan_of([moving | {"rate_hz": 5}], suites=["corner77"]), "/chain: this fails: glint -c"),
-        (plan_of([timed], suites=["corner77"]), "/chain: this fails: glint -c"),
     ], None)
 
 
