@@ -44,6 +44,29 @@ static void print_notices(struct runner *runner)
     runner->notices.count = 0;
 }
 
+static bool failed(const struct runner *runner)
+{
+    return runner->diag.code != DIAG_OK;
+}
+
+/* Prints what the stages have to say, the reason of a failure last. Returns the exit code. */
+static int complain_of_all(struct runner *runners, size_t count)
+{
+    int code = DIAG_OK;
+    for (size_t i = 0; i < count; i++) {
+        print_notices(&runners[i]);
+        if (!failed(&runners[i]))
+            complain(&runners[i], &runners[i].diag);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!failed(&runners[i]))
+            continue;
+        complain(&runners[i], &runners[i].diag);
+        code = (int)runners[i].diag.code;
+    }
+    return code;
+}
+
 int64_t chain_cpu_ns(void)
 {
     struct timespec now;
@@ -76,11 +99,6 @@ static void time_clock(struct chain *chain)
 static struct runner *last(struct chain *chain)
 {
     return &chain->runners[chain->count - 1];
-}
-
-static bool failed(const struct runner *runner)
-{
-    return runner->diag.code != DIAG_OK;
 }
 
 /* Puts the place in front of a message: the line that the first runner reads, or the frame that a
@@ -259,12 +277,8 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     chain.times.bytes_read = chain.input.bytes;
     if (times != NULL)
         *times = chain.times;
-    int code = DIAG_OK;
+    int code = complain_of_all(runners, count);
     for (size_t i = 0; i < count; i++) {
-        print_notices(&runners[i]);
-        complain(&runners[i], &runners[i].diag);
-        if (failed(&runners[i]))
-            code = (int)runners[i].diag.code;
         runners[i].pause = (struct input_pause){0};
         runners[i].input = NULL;
     }
