@@ -400,8 +400,9 @@ def step_of(time, users):
 
 
 def brake(chain):
-    """A stand-in of SUMO brakes by the targets of each step, for which it waits; returns where it stops, and the lists."""
-    x, speed, lists = 0.0, 20.0, []
+    """A stand-in of SUMO brakes by the targets of the last scan, and waits for the list of each step; returns where it stops,
+    and the lists."""
+    x, speed, near, lists = 0.0, 20.0, False, []
     with subprocess.Popen(chain, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                           env=dict(os.environ, PATH=f"{BIN}:{os.environ['PATH']}")) as loop:
         loop.stdin.write(b"<fcd-export>\n")
@@ -410,8 +411,10 @@ def brake(chain):
             loop.stdin.flush()
             check(bool(select.select([loop.stdout], [], [], PATIENCE_S)[0]), f"no targets of step {i} before the next")
             lists.append(loop.stdout.readline())
-            ranges = [target["range_m"] for target in json.loads(lists[-1])["targets"]]
-            speed = max(0, speed - 0.05 * (5 if min(ranges, default=1e3) < 50 else 0))
+            frame = json.loads(lists[-1])
+            if any(one.get("measured") for one in frame["sensors"]["list"]):
+                near = min((target["range_m"] for target in frame["targets"]), default=1e3) < 50
+            speed = max(0, speed - 0.05 * (5 if near else 0))
             x += 0.05 * speed
         loop.stdin.write(b"</fcd-export>\n")
         loop.stdin.close()
@@ -772,8 +775,8 @@ def targets_of_a_lane_change_have_the_speed_of_the_lane(folder):
         rates = [target["range_rate_mps"] for line in done.stdout.splitlines() for target in json.loads(line)["targets"]
                  if target["contributors"][0]["object"] == "car"]
         check(len(rates) > 50 and -5.7 < min(rates) and max(rates) < -4.3, f"rates of {min(rates)} to {max(rates)} m/s")
-        said = done.stderr.decode()
-        check(said.count("\n") == 1 and "1 jumps to another lane are spread over 3 s, and 0 of the angle" in said, said)
+        said = "\n".join(line for line in done.stderr.decode().splitlines() if line.startswith("glint-traffic-sumo: "))
+        check(said.count("\n") == 0 and "1 jumps to another lane are spread over 3 s, and 0 of the angle" in said, said)
 
 
 def places_in_degrees_are_told_by_their_speeds(folder):
