@@ -273,7 +273,7 @@ static const char *unit_of(double ratio)
         {0.95e2, 1.05e2, "speeds in cm/s"},
         {0.95e3, 1.05e3, "speeds in mm/s, or times in another unit than that of their column"},
         {0.95e6, 1.05e6, "times in another unit than that of their column"},
-        {1.5e4, INFINITY, "places in degrees"},
+        {1.5e4, (double)INFINITY, "places in degrees"},
     };
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (ratio >= units[i].low && ratio <= units[i].high)

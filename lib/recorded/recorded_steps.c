@@ -120,11 +120,12 @@ static bool agree(struct recorded_state *state, const struct recorded_state *oth
                                      MEMBER(slope)};
 #undef MEMBER
     for (size_t i = 0; i < sizeof members / sizeof members[0]; i++) {
-        double *mine = (double *)((char *)state + members[i]);
-        double its = *(const double *)((const char *)other + members[i]);
-        if (isnan(*mine))
-            *mine = its;
-        else if (!isnan(its) && its != *mine)
+        double mine, its;
+        memcpy(&mine, (const char *)state + members[i], sizeof mine);
+        memcpy(&its, (const char *)other + members[i], sizeof its);
+        if (isnan(mine))
+            memcpy((char *)state + members[i], &its, sizeof its);
+        else if (!isnan(its) && its != mine)
             return false;
     }
     return strcmp(state->object.class, other->object.class) == 0;

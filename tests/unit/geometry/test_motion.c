@@ -319,7 +319,7 @@ static void a_hermite_span_keeps_its_end_velocities_and_a_standing_body(void **s
 /* The least speed of a span on a line of 1 m in 1 s, among 2,001 of them. */
 static double least_mps(double from_mps, double to_mps)
 {
-    double least = INFINITY;
+    double least = (double)INFINITY;
     for (int i = 0; i <= 2000; i++) {
         struct hermite at;
         motion_hermite((struct vec2){0, 0}, (struct vec2){from_mps, 0}, (struct vec2){1, 0},

@@ -93,7 +93,7 @@ static void a_speed_along_the_yaw_may_be_that_of_reversing(void **state)
 static void nothing_is_compared_without_speeds(void **state)
 {
     (void)state;
-    const double unsaid = NAN;
+    const double unsaid = (double)NAN;
     struct pose from = {0, 0, unsaid, unsaid, unsaid}, to = {150, 0, unsaid, unsaid, unsaid};
     assert_false(denies(from, to, 1));
     assert_true(denies(from, to, 0.5));
