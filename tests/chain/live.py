@@ -276,7 +276,7 @@ def loops(folder):
     shutil.copy(os.path.join(ROOT, "data/sensors/srr24-pair.json"), os.path.join(folder, "sensors/a#b.json"))
     os.environ["GLINT_DATA"] = folder
     for fused in (True, False):
-        with glint.Loop(STAGES.replace("lrr77-every-frame", "a#b"), fused=fused) as loop:
+        with glint.Loop(STAGES.replace("lrr77", "a#b"), fused=fused) as loop:
             yield "a suite with # in its name", None if {one["sensor"] for one in loop.step("ego", OBJECTS)} & {"left", "right"} else "other sensors"
     os.environ["GLINT_DATA"] = os.path.join(ROOT, "data")
     children = f"/proc/self/task/{os.getpid()}/children"
