@@ -624,12 +624,11 @@ def scenes_may_be_played_at_once(folder):
     objects = [body("ego", vx=1), body("other", x=12)]
     for ends in (True, False):
         one, two = ([frame_of(objects, [target()], i, scene=name) | {"last": ends and i == 3} for i in range(first, 4)] for name, first in (("a", 0), ("b", 1)))
-        suite_of(folder, one[0])
         save(folder, "after.jsonl", one + two)
         save(folder, "at-once.jsonl", sorted(one + two, key=lambda frame: (frame["frame"], frame["scene"])))
         for form in FORMATS:
             for name in ("after", "at-once"):
-                export(folder, form, "--out", f"{form}-{name}-{ends}", "--suite", "suite.json", name + ".jsonl")
+                export(folder, form, "--out", f"{form}-{name}-{ends}", name + ".jsonl")
             same(f"{folder}/{form}-after-{ends}", f"{folder}/{form}-at-once-{ends}")
 
 
@@ -648,7 +647,7 @@ def a_seed_makes_another_scene(folder):
         assert [(row["scene"], row["seed"]) for row in read_table(root, "scans")] == [("by-hand", seed) for seed in "1122"]
         assert {row["seed"] for row in read_table(root, "boxes")} == {"1", "2"}
     clash = [frames[0], frame_of(objects, [target()], scene="by-hand/2"), frames[2]]
-    said = export(folder, "nuscenes", "--out", "clash", "--suite", "suite.json", save(folder, "clash.jsonl", clash), status=65)
+    said = export(folder, "nuscenes", "--out", "clash", save(folder, "clash.jsonl", clash), status=65)
     assert "clash.jsonl:3: by-hand/2 would be the name of two scenes" in said, said
 
 
@@ -656,10 +655,9 @@ def a_scene_without_a_scan_is_told(folder):
     """It is in no layout, and stderr says so with its name."""
     objects = [body("ego", vx=1), body("other", x=12)]
     frames = [frame_of(objects, [target()]), *(frame_of(objects, [], i, [{"measured": False}], scene="idle") for i in range(2))]
-    suite_of(folder, frames[0])
     save(folder, "idle.jsonl", frames)
     for form in FORMATS:
-        said = export(folder, form, "--out", form, "--suite", "suite.json", "idle.jsonl")
+        said = export(folder, form, "--out", form, "idle.jsonl")
         assert said == "export: 1 of 2 scenes have no scan and are left out; the first is idle with seed 1, at idle.jsonl:2\n", said
 
 

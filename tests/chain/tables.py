@@ -332,7 +332,7 @@ def chains(folder):
     """From each format to target lists, as the page of traffic does; and at the bounds of places."""
     for files in (HIGHD, IND, INTERACTION, NGSIM, ESMINI, SUMO):
         path = save(folder, files)
-        chain = (f"glint-traffic {path} --ego all --radius-m 150 | glint-extract | glint-ideal --sensors lrr77-every-frame "
+        chain = (f"glint-traffic {path} --ego all --radius-m 150 | glint-extract | glint-ideal --sensors lrr77 "
                  "| glint-sensor | glint-noise --complete")
         done = subprocess.run([os.path.join(BIN, "glint"), "-c", chain], capture_output=True, check=False, timeout=300)
         check(done.returncode == 0, f"{path}: {done.stderr.decode()}")
