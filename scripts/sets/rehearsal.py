@@ -81,12 +81,13 @@ class Rehearsal:
                        f"names of its files have {digits} digits")
 
     def count_scans(self, frame, stretches):
-        """Counts the scans of sensors that measure in each frame, where the number of frames is known."""
+        """Counts the scans of each sensor, one a frame or one a cycle, where the number of frames is known."""
         source = stretches[0].source
         frames = 0 if kind_of(source) == "recording" else scene_frames(source, 0, self.folder)
         scenes = sum(stretch.end - stretch.first for stretch in stretches) * len(self.plan.get("seeds", [1]))
         for sensor in frame["sensors"]["list"]:
-            self.scans[sensor["name"]] += frames * scenes if "cycle_s" not in sensor else 0
+            share = min(1, frame["interval_s"] / sensor["cycle_s"]) if "cycle_s" in sensor else 1
+            self.scans[sensor["name"]] += int(frames * share) * scenes
 
     def check_scenes(self, source, path, known):
         """Refuses two of the first scenes of scenarios that are in different splits and alike: scenes of one source that are equal,

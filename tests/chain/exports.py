@@ -688,7 +688,7 @@ def a_plan_that_cannot_be_exported_makes_no_folder(folder):
     plan = {"name": "set", "origin": "For tests.", "suites": ["corner77-every-frame"], "frames_per_shard": 1000, "exports": ["vod"],
             "chain": "glint-extract | glint-ideal --sensors {suite} --sections quality | glint-sensor | glint-noise"}
     moving = {"random": "sparse", "seconds": 5000, "scenes": [0, 2]}
-    for members, wrong in (({"sources": [moving]}, "/exports: vod: 200000 scans of corner_left; expected at most 100000, as names of its files have 5 digits"),
+    for members, wrong in (({"sources": [moving]}, "/exports: vod: 166666 scans of corner_left; expected at most 100000, as names of its files have 5 digits"),
                            ({"sources": [moving | {"seconds": 1}], "suites": ["./alike.json"]}, "/exports: vod: the first frames of /sources/0 with alike: "
                             "export: list.jsonl:1: sensors: two would be A_B")):
         save(folder, "wrong.json", [plan | members])
