@@ -5,7 +5,6 @@
 #include "base/sort.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
-#include "recorded/recorded_store.h"
 
 static const size_t NONE = SIZE_MAX;
 
@@ -384,7 +383,6 @@ int recorded_steps_judge(struct recorded_steps *steps, struct diag *diag)
         read_step(steps);
     if (recorded_plausibility_check(plausibility, steps->reader.format, true, diag) != 0)
         return -1;
-    recorded_store_rewind(steps->reader);
     plausibility->learned = true;
     plausibility->standing = plausibility->driving = plausibility->fast = 0;
     steps->to_ns = to_ns;

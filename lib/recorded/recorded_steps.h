@@ -74,7 +74,8 @@ struct recorded_steps {
 };
 
 /* Judges a recording that is stored (recorded_store.h) as a whole before its first step is given:
- * -1 after the message that refuses it. Faults of its rows are left to recorded_steps_next. */
+ * -1 after the message that refuses it. The caller then has the reader begin again. Faults of its
+ * rows are left to recorded_steps_next. */
 int recorded_steps_judge(struct recorded_steps *steps, struct diag *diag);
 
 /* The next step: 1; 0 at the end; -1 after a message. It and the step before it stay valid until

@@ -103,7 +103,12 @@ static int prepare(struct recording *recording, struct diag *diag)
     for (size_t i = 0; i < options->types.count; i++)
         if (sumo_types_read(&steps->classes, options->types.items[i], diag) != 0)
             return -1;
-    return stored ? recorded_steps_judge(steps, diag) : 0;
+    if (!stored)
+        return 0;
+    if (recorded_steps_judge(steps, diag) != 0)
+        return -1;
+    recorded_store_rewind(steps->reader);
+    return 0;
 }
 
 int recording_conditions(const struct recording_options *options, struct conditions *changes,
