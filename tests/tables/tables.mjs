@@ -250,7 +250,7 @@ async function checkExport(place) {
     const lines = fs.readFileSync(`${place}/list.jsonl`, 'utf8').trim().split('\n').map(JSON.parse);
     const expected = lines.flatMap(frame => frame.targets.flatMap(target => target.contributors.map(part =>
         `${part.object} ${part.path} ${part.weight} ${target.range_m}`))).sort();
-    const statement = page.match(/```sql\n(SELECT [^]*?)```/)[1].replaceAll("'cut-in-nuscenes", `'${out}`).replace("'tables'", `'${place}/tables'`);
+    const statement = page.match(/```sql\n(SELECT [^]*?)```/)[1].replaceAll("'cut-in-nuscenes", `'${out}`).replaceAll("'tables'", `'${place}/tables'`);
     const found = [];
     for await (const row of rowsOf(await open(`${place}/tables`), statement.trim().replace(/;$/, '')))
         found.push(`${row.object} ${row.echo} ${row.weight} ${row.range_m}`);
