@@ -36,13 +36,12 @@ void *memory_resize(void *memory, size_t size)
     return grant(realloc(memory, size), size);
 }
 
-static void add_block(struct arena *arena, size_t size)
+static struct arena_block *block_of(size_t size, struct arena_block *older)
 {
     struct arena_block *block = memory_get(sizeof *block + size);
-    block->older = arena->blocks;
+    block->older = older;
     block->size = size;
-    arena->blocks = block;
-    arena->used = 0;
+    return block;
 }
 
 static size_t round_up(size_t size)
@@ -55,8 +54,16 @@ void *arena_room(struct arena *arena, size_t size)
     if (size > SIZE_MAX / 4)
         grant(NULL, size);
     size = round_up(size);
-    if (arena->blocks == NULL || arena->blocks->size - arena->used < size)
-        add_block(arena, size > BLOCK_SIZE ? size : BLOCK_SIZE);
+    bool fits = arena->blocks != NULL && arena->blocks->size - arena->used >= size;
+    if (!fits && size > BLOCK_SIZE && arena->blocks != NULL) {
+        /* A block of its own, behind the newest one, whose rest stays in use. */
+        arena->blocks->older = block_of(size, arena->blocks->older);
+        return arena->blocks->older + 1;
+    }
+    if (!fits) {
+        arena->blocks = block_of(size > BLOCK_SIZE ? size : BLOCK_SIZE, arena->blocks);
+        arena->used = 0;
+    }
     char *memory = (char *)(arena->blocks + 1) + arena->used;
     arena->used += size;
     return memory;
@@ -99,7 +106,7 @@ void arena_clear(struct arena *arena)
     for (struct arena_block *block = arena->blocks; block != NULL; block = block->older)
         whole += block->size;
     arena_free(arena);
-    add_block(arena, whole + whole / 2);
+    arena->blocks = block_of(whole + whole / 2, NULL);
 }
 
 void arena_free(struct arena *arena)

@@ -17,7 +17,7 @@ struct arena_block;
 
 /* A zeroed arena is empty and ready. */
 struct arena {
-    struct arena_block *blocks; /* newest first */
+    struct arena_block *blocks; /* the newest one first, but for large ones behind it */
     size_t used;                /* bytes taken from the newest block */
 };
 
