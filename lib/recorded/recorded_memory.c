@@ -1,6 +1,7 @@
 #include "recorded/recorded_memory.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "base/sort.h"
 
@@ -81,7 +82,10 @@ void recorded_memory_get(const struct recorded_memory *memory, uint32_t number,
 
 struct recorded_track *recorded_memory_track(const struct recorded_memory *memory, uint32_t row)
 {
-    return &memory->tracks[body_of(memory, recorded_memory_row(memory, row)).id];
+    const char *body = intern_text(&memory->bodies, recorded_memory_row(memory, row)->body);
+    uint32_t name;
+    memcpy(&name, body + offsetof(struct body, id), sizeof name);
+    return &memory->tracks[name];
 }
 
 static int compare_times(const void *a, const void *b)
