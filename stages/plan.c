@@ -20,7 +20,7 @@ static int plan_run(void *state, struct runner *runner)
         return -1;
     struct frame *frame;
     int more;
-    while ((more = runner_frame(runner, &frame)) > 0)
+    while ((more = runner_frame_ascending(runner, &frame)) > 0)
         if (plan_try(&own->plan, frame) != 0)
             return -1;
     if (more < 0)
