@@ -5,7 +5,6 @@
 #include "frame/frame_check.h"
 #include "propagation/ground_return.h"
 #include "run/runner.h"
-#include "text/document.h"
 #include "text/path.h"
 
 static const struct field suite_choice_fields[] = {SUITE_CHOICE_AFTER_IDEAL, {0}};
@@ -54,8 +53,6 @@ static void add_notice(struct runner *runner, const char *text)
 void suite_choice_doubt(struct runner *runner, const struct suite *suite)
 {
     struct usual_figure unusual[USUAL_FIGURES_MOST];
-    if (!document_is_path(suite->given))
-        return;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         size_t count = usual_figures_list(&suite->sensors.items[i], unusual);
         for (size_t k = 0; k < count; k++) {

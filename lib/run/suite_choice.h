@@ -41,8 +41,8 @@ extern const struct record suite_choice_record;
 const struct suite *suite_choice_load(struct runner *runner, const char *name);
 const struct suite *suite_choice_of_frame(struct runner *runner, const struct frame *frame);
 
-/* Adds a notice to the runner for each figure of the suite that is not usual for automotive radars,
- * if the suite is given by its path. For the programs that choose a suite. */
+/* Adds a notice to the runner for each figure of the suite that is not usual for automotive radars.
+ * For the programs that choose a suite. */
 void suite_choice_doubt(struct runner *runner, const struct suite *suite);
 
 /* Sets what ideal writes into every frame: name and digest of the suite, and the text of the
