@@ -5,29 +5,15 @@
  * sensors (thresholds, cells, mounts and every other number). Cells and targets are compared, that
  * is, the list before noise and after; noise is drawn by the leader and is the same in both
  * runs. */
-#include "hard.h"
+#include "lists.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/hash.h"
-#include "base/sort.h"
 #include "base/units.h"
-#include "documents/suite_file.h"
-#include "documents/vehicle.h"
-#include "frame/frame_order.h"
-#include "ideal/direct_echoes.h"
-#include "run/runner.h"
-#include "run/stage.h"
-#include "soundness/adversarial_traffic.h"
 
-enum { SENSORS = 2, SCENES = 6250 };
+enum { SCENES = 6250 };
 
 /* The shipped suites, and the first of them made harder: without noise and with equation (6) as
  * printed, so that mirrored echoes leave the sign undecided, and with lists of one target, so that
  * ties meet the limit. */
-static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
-
 static const struct {
     const char *name;
     bool harder;
@@ -37,26 +23,7 @@ static const struct {
               {"lrr77-every-frame", false}};
 enum { SUITES = sizeof suites / sizeof *suites };
 
-/* The largest relative step of one unit in the last place. */
-#define ULP 0x1p-52
-
-/* How far the last digits of the inputs may carry a decision, by the kind of its margin.
- * Coordinates are up to 620 m and lever arms 150 m, so places move by up to 2e-12 m (error_of).
- * From 1 m on that is an angle of 2e-12 rad; amplitudes follow it up to tenfold, and the range to
- * the exponent, both by less than 3e-11 or 3e-10 dB. Rates turn with it by speeds of up to 80 m/s,
- * and half a cell is 0.014 m/s: 2e-8 half cells. */
-static const struct {
-    enum margin kind;
-    size_t offset;
-    double bound;
-} overrun[] = {
-    {MARGIN_SIGHT, offsetof(struct margins, sight_m), 2e-12},
-    {MARGIN_THRESHOLD, offsetof(struct margins, threshold_db), 3e-10},
-    {MARGIN_LEADER, offsetof(struct margins, leader_db), 3e-10},
-    {MARGIN_CELL_EDGE, offsetof(struct margins, cell_edge), 2e-8},
-    {MARGIN_LIMIT_DB, offsetof(struct margins, limit_db), 3e-10},
-};
-enum { KINDS = sizeof overrun / sizeof *overrun };
+static const struct carry one_ulp = {1, 1};
 
 /* The azimuth may change its side where the sign's margin is below this. */
 #define SIGN_OVERRUN 1e-9
@@ -65,26 +32,6 @@ enum quantity { RANGE, RATE, AZIMUTH, AMPLITUDE, QUANTITIES };
 static const char *const quantity_names[QUANTITIES] = {
     "one ulp moves range", "one ulp moves range rate", "one ulp moves azimuth",
     "one ulp moves amplitude"};
-
-/* Outcome of one echo: the cell or target that it is in, or 0 if it is lost. */
-struct fate {
-    uint64_t echo, outcome;
-    size_t sensor;
-    const struct margins *margins;
-    const void *entry; /* the struct cell or struct target that this echo leads, or NULL */
-};
-
-struct fates {
-    LIST_OF(struct fate) list;
-};
-
-/* One run of the chain. */
-struct chain {
-    struct runner extract, sensor, noise;
-    struct arena arena;
-    struct frame frame;
-    struct fates cells, targets;
-};
 
 struct bench {
     struct arena documents;
@@ -98,50 +45,11 @@ struct bench {
     double worst[QUANTITIES];
 };
 
-static const struct stage *stage_of(const char *name)
-{
-    for (size_t i = 0; stages[i] != NULL; i++)
-        if (strcmp(stages[i]->name, name) == 0)
-            return stages[i];
-    fail_msg("no stage %s", name);
-    return NULL;
-}
-
-static void prepare(struct runner *runner, const char *stage)
-{
-    static const char *const words[] = {"--sections", "reflectors,echoes,cells"};
-    assert_int_equal(runner_prepare(runner, stage_of(stage), 2, words), 0);
-}
-
-static void prepare_chain(struct chain *chain)
-{
-    prepare(&chain->extract, "extract");
-    prepare(&chain->sensor, "sensor");
-    prepare(&chain->noise, "noise");
-    chain->frame.arena = &chain->arena;
-}
-
-static void free_chain(struct chain *chain)
-{
-    runner_free(&chain->extract);
-    runner_free(&chain->sensor);
-    runner_free(&chain->noise);
-    arena_free(&chain->arena);
-}
-
 static int make_bench(void **state)
 {
     struct bench *bench = calloc(1, sizeof *bench);
     assert_non_null(bench);
-    struct diag diag = {0};
-    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
-        const struct vehicle *vehicle =
-            vehicle_load(random_traffic_class_name(class), NULL, &bench->documents, &diag);
-        if (vehicle == NULL)
-            fail_msg("%s", diag.text);
-        bench->scene.models[class] = (struct random_traffic_model){
-            vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
-    }
+    load_models(&bench->scene, &bench->documents);
     prepare_chain(&bench->before);
     prepare_chain(&bench->after);
     *state = bench;
@@ -160,33 +68,6 @@ static int remove_bench(void **state)
 
 /* Moving the inputs. */
 
-/* A value's neighbour within the field's bounds, on either side; for zero an ulp of 1 on either
- * side, as a value that is zero by rounding may have. Sizes of zero stay: they stand for those of
- * the class. */
-static double neighbour(const struct field *field, double value, uint64_t *coin)
-{
-    double side = sample_bits(coin) % 2 == 0 ? 1 : -1;
-    if (value == 0)
-        return field->low < 0 ? side * ULP : 0;
-    double moved = nextafter(value, side * (double)INFINITY);
-    bool outside = moved < field->low || moved > field->high;
-    return outside ? nextafter(value, -side * (double)INFINITY) : moved;
-}
-
-static void move_all(const struct record *record, void *base, uint64_t *coin)
-{
-    for (const struct field *field = record->fields; field->name != NULL; field++) {
-        double value;
-        if (field->kind != FIELD_REAL)
-            continue;
-        memcpy(&value, (char *)base + field->offset, sizeof value);
-        if (value == field->absent && field->optional)
-            continue;
-        value = neighbour(field, value, coin);
-        memcpy((char *)base + field->offset, &value, sizeof value);
-    }
-}
-
 static void move_suite(struct bench *bench, uint64_t *coin)
 {
     for (size_t i = 0; i < bench->suite->sensors.count; i++) {
@@ -201,130 +82,6 @@ static void move_traffic(struct frame *frame, uint64_t *coin)
     const struct record *object = field_find(&frame_record, "objects", 7)->record;
     for (size_t i = 0; i < frame->objects.count; i++)
         move_all(object, &frame->objects.items[i], coin);
-}
-
-/* The chain. */
-
-static void begin(struct chain *chain, int64_t number)
-{
-    frame_clear(&chain->frame);
-    chain->frame.scene = "perturbation";
-    chain->frame.frame = number;
-    chain->frame.seed = 1;
-    chain->frame.interval_s = 1;
-    chain->frame.sections |= CARRY_ACCOUNT;
-    chain->frame.present = SECTION_OBJECTS;
-}
-
-static void step(struct runner *runner, struct frame *frame)
-{
-    if (runner_step(runner, frame) != 0)
-        fail_msg("%s: %s", runner->stage->name, runner->diag.text);
-}
-
-/* Looks at the scene as glint-ideal does for sensors that measure in every frame. */
-static void see(struct frame *frame, const struct suite *suite)
-{
-    frame->sensors.suite = suite->name;
-    frame->sensors.digest = suite->digest;
-    for (size_t i = 0; i < suite->sensors.count; i++) {
-        const struct sensor *sensor = &suite->sensors.items[i];
-        *list_add(&frame->sensors.list, frame->arena) =
-            (struct sensor_view){.name = sensor->name, .measured = true};
-        struct look look;
-        struct diag diag = {0};
-        if (look_begin(&look, frame, sensor, &everything, frame->time_s, &diag) != 0)
-            fail_msg("%s", diag.text);
-        direct_echoes_add(&look);
-    }
-    frame->present |= SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS;
-    frame_order(frame);
-}
-
-static void use_suite(struct runner *runner, const struct suite *suite)
-{
-    runner->suites.count = 0;
-    *list_add(&runner->suites, &runner->arena) = suite;
-}
-
-static void run_chain(struct chain *chain, const struct suite *suite)
-{
-    use_suite(&chain->sensor, suite);
-    use_suite(&chain->noise, suite);
-    step(&chain->extract, &chain->frame);
-    see(&chain->frame, suite);
-    step(&chain->sensor, &chain->frame);
-    step(&chain->noise, &chain->frame);
-}
-
-/* Outcomes of echoes. */
-
-static uint64_t hash_echo(uint64_t hash, const char *object, const char *reflector)
-{
-    return hash_text(hash_text(hash, object), reflector);
-}
-
-static void add_members(const struct suite *suite, const char *sensor,
-                        const struct contributor *members, size_t count,
-                        const struct margins *margins, const void *entry, struct fates *fates,
-                        struct arena *arena)
-{
-    uint64_t begin = hash_text(HASH_START, sensor), outcome = begin;
-    for (size_t i = 0; i < count; i++)
-        outcome = hash_echo(outcome, members[i].id.object, members[i].id.reflector);
-    for (size_t i = 0; i < count; i++)
-        *list_add(&fates->list, arena) = (struct fate){
-            .echo = hash_echo(begin, members[i].id.object, members[i].id.reflector),
-            .outcome = outcome,
-            .sensor = (size_t)(suite_sensor(suite, sensor) - suite->sensors.items),
-            .margins = margins,
-            .entry = i == 0 ? entry : NULL,
-        };
-}
-
-static void add_lost(const struct suite *suite, const struct frame *frame, const char *but,
-                     struct fates *fates)
-{
-    for (size_t i = 0; i < frame->lost.count; i++) {
-        const struct lost_group *group = &frame->lost.items[i];
-        uint64_t begin = hash_text(HASH_START, group->sensor);
-        if (strcmp(group->stage, but) == 0)
-            continue;
-        for (size_t j = 0; j < group->echoes.count; j++) {
-            const struct lost_echo *echo = &group->echoes.items[j];
-            *list_add(&fates->list, frame->arena) = (struct fate){
-                .echo = hash_echo(begin, echo->id.object, echo->id.reflector),
-                .sensor = (size_t)(suite_sensor(suite, group->sensor) - suite->sensors.items),
-                .margins = &echo->margins,
-            };
-        }
-    }
-}
-
-static int compare_fates(const void *left, const void *right)
-{
-    const struct fate *a = left, *b = right;
-    return (a->echo > b->echo) - (a->echo < b->echo);
-}
-
-static void collect(struct chain *chain, const struct suite *suite)
-{
-    const struct frame *frame = &chain->frame;
-    chain->cells = chain->targets = (struct fates){0};
-    for (size_t i = 0; i < frame->cells.count; i++) {
-        const struct cell *cell = &frame->cells.items[i];
-        add_members(suite, cell->sensor, cell->members.items, cell->members.count, &cell->margins,
-                    cell, &chain->cells, frame->arena);
-    }
-    for (size_t i = 0; i < frame->targets.count; i++) {
-        const struct target *target = &frame->targets.items[i];
-        add_members(suite, target->sensor, target->contributors.items, target->contributors.count,
-                    &target->margins, target, &chain->targets, frame->arena);
-    }
-    add_lost(suite, frame, "noise", &chain->cells);
-    add_lost(suite, frame, "", &chain->targets);
-    sort_list(&chain->cells.list, compare_fates, frame->arena);
-    sort_list(&chain->targets.list, compare_fates, frame->arena);
 }
 
 /* Bounds on how far values may move. */
@@ -492,40 +249,24 @@ static void compare_targets(struct bench *bench, const struct sensor *sensor,
 
 /* Comparison of the lists. */
 
-/* The least margin of an entry, in units of what one unit in the last place may overrun. */
-static double nearness(const struct margins *margins)
-{
-    double least = (double)INFINITY;
-    for (int i = 0; i < KINDS; i++) {
-        double margin;
-        memcpy(&margin, (const char *)margins + overrun[i].offset, sizeof margin);
-        if ((margins->present & overrun[i].kind) != 0)
-            least = fmin(least, margin / overrun[i].bound);
-    }
-    return least;
-}
-
 /* Compares the outcomes of all echoes. An echo that is in one list alone is lost in the other,
  * where its margin counts as infinite. */
 static void compare_fates_of(struct bench *bench, const struct fates *before,
                              const struct fates *after, const char *what, int64_t number)
 {
-    double least[SENSORS] = {(double)INFINITY, (double)INFINITY};
+    double least[SENSORS] = {(double)INFINITY, (double)INFINITY, (double)INFINITY,
+                             (double)INFINITY};
     bool changed[SENSORS] = {false};
-    for (size_t i = 0, j = 0; i < before->list.count || j < after->list.count;) {
-        const struct fate *a = i < before->list.count ? &before->list.items[i] : NULL;
-        const struct fate *b = j < after->list.count ? &after->list.items[j] : NULL;
-        if (a != NULL && b != NULL && a->echo != b->echo)
-            *(a->echo < b->echo ? &b : &a) = NULL;
-        i += a != NULL;
-        j += b != NULL;
-        uint64_t was = a != NULL ? a->outcome : 0, is = b != NULL ? b->outcome : 0;
-        double near = a != NULL ? nearness(a->margins) : (double)INFINITY;
+    size_t at[2] = {0, 0};
+    struct fate_pair pair;
+    while (next_pair(before, after, at, &pair)) {
+        double near =
+            pair.before != NULL ? nearness(pair.before->margins, one_ulp) : (double)INFINITY;
         bench->entries++;
         bench->near += near <= 1;
-        if (was == is)
+        if (!differs(pair))
             continue;
-        size_t sensor = (a != NULL ? a : b)->sensor;
+        size_t sensor = (pair.before != NULL ? pair.before : pair.after)->sensor;
         changed[sensor] = true;
         least[sensor] = fmin(least[sensor], near);
     }
@@ -596,13 +337,9 @@ static void run_scene(struct bench *bench, int64_t number)
 
 static void choose_suite(struct bench *bench, int which)
 {
-    struct diag diag = {0};
     struct suite *suite = arena_get(&bench->documents, sizeof *suite);
-    const struct suite *shipped = suite_file_load(suites[which].name, &bench->documents, &diag);
-    if (shipped == NULL)
-        fail_msg("%s", diag.text);
+    const struct suite *shipped = load_suite(suites[which].name, &bench->documents);
     size_t count = shipped->sensors.count;
-    assert_in_range(count, 1, SENSORS);
     *suite = bench->moved = *shipped;
     bench->suite = suite;
     bench->moved.sensors.items =
