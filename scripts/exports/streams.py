@@ -13,7 +13,7 @@ import zlib
 
 import glint
 import schema
-from plan import BAD_DATA, ROOT, Fault, read_json
+from plan import BAD_DATA, NO_INPUT, ROOT, Fault, read_json
 from progress import Progress
 
 HEIGHT_M = 0.5  # of a sensor that has none: usual for radars
