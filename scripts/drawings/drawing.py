@@ -9,11 +9,14 @@ with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../data/f
 class Drawing:
     """An SVG of places in metres as the observer sees them, and of words beside them in pixels."""
 
-    def __init__(self, size, scale, x_m, y_m):
-        """The place x_m, y_m is at the left upper corner; scale is in pixels to the metre."""
-        self.size, self.scale, self.corner, self.parts = size, scale, (x_m, y_m), []
+    def __init__(self, size, scale, x_m, y_m, upright=False):
+        """The place x_m, y_m is at the left upper corner; scale is in pixels to the metre. upright: places are metres
+        ahead and to the left, and ahead is up."""
+        self.size, self.scale, self.corner, self.parts, self.upright = size, scale, (x_m, y_m), [], upright
 
     def at(self, place):
+        if self.upright:
+            place = -place[1], place[0]
         return (self.scale * (place[0] - self.corner[0]), self.scale * (self.corner[1] - place[1]))
 
     def add(self, text):
@@ -77,17 +80,17 @@ class Drawing:
         self.parts += other.parts
         self.add("</svg>")
 
-    def save(self, path):
+    def save(self, path, title):
         width, height = self.size
         with open(path, "w", encoding="utf-8", newline="\n") as out:
             out.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}"'
-                      f' viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="14">\n'
-                      f'<style>{STYLE}</style>\n<rect class="paper" width="{width}" height="{height}"/>\n'
+                      f' viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="14" role="img">\n'
+                      f'<title>{title}</title>\n<style>{STYLE}</style>\n<rect class="paper" width="{width}" height="{height}"/>\n'
                       + "\n".join(self.parts) + "\n</svg>\n")
 
 
-def draw_metres(drawing, metres):
-    """A scale at the left lower corner."""
+def draw_metres(drawing, metres, x=16):
+    """A scale near the lower edge."""
     y = drawing.size[1] - 14
-    drawing.add(f'<path class="pointer" fill="none" d="M16 {y - 6}v6h{drawing.scale * metres:g}v-6"/>')
-    drawing.word(f"{metres} m", 22, y - 5, "quiet")
+    drawing.add(f'<path class="pointer" fill="none" d="M{x} {y - 6}v6h{drawing.scale * metres:g}v-6"/>')
+    drawing.word(f"{metres} m", x + 6, y - 5, "quiet")

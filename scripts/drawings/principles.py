@@ -57,7 +57,7 @@ def figure_3(bench, path):
         drawing.word(LETTERS[name], x, y + 5, anchor="middle")
     drawing.word("Eight points, and from where each is seen", 12, 22, "strong")
     draw_metres(drawing, 1)
-    drawing.save(path)
+    drawing.save(path, "A car as eight reflection centres, each seen from a range of angles")
 
 
 def figure_7(bench, path):
@@ -92,7 +92,7 @@ def figure_7(bench, path):
     for line, text in enumerate(("plane reflector", "its reflection point", "point centre")):
         x, y = drawing.at((3.1, 0.85 - 0.42 * line))
         drawing.word(text, x, y + 5)
-    drawing.save(path)
+    drawing.save(path, "What two sensors see of a car's side")
 
 
 def draw_reflector(drawing, x, y, of_plane):
@@ -143,7 +143,7 @@ def figure_8(bench, path):
                     f'width="{step - 2}" height="{hits}"/>')
     drawing.word(f"{len(readings)} readings: {mean:.3f} m ± {100 * sigma:.1f} cm", 12, 22, "strong")
     drawing.word("hits by distance [m]", left + 7 * step, bottom + 42, anchor="middle")
-    drawing.save(path)
+    drawing.save(path, "Noise of the measured range of a fixed target")
 
 
 def figure_11(bench, path):
@@ -161,7 +161,7 @@ def figure_11(bench, path):
         drawing.curve([place_polar(max(0.0, 40 + 20 * math.log10(max(level, 1e-9))), angle)
                        for angle, level in zip(angles, levels)], kind)
         drawing.word(channel, 20, y, colour)
-    drawing.save(path)
+    drawing.save(path, "Sum and delta channel over azimuth")
 
 
 def place_polar(radius, degree):
@@ -213,7 +213,7 @@ def figure_12(bench, path):
         drawing.line((0, 0), (22 * math.cos(BEAM_RAD), side * 22 * math.sin(BEAM_RAD)), "pointer edge")
     drawing.word("Where a reflector is detected, by ERCS", 12, 22, "strong")
     draw_metres(drawing, 5)
-    drawing.save(path)
+    drawing.save(path, "Where a reflector is detected, by its cross section")
 
 
 # --- the chain ---------------------------------------------------------------------------------
@@ -250,4 +250,4 @@ def figure_13(bench, path):
         drawing.word(made, 126, top + 66, "orange")
     drawing.word("traffic scene database", 266, 37)
     drawing.word("glint-traffic", 346, 76, "blue", "end")
-    drawing.save(path)
+    drawing.save(path, "The chain of programs, and what passes along it in one scan")

@@ -32,17 +32,6 @@ def draw_field_of_view(drawing, view, name):
     drawing.polygon([view.mount(name), *arc], "beam")
 
 
-def draw_cell(drawing, view, target):
-    """The range cell in which the echoes of a target add up, as far as they reach in azimuth."""
-    half = view.sensors[target["sensor"]]["cell_range_m"] / 2
-    azimuths = sorted(part["azimuth_rad"] for part in target["contributors"])
-    low, high = azimuths[0] - 0.02, azimuths[-1] + 0.02
-    steps = [low + (high - low) * i / 12 for i in range(13)]
-    middle = target["contributors"][0]["range_m"]
-    drawing.polygon([view.polar(target["sensor"], middle - half, a) for a in steps]
-                    + [view.polar(target["sensor"], middle + half, a) for a in reversed(steps)], "cell")
-
-
 def draw_labels(drawing, frame, view):
     """Lines from each target to the echoes that made it, which are dots."""
     for target in frame["targets"]:
@@ -75,52 +64,64 @@ def lost_of(frame, *reasons):
     return found
 
 
-CUT_IN = {"ego": "ego", "cutter": "_car that cuts in", "overtaker": "^overtaking car", "slow_1": "truck"}
+def draw_names(drawing, frame, view, names):
+    """Words at objects, so many metres before or behind their middle."""
+    for item in frame["objects"]:
+        if item["id"] in names:
+            name, ahead_m = names[item["id"]]
+            ahead, left = view.world(item["x_m"], item["y_m"])
+            x, y = drawing.at((ahead + ahead_m, left))
+            drawing.word(name, x, y + 5, "quiet halo", "middle")
 
 
-def picture_hero(bench, path):
-    """The cut-in: what stands there, what two radars report of it, and what became of the rest."""
-    frame = bench.still("cut-in", 5.4)
-    view = View(frame)
-    lost = lost_of(frame, "below_threshold", "blocked")
-    places = {key: view.polar(echo["sensor"], echo["range_m"], echo["azimuth_rad"])
-              for key, (echo, *_) in lost.items()}
-    drawing = Drawing((960, 556), 27, -6, 10.6)
-    for lane in (1.875, -1.875, -5.625):
-        drawing.line((-6, lane), (30, lane), "road")
-    for name in ("left", "right"):
-        draw_field_of_view(drawing, view, name)
-    draw_bodies(drawing, frame, view, CUT_IN)
-    for place in places.values():
-        drawing.cross(*drawing.at(place))
+def draw_notes(drawing, frame, view, lost):
+    """What became of three echoes of the cut-in: one target of several, one echo too weak, one hidden."""
     merged = next(t for t in frame["targets"] if t["contributors"][0]["object"] == "cutter")
-    draw_cell(drawing, view, merged)
-    draw_labels(drawing, frame, view)
-    draw_list(drawing, frame, view)
-    for key, what, y in ((("rail_left", "post_67"), "a post of the guardrail", 106),
-                         (("slow_1", "corner_rr"), "the truck's other corner", 428)):
-        drawing.note(places[key], [because(lost[key]), what], 690, y + 27, "red")
     shares = [f"{part['reflector']} {100 * part['weight']:.0f} %" for part in merged["contributors"]]
-    drawing.note(view.reading(merged), [f"{len(shares)} echoes, 1 target", ", ".join(shares[:2]) + ",",
-                                        f"{shares[2]}: one cell of range"], 690, 250)
-    told = {(part["object"], part["reflector"]) for t in frame["targets"] for part in t["contributors"]}
-    drawing.add(f'<rect class="paper" width="{drawing.size[0]}" height="64"/>')
-    draw_key(drawing, 20, 50, (("left", "target of the left radar", 206), ("right", "of the right one; its line: radial speed", 302),
-                               ("centre", "echo in a target", 144), ("lost", "echo in no target", 0)))
-    drawing.word(f"A car cuts in: two radars report {len(frame['targets'])} targets of {len({name for name, _ in told})}"
-                 f" vehicles; {len(lost)} echoes are hidden or too weak", 12, 24, "strong")
-    draw_metres(drawing, 5)
-    front = view.sensors["left"]
-    drawing.word(f"shaded: field of view, {math.degrees(front['field_of_view_rad']):.0f}° to {front['range_max_m']} m",
-                 948, 546, "quiet", "end")
-    drawing.save(path)
+    weak, hidden = lost["slow_1", "corner_rr"], lost["rail_left", "post_67"]
+    shortfall_db = min(echo["shortfall_db"] for echo in weak)
+    for echoes, lines, y in ((weak, [f"{shortfall_db:.1f} dB too weak", "the truck's other corner"], 40),
+                             (hidden, ["hidden by the overtaker", "a post of the guardrail"], 232)):
+        place = view.polar(echoes[0]["sensor"], echoes[0]["range_m"], echoes[0]["azimuth_rad"])
+        drawing.note(place, lines, 234, y, "red")
+    drawing.note(view.reading(merged), [f"{len(shares)} echoes, 1 target:", ", ".join(shares[:2]) + ",",
+                                        f"{shares[2]}, in one cell"], 234, 134)
 
 
-def because(echoes):
-    """Why an echo is in no target, of any sensor."""
-    if echoes[0]["reason"] == "blocked":
-        return "hidden by the " + CUT_IN[echoes[0]["by"]].lstrip("^")
-    return f"{min(echo['shortfall_db'] for echo in echoes):.1f} dB too weak"
+def picture_echoes(bench, path):
+    """The cut-in: what stands there, what two radars report of it, and what the account knows besides."""
+    frame = bench.still("cut-in", 5.4)
+    view, lost = View(frame), lost_of(frame, "below_threshold", "blocked")
+    told = {part["object"] for target in frame["targets"] for part in target["contributors"]}
+    there, listed, known = (Drawing((width, 352), 13.8, -7.3, 21.6, upright=True) for width in (240, 240, 432))
+    for panel in (there, listed, known):
+        panel.add('<rect class="panel" width="100%" height="100%"/>')
+    for panel in (there, known):
+        for lane in (1.875, -1.875, -5.625):
+            panel.line((-4, lane), (22, lane), "road")
+        draw_bodies(panel, frame, view, {})
+    draw_bodies(listed, frame | {"objects": [view.ego]}, view, {})
+    draw_names(there, frame, view, {"cutter": ("cuts in", 3), "overtaker": ("overtakes", 3), "slow_1": ("truck", -4.4), "ego": ("ego", 3)})
+    draw_list(listed, frame, view, size=8)
+    for echo, *_ in lost.values():
+        known.cross(*known.at(view.polar(echo["sensor"], echo["range_m"], echo["azimuth_rad"])))
+    draw_list(known, frame, view, 0, 8)
+    draw_labels(known, frame, view)
+    draw_notes(known, frame, view, lost)
+    draw_metres(known, 5, 234)
+    drawing = Drawing((960, 472), 1, 0, 0)
+    drawing.add('<text x="12" y="28" font-size="22" class="strong">A radar reports echoes, not cars. glint says whose they are.</text>')
+    for number, (panel, x, head, below) in enumerate((
+            (there, 12, "What is there", f"{len(told)} vehicles between two guardrails"),
+            (listed, 264, "What a tracker gets", f"{len(frame['targets'])} targets without names"),
+            (known, 516, "What only a simulation knows", f"the echoes of each target, and why {len(lost)} others are in none")), 1):
+        drawing.word(f"{number}  {head}", x, 60, "strong")
+        drawing.word(below, x, 79, "quiet")
+        drawing.put(panel, x, 88)
+    draw_key(drawing, 20, 462, (("left", "target of the left radar", 204), ("right", "of the right one", 152),
+                                ("line", "its radial speed in 0.5 s", 204), ("centre", "echo in a target", 150),
+                                ("lost", "echo in none", 0)))
+    drawing.save(path, "A scene, the targets that two radars list of it, and the echoes that made each target")
 
 
 WALLED = {"ego": "ego", "van": "van"}
@@ -157,7 +158,7 @@ def picture_ghosts(bench, path):
                  600, 108, anchor="end")
     draw_key(drawing, 20, 24, (("left", "target; its line: radial speed", 240), ("ghost", "ghost: a target seen in the wall", 0)))
     draw_metres(drawing, 10)
-    drawing.save(path)
+    drawing.save(path, "Mirror ghosts of an oncoming car beside a wall, and the way of the waves")
 
 
 def draw_key(drawing, x, y, entries):
@@ -167,6 +168,8 @@ def draw_key(drawing, x, y, entries):
             drawing.cross(x, y - 5)
         elif mark in ("right", "centre"):
             drawing.circle(x, y - 5, mark, 6.3 if mark == "right" else 3)
+        elif mark == "line":
+            drawing.add(f'<path class="rate-left" d="M{x - 8:.1f} {y - 5:.1f}h18"/>')
         else:
             drawing.star(x, y - 5, mark, 9)
         drawing.word(name, x + 14, y)
@@ -202,7 +205,7 @@ def draw_scan(frame, scale, x_range, y_range, title, way_s=0.5, extra=None):
 def still(path, frame, x_range, y_range, title, extra=None):
     drawing = draw_scan(frame, WIDTH / (x_range[1] - x_range[0]), x_range, y_range, title, extra=extra)
     draw_key(drawing, 20, 48, SENSORS_KEY)
-    drawing.save(path)
+    drawing.save(path, title)
 
 
 def figure_1(bench, path):
@@ -244,4 +247,4 @@ def figure_14(bench, path):
     for number, scan in enumerate(scans):
         drawing.put(scan, number * (scan.size[0] + 12), 0)
     draw_key(drawing, 20, 48, SENSORS_KEY)
-    drawing.save(path)
+    drawing.save(path, "A cut-in as an ideal list, with the sensor's resolution, and with noise")

@@ -4,8 +4,8 @@ All axes are scaled here, so that the place of every point is known and labels c
 """
 import math
 import os
-import subprocess
 
+import gnuplot
 import labels
 from labels import Box
 from written import RADARS, changes, measured, pick, spent_more
@@ -191,15 +191,12 @@ set xtics {self.x.tics(self.suffixes[0])}; set ytics {self.y.tics(self.suffixes[
         return [part.replace("$PANEL_", f"$panel{number}_") for part in (blocks, text)]
 
 
-def page(path, size, panels):
+def page(path, size, panels, title):
     """Writes the panels as one picture."""
     parts = [panel.commands(number) for number, panel in enumerate(panels)]
-    text = (f'set terminal svg size {size[0]},{size[1]} fixed noenhanced font "sans-serif,{SIZE}"'
-            + ' background "#ffffff"\n'
-            + f'set output "{path}"\n' + "".join(blocks for blocks, _ in parts)
-            + "set multiplot\nset border 3; set tics nomirror out\n"
+    text = ("".join(blocks for blocks, _ in parts) + "set multiplot\nset border 3; set tics nomirror out\n"
             + "".join(commands for _, commands in parts) + "unset multiplot\n")
-    subprocess.run(["gnuplot", "-d"], input=text, check=True, text=True)
+    gnuplot.draw(f'size {size[0]},{size[1]} fixed noenhanced font "sans-serif,{SIZE}"', text, path, title)
 
 
 def around(one, other):
@@ -275,7 +272,7 @@ def cost_page(rows, radar, path):
     size = (WIDTH, middle + 500)
     frames = [Box(150, 550, 60, middle), Box(600, 830, 60, middle)]
     page(path, size, [models_panel(rows, radar, size, Box(80, 830, middle + 130, size[1] - 65)),
-                      *effect_panels(rows, radar, size, frames)])
+                      *effect_panels(rows, radar, size, frames)], f"What accuracy costs: {RADARS[radar]}")
 
 
 def knob_panel(rows, group, x, y, least, size, frame, texts):
@@ -315,7 +312,7 @@ def tracker_page(rows, path):
                      f"GOSPA of its tracks, m; {Signed.SCALE}", ""))
     effect_series(effects, own, names, "change")
     effects.legend += [(title, colour) for _, colour, _, title in EFFECT_GROUPS]
-    page(path, size, [ladder, effects])
+    page(path, size, [ladder, effects], "The score of a tracker on each chain, and what effects add to it")
 
 
 FRAME, ANGLE = "CPU time of a frame, µs", "CPU time of an angle, µs"
@@ -330,7 +327,8 @@ def knobs_page(rows, path):
                                                 "GOSPA from all digits, cells")),
               ("plumbing", "us", "bytes", 1e-6, ("Plumbing: the same targets", FRAME, "bytes of a frame"))]
     page(path, size, [knob_panel(rows, group, x, y, least, size, frame, texts)
-                      for (group, x, y, least, texts), frame in zip(panels, frames)])
+                      for (group, x, y, least, texts), frame in zip(panels, frames)],
+         "What a table of angles, the spacing of a contour, digits and plumbing cost")
 
 
 def draw(cost, settings, folder):

@@ -124,6 +124,8 @@ def check_picture(path, shown):
     name = os.path.basename(path)
     root = xml.parse(path).getroot()
     width, height = (float(root.get(side)) for side in ("width", "height"))
+    title = root.find("{http://www.w3.org/2000/svg}title")
+    check(title is not None and len(title.text.split()) > 3, f"{name} has no title that says what it shows")
     ground = [node for node in root.iter() if node.tag.endswith("}rect") or node.tag.endswith("}polygon")]
     check(ground and fill_of(ground[0], root) in ("#fff", "#ffffff"), f"{name} has no ground of its own")
     for mark, colours in colours_of_marks(root).items():
