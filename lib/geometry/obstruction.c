@@ -121,27 +121,6 @@ double obstruction_clear_m(const struct vec2 *corners, size_t count,
     return clear_m(line, inside_interval_of(corners, count, line), body);
 }
 
-/* nu of the easier way beside the body, to the left or to the right. */
-static double beside(const struct vec2 *corners, size_t count, const struct obstruction_line *line,
-                     bool touched, double wavelength_m)
-{
-    struct vec2 way = vec2_sub(line->to, line->from);
-    double length_m = vec2_length(way), left = -(double)INFINITY, right = left;
-    struct vec2 along = vec2_scale(1 / length_m, way);
-    for (size_t i = 0; i < count; i++) {
-        struct vec2 offset = vec2_sub(corners[i], line->from);
-        double foot_m = vec2_dot(along, offset);
-        if (!touched && !(foot_m > 0 && foot_m < length_m))
-            continue;
-        double before_m = elementary_min(elementary_max(foot_m, 0), length_m);
-        double parameter = obstruction_edge_parameter(vec2_cross(along, offset), before_m,
-                                                      length_m - before_m, wavelength_m);
-        left = elementary_max(left, parameter);
-        right = elementary_max(right, -parameter);
-    }
-    return elementary_min(left, right);
-}
-
 /* nu of an edge across the line at both ends of its interval inside the outline, the greater one.
  * Depths are those of the line in the shadow. */
 static double across(const struct obstruction_line *line, struct inside_interval inside,
@@ -167,6 +146,54 @@ static double over_or_under(const struct obstruction_line *line, struct inside_i
                                        fabs(end_m) - body.bottom_m, wavelength_m));
 }
 
+/* nu of the ways past a body to the left and to the right. */
+struct ways {
+    double left, right;
+};
+
+static struct ways harder(struct ways so_far, double left, double right)
+{
+    return (struct ways){elementary_max(so_far.left, left), elementary_max(so_far.right, right)};
+}
+
+static double easier(struct ways ways)
+{
+    return elementary_min(ways.left, ways.right);
+}
+
+/* nu of the easiest way past the body, and of the easiest one beside it. A line that does not touch
+ * the body may pass each corner beside, over or under it. */
+struct passage {
+    double easiest, beside;
+};
+
+static struct passage passage_beside(const struct vec2 *corners, size_t count,
+                                     const struct obstruction_line *line,
+                                     struct obstruction_heights body, bool touched,
+                                     double wavelength_m)
+{
+    struct vec2 way = vec2_sub(line->to, line->from);
+    double length_m = vec2_length(way), nothing = -(double)INFINITY;
+    struct ways aside = {nothing, nothing}, any = aside;
+    struct vec2 along = vec2_scale(1 / length_m, way);
+    for (size_t i = 0; i < count; i++) {
+        struct vec2 offset = vec2_sub(corners[i], line->from);
+        double foot_m = vec2_dot(along, offset);
+        if (!touched && !(foot_m > 0 && foot_m < length_m))
+            continue;
+        double before_m = elementary_min(elementary_max(foot_m, 0), length_m);
+        double parameter = obstruction_edge_parameter(vec2_cross(along, offset), before_m,
+                                                      length_m - before_m, wavelength_m);
+        aside = harder(aside, parameter, -parameter);
+        if (touched)
+            continue;
+        struct inside_interval corner = {before_m / length_m, before_m / length_m};
+        double over = over_or_under(line, corner, body, wavelength_m);
+        any = harder(any, elementary_min(parameter, over), elementary_min(-parameter, over));
+    }
+    return (struct passage){easier(touched ? aside : any), easier(aside)};
+}
+
 static double factor_at(double parameter)
 {
     return parameter < DARKEST_PARAMETER ? obstruction_edge_amplitude_factor(parameter) : 0;
@@ -185,9 +212,10 @@ struct obstruction obstruction_of(const struct vec2 *corners, size_t count,
         return (struct obstruction){.factor = straight, .over = touched && straight == 1};
     if (!touched && inside.end - inside.begin == 1)
         return (struct obstruction){.factor = 1};
-    double round = beside(corners, count, line, touched, wavelength_m);
-    double factor =
-        factor_at(elementary_min(round, over_or_under(line, inside, body, wavelength_m)));
+    struct passage past = passage_beside(corners, count, line, body, touched, wavelength_m);
+    if (touched)
+        past.easiest = elementary_min(past.beside, over_or_under(line, inside, body, wavelength_m));
+    double factor = factor_at(past.easiest);
     return (struct obstruction){
-        .factor = factor, .bent = factor != straight, .over = factor != factor_at(round)};
+        .factor = factor, .bent = factor != straight, .over = factor != factor_at(past.beside)};
 }

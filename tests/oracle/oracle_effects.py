@@ -98,7 +98,7 @@ def stretch(corners, a, b, wider):
 
 def crossings(corners, a, b, wider=0.0):
     """Shares of the line at which it has entered the last side and at which it leaves the first, sides
-    prolonged; beside the body the second is the smaller."""
+    prolonged."""
     low, high, way = 0.0, 1.0, minus(b, a)
     for n, corner in enumerate(corners):
         inward = unit(minus(corners[(n + 1) % len(corners)], corner))
@@ -175,9 +175,14 @@ def passage(body, line, wavelength, wider):
     if not feet:
         return 1.0, None
     feet = [(min(max(along, 0.0), length), aside) for along, aside in feet]
-    ways = [max(edge(sign * aside, along, length - along, wavelength) for along, aside in feet) for sign in (1, -1)]
-    crossed = inside or crossings(body.corners, line.a, line.b)
-    ways += [across(depth_at, length, wavelength, crossed)[0] for depth_at in edges]
+    if inside:
+        ways = [max(edge(sign * aside, along, length - along, wavelength) for along, aside in feet) for sign in (1, -1)]
+        ways += [across(depth_at, length, wavelength, inside)[0] for depth_at in edges]
+    else:
+        over = [min((across(depth_at, length, wavelength, [along / length])[0] for depth_at in edges), default=math.inf)
+                for along, _ in feet]
+        ways = [max(min(edge(sign * aside, along, length - along, wavelength), way)
+                    for (along, aside), way in zip(feet, over)) for sign in (1, -1)]
     return loss_factor(min(ways)), min(ways)
 
 

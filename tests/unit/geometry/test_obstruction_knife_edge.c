@@ -103,6 +103,22 @@ static void ends_at_the_edge_count_as_a_tenth_of_a_metre(void **state)
     assert_close(obstruction_edge_parameter(0, 0, 0, 0.004), 0, 0);
 }
 
+/* A line 2 cm beside a low box, along its side, and the same line one unit in the last place aside
+ * to either end: half way it is above the top, so that the edge takes nothing. */
+static void a_line_along_a_side_loses_what_lines_just_off_it_lose(void **state)
+{
+    (void)state;
+    static const struct vec2 box[] = {{10, -2}, {20, -2}, {20, -0.02}, {10, -0.02}};
+    const struct obstruction_heights low = {.top_m = 0.75}, high = {.top_m = 3};
+    for (int step = -2; step <= 2; step++) {
+        struct obstruction_line line = {{0, 0}, {40, step * 0x1p-50}, 0.5, 3};
+        assert_close(obstruction_of(box, 4, low, &line, 0.0039).factor, 1, 0);
+        double parameter = obstruction_edge_parameter(-0.02, 20, 20, 0.0039);
+        assert_close(obstruction_of(box, 4, high, &line, 0.0039).factor,
+                     obstruction_edge_amplitude_factor(parameter), 1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -113,6 +129,7 @@ int main(void)
         cmocka_unit_test(outside_the_shadow_all_is_seen),
         cmocka_unit_test(far_inside_nothing_is_left),
         cmocka_unit_test(ends_at_the_edge_count_as_a_tenth_of_a_metre),
+        cmocka_unit_test(a_line_along_a_side_loses_what_lines_just_off_it_lose),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
