@@ -20,6 +20,8 @@ SLOWEST = 24  # dB a decade, the lesser of two 77 GHz radars on roads: few near 
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
 STEEPEST = 8  # extent of the view in noise of azimuth: delta is at most 140 times sum
 FEWEST_PAIRS = 8  # of neighbours that tell a cell
+AGREE, NARROWED = 0.6, 6  # so much of a cell two detections may lie apart that agree; how often the bounds are narrowed
+WIDEST_MPS = 1  # a cell of rates; usual are 0.03 to 0.4
 WITHIN_2 = 0.7737  # variance of normal numbers within two standard deviations
 # Members that lists do not show, and figures for which a half may have too few detections: those of lrr77-full.
 SHIPPED = ("range_min_m range_floor_m diffraction curved_sides micro_motion bounces antenna_pattern phase_reference "
@@ -136,12 +138,22 @@ def edge(values):
 
 
 def cells(scans):
-    """The least distance in range of detections whose rates agree, and in rate of those whose ranges do, where there are enough."""
+    """The least distance in range of detections whose rates agree, and in rate of those whose ranges do, where there are enough. What
+    agrees lies well within a cell: both bounds are narrowed until that holds. Rates of the two sides of a road may lie farther apart
+    than any cell, so that no pair shows it."""
     pairs = [(abs(one.range_m - other.range_m), abs(one.range_rate_mps - other.range_rate_mps))
              for scan in scans[:50] for i, one in enumerate(scan.detections) for other in scan.detections[:i]]
-    near = {"cell_range_m": [off_m for off_m, off_mps in pairs if off_mps < 0.1 and off_m < 10],
-            "cell_range_rate_mps": [off_mps for off_m, off_mps in pairs if off_m < 0.3 and off_mps < 5]}
-    return {name: max(edge(found), 0.01) for name, found in near.items() if len(found) >= FEWEST_PAIRS}
+    near_m, near_mps, wide_m, wide_mps, found = 0.3, 0.1, True, True, {}
+    for _ in range(NARROWED):
+        near = {"cell_range_m": [off_m for off_m, off_mps in pairs if off_mps < near_mps and off_m < 10],
+                "cell_range_rate_mps": [off_mps for off_m, off_mps in pairs if off_m < near_m and off_mps < 5]}
+        found = {name: max(edge(own), 0.01) for name, own in near.items() if len(own) >= FEWEST_PAIRS}
+        wide_m, wide_mps = near_m > AGREE * found.get("cell_range_m", 1), near_mps > AGREE * found.get("cell_range_rate_mps", 1)
+        if not wide_m and not wide_mps:
+            break
+        near_m, near_mps = near_m / (1 + wide_m), near_mps / (1 + wide_mps)
+    unseen = {"cell_range_m": wide_mps, "cell_range_rate_mps": wide_m or found.get("cell_range_rate_mps", 0) > WIDEST_MPS}
+    return {name: value for name, value in found.items() if not unseen[name]}
 
 
 def noise(radar, scans, least_rad):
