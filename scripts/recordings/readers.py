@@ -46,8 +46,11 @@ def read(folder):
     """The recording of a folder in one of three layouts; ends the program if it cannot be read."""
     for pattern, reader in (("recording.json", own), ("**/extrinsic_matrices.json", aimotive),
                             ("**/radar/**/velodyne", kitti), ("**/velodyne", kitti)):
-        for found in sorted(glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))[:1]:
+        places = sorted(glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))
+        for found in places[:1]:
             try:
+                if len(places) > 1:
+                    raise ValueError(f"{places[1]} is another sequence; expected one a folder")
                 recording = reader(folder, found)
                 check(recording.radar, recording.scans[:MOST])
             except StopIteration:
@@ -133,9 +136,6 @@ def own(_, name):
 
 def aimotive(folder, extrinsics):
     """A sequence of the aiMotive Multimodal Dataset, of the one radar that has both a matrix and lists."""
-    others = sorted(glob.glob(os.path.join(glob.escape(folder), "**", "extrinsic_matrices.json"), recursive=True))
-    if len(others) > 1:
-        raise ValueError(f"{others[1]} is another sequence; expected one a folder")
     prefix, matrices, boxes, scans = "RT_body_from_", json_of(extrinsics), numbered(folder, "frame_*.json"), []
     radars = [key for key in matrices if key.startswith(prefix) and numbered(folder, f"{key[len(prefix):]}_*.json")]
     radar = next(iter(radars))
@@ -147,10 +147,14 @@ def aimotive(folder, extrinsics):
                           list(map(aimotive_box, captured["CapturedObjects"]))))
     matrix = matrices[radar]
     mount = Radar(matrix[0][3], matrix[1][3], math.atan2(matrix[1][0], matrix[0][0]), 77e9)
+    expect_one_sequence(scans)
+    return Recording(mount, scans, [f"other radars of the folder than {radar[len(prefix):]} are left out"] * (len(radars) > 1))
+
+
+def expect_one_sequence(scans):
     for before, after in zip(scans, scans[1:]):
         if not 0 < after.time_s - before.time_s < LONGEST_GAP_S:
             raise ValueError(f"lists {after.time_s - before.time_s:.1f} s apart are of two sequences; expected one a folder")
-    return Recording(mount, scans, [f"other radars of the folder than {radar[len(prefix):]} are left out"] * (len(radars) > 1))
 
 
 def aimotive_box(told):
@@ -179,6 +183,7 @@ def kitti(folder, clouds):
                 matrix = next([float(one) for one in line.split()[1:]] for line in calibration if line.startswith("Tr_velo"))
                 for box in (kitti_box(line.split(), matrix) for line in file):
                     tracks.setdefault(box.id, {})[number * KITTI_INTERVAL_S] = box
+    expect_one_sequence(scans)
     for scan in scans:
         for track in tracks.values():
             near = {then: one for then, one in track.items() if abs(then - scan.time_s) < 2.5 * KITTI_INTERVAL_S}

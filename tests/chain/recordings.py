@@ -178,13 +178,19 @@ def fine_cells_are_found(folder):
 
 
 def two_sequences_in_one_folder_are_refused(folder):
-    """Whether each has its calibration, or one follows the other in one folder after a gap."""
+    """Whether each has its folder, or one follows the other in one folder after a gap; in the layouts of aiMotive and View-of-Delft."""
     scans = [scan._replace(boxes=[], detections=[readers.Detection(20.0 + 3 * k, 0.02 * k, -20.0, 20.0, 5.0) for k in range(9)]) for scan in world(8)]
     for place in ("one", "other"):
         write_aimotive(os.path.join(folder, "two", place), RADAR, scans)
     write_aimotive(os.path.join(folder, "gap"), RADAR, scans)
     write_aimotive(os.path.join(folder, "gap"), RADAR, scans, 300, 1300.0)
-    for name, expected in (("two", "is another sequence; expected one a folder"), ("gap", "lists 299.6 s apart are of two sequences")):
+    for name, part, numbers in (("clouds", "training", range(8)), ("clouds", "testing", range(8)), ("numbers", "training", (*range(8), *range(90, 98)))):
+        os.makedirs(os.path.join(folder, name, "radar", part, "velodyne"))
+        for i in numbers:
+            with open(os.path.join(folder, name, "radar", part, "velodyne", f"{i:05}.bin"), "wb") as out:
+                out.write(struct.pack("<7f", 20, 4, 0.5, 9, -3, 0, 0) * 3)
+    for name, expected in (("two", "is another sequence; expected one a folder"), ("gap", "lists 299.6 s apart are of two sequences"),
+                           ("clouds", "velodyne is another sequence; expected one a folder"), ("numbers", "lists 8.3 s apart are of two sequences")):
         done = subprocess.run([os.path.join(ROOT, "scripts", "realism"), "--recordings", os.path.join(folder, name)], capture_output=True, text=True, check=False)
         check(done.returncode == os.EX_DATAERR and expected in done.stderr, f"two sequences: {done.returncode}, {done.stderr}")
 
