@@ -5,7 +5,8 @@
  * is a teleport (recorded_plausibility.h). The body goes on from where it is: its distance to the
  * recorded place falls to 0 along a cubic within RECORDED_JUMP_S, an ordinary time of a lane change
  * (4.0 s with a standard deviation of 2.3 s in NGSIM: Thiemann, Treiber and Kesting, TRR 2088,
- * 2008).
+ * 2008). A jump within one lane, where the source names lanes, is no change of lanes: SUMO parks a
+ * vehicle beside its lane, or takes it back. That way is not the body's own.
  *
  * A body turns about the middle of its front bumper, which the recording places. Where that moves
  * at an angle to the body, and the body turns at 2 v / l times the sine of that angle, the centre
@@ -32,14 +33,18 @@ static struct vec2 jump_of(const struct recorded_state *state, const struct reco
     return sideways && unsaid && known ? jump_m : (struct vec2){0, 0};
 }
 
-bool recorded_jumps_explain(const struct recorded_state *state, const struct recorded_state *before,
-                            double length_s)
+enum recorded_way recorded_jumps_way(const struct recorded_state *state,
+                                     const struct recorded_state *before, double length_s)
 {
-    if (before->jumps == NULL)
-        return false;
+    const struct recorded_jumps *now = state->jumps, *last = before->jumps;
+    if (now == NULL || last == NULL)
+        return RECORDED_WAY_PLAIN;
     struct vec2 way_m = vec2_sub(state->stretch->at_m, before->stretch->at_m);
     struct vec2 jump_m = jump_of(state, before, way_m, length_s);
-    return jump_m.x != 0 || jump_m.y != 0;
+    if (jump_m.x == 0 && jump_m.y == 0)
+        return RECORDED_WAY_PLAIN;
+    bool within = now->lane != NULL && last->lane != NULL && strcmp(now->lane, last->lane) == 0;
+    return within ? RECORDED_WAY_LEFT : RECORDED_WAY_EXPLAINED;
 }
 
 /* Sets what is still left, length_s later, of the jumps before. */

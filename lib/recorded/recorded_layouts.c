@@ -8,8 +8,8 @@
     {                                                                                              \
         name, kind, need, offsetof(struct recorded_cells, member), low, high, scale, shift         \
     }
-#define ID(name) COLUMN(name, RECORDED_TEXT, RECORDED_NEEDED, row.id, 0, 0, 0, 0)
-#define CLASS(name, need) COLUMN(name, RECORDED_TEXT, need, row.class, 0, 0, 0, 0)
+#define ID(name) COLUMN(name, RECORDED_NAME, RECORDED_NEEDED, row.id, 0, 0, 0, 0)
+#define CLASS(name, need) COLUMN(name, RECORDED_NAME, need, row.class, 0, 0, 0, 0)
 #define RECORDING(name) COLUMN(name, RECORDED_ALIKE, RECORDED_OPTIONAL, row.id, 0, 0, 0, 0)
 #define TIME(name, unit_s)                                                                         \
     COLUMN(name, RECORDED_TIME, RECORDED_NEEDED, row.time_ns, 0, 0, unit_s, 0)
@@ -37,6 +37,7 @@
         VALUE(prefix "angle", yaw_rad, RECORDED_NEEDED, -1e3, 1e3, -PI / 180, -90),                \
         VALUE(prefix "speed", speed_mps, RECORDED_OPTIONAL, -1e4, 1e4, 1, 0),                      \
         VALUE(prefix "z", z_m, RECORDED_OPTIONAL, -1e9, 1e9, 1, 0),                                \
+        COLUMN(prefix "lane", RECORDED_WORDS, RECORDED_OPTIONAL, row.lane, 0, 0, 0, 0),            \
         {.name = NULL}}
 SUMO_COLUMNS(sumo_vehicles, "vehicle_", "timestep_time");
 SUMO_COLUMNS(sumo_persons, "person_", "timestep_time");

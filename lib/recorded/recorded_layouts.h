@@ -17,11 +17,19 @@ enum recorded_need {
     RECORDED_TOGETHER, /* all of these columns or none */
 };
 
-/* A column of text (an id or a class), of times, of frame numbers, of a value that all rows share,
- * or of numbers that become scale * (number + shift) in a member of struct recorded_row. */
+/* A column of text (a name: an id or a class; or words of any bytes), of times, of frame numbers,
+ * of a value that all rows share, or of numbers that become scale * (number + shift) in a member of
+ * struct recorded_row. */
 struct recorded_column {
     const char *name; /* NULL after the last */
-    enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_FRAMES, RECORDED_ALIKE, RECORDED_NUMBER } kind;
+    enum {
+        RECORDED_NAME,
+        RECORDED_WORDS,
+        RECORDED_TIME,
+        RECORDED_FRAMES,
+        RECORDED_ALIKE,
+        RECORDED_NUMBER
+    } kind;
     enum recorded_need need;
     size_t offset;       /* of the member, in struct recorded_cells */
     double low, high;    /* of a number in the file */

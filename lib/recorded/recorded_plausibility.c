@@ -5,9 +5,11 @@
 #include "base/units.h"
 
 static const double BOUND_M = 2, BOUND_MPS2 = 1, BOUND_SHARE = 0.25, BOUND_SCATTERS = 3,
-                    BIN_M = 0.1, STRETCH_M = 3, STRETCH_S = 3, ALIKE = 1.5, STANDS_MPS = 0.1,
-                    SLANT_RAD = PI / 6, REST_M = 50, REST_SHARE = 5e-3;
-enum { SURE_WAYS = 200, SURE_DENIED = 8, SURE_M = 10, SURE_SLANTED = 3, SURE_YAWS = 20 };
+                    BIN_M = 0.1, EARLY_M = 0.7, STRETCH_M = 3, STRETCH_S = 3, NOISE_SHARE = 8,
+                    MOST_NOISE_M = 12, ALIKE = 1.5, STANDS_MPS = 0.1, SLANT_RAD = PI / 6,
+                    REST_M = 50, REST_SHARE = 5e-3;
+enum { CLEAN_WAYS = 30, SURE_WAYS = 200, SURE_DENIED = 8, SURE_M = 10 };
+enum { SURE_SLANTED = 3, SURE_EXPLAINED = 2, SURE_YAWS = 20 };
 
 /* ---- ways ---- */
 
@@ -51,21 +53,35 @@ static double deviation_m(const struct recorded_stretch *now, const struct recor
     return elementary_max(aside_m - length_s / 2 * vec2_length(change_mps), 0);
 }
 
-/* The deviation that nine of ten ways do not exceed; fifty ways without any are added, so that the
+/* The deviation that no more than so many ways exceed. */
+static double exceeded_m(const struct recorded_plausibility *plausibility, uint64_t ways)
+{
+    size_t bin = plausibility->most;
+    while (bin > 0 && plausibility->scatter[bin] <= ways)
+        ways -= plausibility->scatter[bin--];
+    return BIN_M * (double)bin;
+}
+
+/* The deviation that nine of ten ways do not exceed; some ways without any are added, so that the
  * first ways of a recording do not decide alone. */
 static double scatter_m(const struct recorded_plausibility *plausibility)
 {
-    uint64_t left = (plausibility->ways + 50) / 10;
-    size_t bin = RECORDED_SCATTER_BINS - 1;
-    while (bin > 0 && plausibility->scatter[bin] <= left)
-        left -= plausibility->scatter[bin--];
-    return BIN_M * (double)bin;
+    return exceeded_m(plausibility, (plausibility->ways + CLEAN_WAYS) / 10);
+}
+
+/* The scatter that a way may have. Where ways are judged while they are read, the first ones do not
+ * know that of the recording. */
+static double allowed_m(const struct recorded_plausibility *plausibility)
+{
+    bool early = !plausibility->whole && plausibility->ways < CLEAN_WAYS;
+    return elementary_max(scatter_m(plausibility), early ? EARLY_M : 0);
 }
 
 static void count_deviation(struct recorded_plausibility *plausibility, double deviation_m)
 {
-    double bin = elementary_min(floor(deviation_m / BIN_M), RECORDED_SCATTER_BINS - 1);
-    plausibility->scatter[(size_t)bin]++;
+    size_t bin = (size_t)elementary_min(floor(deviation_m / BIN_M), RECORDED_SCATTER_BINS - 1);
+    plausibility->scatter[bin]++;
+    plausibility->most = bin > plausibility->most ? bin : plausibility->most;
     plausibility->ways++;
 }
 
@@ -87,22 +103,26 @@ static double meant_rad(double yaw_rad, enum recorded_yaw meaning)
         return yaw_rad * (180 / PI);
     case RECORDED_YAW_COMPASS:
         return PI / 2 - yaw_rad;
+    case RECORDED_YAW_MIRRORED:
+        return -yaw_rad;
     default:
         return yaw_rad;
     }
 }
 
 /* Adds the angles between the direction of the stretch and the mean of its first and last yaw. Yaws
- * count modulo pi, as a body may reverse. */
-static void count_yaw(struct recorded_slants *slants, const struct recorded_stretch *now)
+ * count modulo pi if a body may reverse. */
+static void count_yaw(struct recorded_slants *slants, const struct recorded_stretch *now,
+                      bool forward)
 {
+    const double folds = forward ? 1 : 2;
     struct vec2 way_m = vec2_sub(now->at_m, now->from_m);
     double direction_rad = elementary_atan2(way_m.y, way_m.x);
     slants->stretches++;
     for (enum recorded_yaw i = 0; i < RECORDED_YAWS; i++) {
         double from_rad = meant_rad(now->from_yaw_rad, i), to_rad = meant_rad(now->yaw_rad, i);
         double mean_rad = from_rad + units_wrap_rad(to_rad - from_rad) / 2;
-        double off_rad = fabs(units_wrap_rad(2 * (mean_rad - direction_rad))) / 2;
+        double off_rad = fabs(units_wrap_rad(folds * (mean_rad - direction_rad))) / folds;
         slants->off_rad[i] += off_rad;
         if (i != RECORDED_YAW_STATED)
             continue;
@@ -120,9 +140,9 @@ static void judge_yaw(struct recorded_plausibility *plausibility, struct recorde
     if (isnan(now->yaw_rad) || isnan(now->from_yaw_rad))
         return;
     uint64_t contradicting = plausibility->all.contradicting;
-    count_yaw(&plausibility->all, now);
+    count_yaw(&plausibility->all, now, plausibility->forward);
     if (fabs(now->yaw_rad) > 2 * PI)
-        count_yaw(&plausibility->far, now);
+        count_yaw(&plausibility->far, now, plausibility->forward);
     if (plausibility->all.contradicting == contradicting)
         return;
     plausibility->slanted += !now->slanted;
@@ -130,10 +150,10 @@ static void judge_yaw(struct recorded_plausibility *plausibility, struct recorde
 }
 
 static void judge_length(struct recorded_plausibility *plausibility,
-                         const struct recorded_stretch *now, double moved_m)
+                         const struct recorded_stretch *now, double moved_m, double led_m)
 {
     struct recorded_contradiction *kind = NULL;
-    if (now->said_m > ALIKE * moved_m)
+    if (led_m > ALIKE * moved_m)
         kind = &plausibility->rests;
     if (moved_m > ALIKE * now->said_m)
         kind = &plausibility->leaps;
@@ -153,27 +173,41 @@ static void begin_stretch(struct recorded_stretch *now)
     now->from_m = now->at_m;
     now->from_yaw_rad = now->yaw_rad;
     now->lasts_s = now->said_m = 0;
+    now->led_m = (struct vec2){0, 0};
     now->ways = 0;
+}
+
+/* Noise spreads the deviations; what is the same in all ways is none. */
+static double least_stretch_m(const struct recorded_plausibility *plausibility)
+{
+    double spread_m = scatter_m(plausibility) - exceeded_m(plausibility, plausibility->ways / 2);
+    double noise_m = NOISE_SHARE * elementary_max(spread_m, 0);
+    return STRETCH_M + elementary_min(noise_m, MOST_NOISE_M);
 }
 
 /* Judges the stretch if it is long enough, and begins another; or if it lasts too long. */
 static void end_stretch(struct recorded_plausibility *plausibility, struct recorded_stretch *now)
 {
     double moved_m = vec2_length(vec2_sub(now->at_m, now->from_m));
+    double led_m = isnan(now->led_m.x) ? now->said_m : vec2_length(now->led_m);
+    if (moved_m < STRETCH_M && !(led_m >= STRETCH_M) && now->lasts_s <= STRETCH_S)
+        return;
+    double least_m = least_stretch_m(plausibility);
     bool stated = !isnan(now->said_m);
-    bool whole = moved_m >= STRETCH_M || (stated && now->said_m >= STRETCH_M);
-    bool timely = now->ways == 1 || now->lasts_s <= STRETCH_S;
+    bool whole = moved_m >= least_m || (stated && led_m >= least_m);
+    bool timely = now->ways == 1 || now->lasts_s <= STRETCH_S / STRETCH_M * least_m;
     if (!whole && timely)
         return;
     if (whole && timely && stated)
-        judge_length(plausibility, now, moved_m);
-    if (whole && timely && moved_m >= STRETCH_M)
+        judge_length(plausibility, now, moved_m, led_m);
+    if (whole && timely && moved_m >= least_m)
         judge_yaw(plausibility, now);
     begin_stretch(now);
 }
 
 /* Counts a denied way. The directions of such ways are judged, too: where yaws are wrong and
- * velocities follow them, all ways may be denied. */
+ * velocities follow them, all ways may be denied. Ways that the speeds do not deny (said_m NAN) say
+ * nothing of units. */
 static void deny(struct recorded_plausibility *plausibility, struct recorded_stretch *now,
                  const struct recorded_stretch *before, double far_m, double fastest_mps,
                  double said_m)
@@ -186,7 +220,7 @@ static void deny(struct recorded_plausibility *plausibility, struct recorded_str
         plausibility->standing++;
     else
         plausibility->driving++;
-    if (plausibility->learned || isnan(fastest_mps))
+    if (plausibility->learned || isnan(said_m))
         return;
     note_place(plausibility, now);
     plausibility->leaps.ways++;
@@ -214,17 +248,19 @@ static void note_rest(struct recorded_plausibility *plausibility,
 static void continue_stretch(struct recorded_stretch *now, const struct recorded_stretch *before,
                              double said_m, double length_s)
 {
+    struct vec2 sum_mps = vec2_add(now->velocity_mps, before->velocity_mps);
     now->from_m = before->from_m;
     now->from_yaw_rad = before->from_yaw_rad;
     now->lasts_s = before->lasts_s + length_s;
     now->said_m = before->said_m + said_m;
+    now->led_m = vec2_add(before->led_m, vec2_scale(length_s / 2, sum_mps));
     now->ways = before->ways + 1;
 }
 
 bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
                                   struct recorded_stretch *now,
                                   const struct recorded_stretch *before, double length_s,
-                                  bool explained)
+                                  enum recorded_way way)
 {
     struct vec2 way_m = vec2_sub(now->at_m, before->at_m);
     double far_m = vec2_length(way_m), beyond_m = deviation_m(now, before, way_m, length_s);
@@ -232,15 +268,15 @@ bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
         isnan(beyond_m) ? (double)NAN : elementary_max(now->speed_mps, before->speed_mps);
     double said_m = (now->speed_mps + before->speed_mps) / 2 * length_s;
     double bound_m = BOUND_M + length_s * (BOUND_MPS2 * length_s + BOUND_SHARE * fastest_mps);
-    bool denied = !explained && beyond_m > bound_m &&
-                  beyond_m > bound_m + BOUND_SCATTERS * scatter_m(plausibility);
-    denied = denied || far_m > RECORDED_FASTEST_MPS * length_s;
-    bool learns = !plausibility->learned;
-    if (learns && far_m > 0 && !explained && !isnan(beyond_m))
+    bool learns = !plausibility->learned, plain = way == RECORDED_WAY_PLAIN;
+    if (learns && far_m > 0 && plain && !isnan(beyond_m))
         count_deviation(plausibility, beyond_m);
+    bool denied = plain && beyond_m > bound_m &&
+                  beyond_m > bound_m + BOUND_SCATTERS * allowed_m(plausibility);
+    denied = denied || way == RECORDED_WAY_LEFT || far_m > RECORDED_FASTEST_MPS * length_s;
     now->slanted = before->slanted;
     if (denied) {
-        deny(plausibility, now, before, far_m, fastest_mps, said_m);
+        deny(plausibility, now, before, far_m, fastest_mps, plain ? said_m : (double)NAN);
         return false;
     }
     continue_stretch(now, before, said_m, length_s);
@@ -330,10 +366,10 @@ static int refuse_speeds(const struct recorded_plausibility *plausibility,
 }
 
 /* True if another meaning of the yaws explains the directions: its angles are on the mean less than
- * a third of those as stated, less 2 degrees. */
+ * a third of those as stated, less 6 degrees. For 6.395 means nearly the same in both units. */
 static bool explains(const struct recorded_slants *slants, enum recorded_yaw meaning)
 {
-    double spare_rad = (double)slants->stretches * (PI / 90);
+    double spare_rad = (double)slants->stretches * (PI / 30);
     return 3 * slants->off_rad[meaning] + spare_rad < slants->off_rad[RECORDED_YAW_STATED];
 }
 
@@ -342,19 +378,35 @@ static int refuse_yaws(const struct recorded_slants *slants, const struct record
 {
     static const char *const meanings[RECORDED_YAWS] = {
         "", ", as with degrees that are taken for radians",
-        ", as with radians that are taken for degrees", ", as with yaws clockwise from north"};
+        ", as with radians that are taken for degrees", ", as with yaws clockwise from north",
+        ", as with yaws clockwise from x"};
     enum recorded_yaw meaning = RECORDED_YAW_STATED;
     for (enum recorded_yaw i = RECORDED_YAW_STATED + 1; i < RECORDED_YAWS; i++)
-        if (meaning == RECORDED_YAW_STATED && explains(slants, i))
+        if (explains(slants, i) && slants->off_rad[i] < slants->off_rad[meaning])
             meaning = i;
     double off_rad = slants->off_rad[RECORDED_YAW_STATED] / (double)slants->stretches;
-    return diag_fail(
-        diag, DIAG_DATA,
-        "%s %zu: the yaw is %.6g rad, %.3g degrees off the direction of motion, as all "
-        "yaws are by %.3g degrees on the mean%s; expected yaws in the unit of their "
-        "column, counter-clockwise from x",
-        format->place, slants->place, slants->yaw_rad, slants->most_rad * (180 / PI),
-        off_rad * (180 / PI), meanings[meaning]);
+    const char *expected = "yaws in the unit of their column, counter-clockwise from x";
+    if (format->of_sumo)
+        expected = "angles in degrees, clockwise from north; the first versions of SUMO wrote 180 "
+                   "minus these";
+    return diag_fail(diag, DIAG_DATA,
+                     "%s %zu: the yaw is %.6g rad, %.3g degrees off the direction of motion, as "
+                     "all yaws are by %.3g degrees on the mean%s; expected %s",
+                     format->place, slants->place, slants->yaw_rad, slants->most_rad * (180 / PI),
+                     off_rad * (180 / PI), meanings[meaning], expected);
+}
+
+/* Yaws of many stretches are wrong if another direction of counting explains them, or if most of
+ * those of several road users contradict. */
+static bool is_slanted(const struct recorded_plausibility *plausibility, bool ended)
+{
+    const struct recorded_slants *all = &plausibility->all;
+    bool explained = explains(all, RECORDED_YAW_COMPASS) || explains(all, RECORDED_YAW_MIRRORED);
+    size_t users = SURE_SLANTED;
+    if (explained)
+        users = plausibility->forward ? 1 : SURE_EXPLAINED;
+    return all->stretches >= (ended ? SURE_YAWS : SURE_WAYS) && plausibility->slanted >= users &&
+           (explained || 3 * all->contradicting > 2 * all->stretches);
 }
 
 int recorded_plausibility_check(const struct recorded_plausibility *plausibility,
@@ -374,7 +426,5 @@ int recorded_plausibility_check(const struct recorded_plausibility *plausibility
         return refuse_yaws(far, format, diag);
     if (all->stretches >= SURE_SLANTED && explains(all, RECORDED_YAW_RADIANS))
         return refuse_yaws(all, format, diag);
-    bool slanted = 3 * all->contradicting > 2 * all->stretches &&
-                   all->stretches >= (ended ? SURE_YAWS : SURE_WAYS);
-    return slanted && plausibility->slanted >= SURE_SLANTED ? refuse_yaws(all, format, diag) : 0;
+    return is_slanted(plausibility, ended) ? refuse_yaws(all, format, diag) : 0;
 }

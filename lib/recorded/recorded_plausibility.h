@@ -7,14 +7,18 @@
  *     2 m + 1 m/s^2 length_s^2 + 0.25 length_s max(speeds) + 3 scatter
  *
  * Between two steps a body that speeds up and brakes again by 4 m/s^2 gains the second term. The
- * scatter is the deviation within which nine of ten ways of the recording stay. A way that is
- * shorter than the speeds say is not denied, since a body may stop.
+ * scatter is the deviation within which nine of ten ways of the recording stay; where ways are
+ * judged while they are read, it is at least 0.7 m in the first 30. A way that is shorter than the
+ * speeds say is not denied, since a body may stop.
  *
  * Units are judged by stretches: the ways of one road user until it has moved by 3 m, or should
- * have by its speeds, within 3 s or a single way. A stretch agrees if the longer of these lengths
- * is at most 1.5 times the other. A recording is refused if its denied ways and the stretches that
- * do not agree are of more ways than those that agree, or if its yaws contradict the directions of
- * the stretches. Nothing is compared where no speed, or no yaw, is stated. */
+ * have by its velocities, within 3 s or a single way. In a noisy recording a stretch is longer by
+ * eight times what the scatter is above the median of the deviations, at most by 12 m, and may last
+ * as much longer. It contradicts if its velocities lead more than 1.5 times as far as it moves, or
+ * if it moves more than 1.5 times as far as its speeds add up to. A recording is refused if its
+ * denied ways and contradicting stretches are of more ways than the other stretches, or if its yaws
+ * contradict the directions of the stretches. Nothing is compared where no speed, or no yaw, is
+ * stated. */
 #pragma once
 
 #include <stdint.h>
@@ -33,6 +37,7 @@ struct recorded_stretch {
     struct vec2 from_m;       /* where the stretch began, and with which yaw */
     double from_yaw_rad;
     double lasts_s, said_m; /* its time, and its length by the speeds */
+    struct vec2 led_m;      /* where the velocities lead in that time; NAN: not stated */
     unsigned ways;          /* in it */
     bool slanted;           /* a yaw of the road user has contradicted a direction */
 };
@@ -46,13 +51,15 @@ struct recorded_contradiction {
 /* What the number of a yaw may mean. */
 enum recorded_yaw {
     RECORDED_YAW_STATED,
-    RECORDED_YAW_DEGREES, /* taken for radians */
-    RECORDED_YAW_RADIANS, /* taken for degrees */
-    RECORDED_YAW_COMPASS, /* clockwise from north */
+    RECORDED_YAW_DEGREES,  /* taken for radians */
+    RECORDED_YAW_RADIANS,  /* taken for degrees */
+    RECORDED_YAW_COMPASS,  /* clockwise from north */
+    RECORDED_YAW_MIRRORED, /* clockwise from x */
     RECORDED_YAWS,
 };
 
-/* Angles between the yaws and the directions of stretches, modulo pi. */
+/* Angles between the yaws and the directions of stretches; modulo pi, unless bodies only drive
+ * forward. */
 struct recorded_slants {
     uint64_t stretches, contradicting;
     double off_rad[RECORDED_YAWS]; /* sums */
@@ -62,11 +69,13 @@ struct recorded_slants {
 
 enum { RECORDED_FASTEST_MPS = 200, RECORDED_SCATTER_BINS = 200 };
 
-/* Begins as {0}. */
+/* Begins as {0} but for forward. */
 struct recorded_plausibility {
+    bool forward; /* bodies never reverse, as those of SUMO */
     bool whole;   /* the recording is judged at its end alone */
     bool learned; /* the whole recording has been judged; only denied ways are counted again */
     uint64_t ways, scatter[RECORDED_SCATTER_BINS]; /* ways by their deviations */
+    size_t most;                                   /* the last bin that has ways */
     uint64_t agreeing;                             /* ways */
     struct recorded_contradiction rests, leaps;    /* too short ways; too long and denied ways */
     double stretches_m;                            /* length of the stretches among these */
@@ -85,12 +94,19 @@ struct recorded_plausibility {
 /* The stretch of a road user that comes. */
 struct recorded_stretch recorded_plausibility_begin(const struct recorded_row *row);
 
+/* What the source tells of a way beside the speeds. */
+enum recorded_way {
+    RECORDED_WAY_PLAIN,     /* nothing */
+    RECORDED_WAY_EXPLAINED, /* it is a change of lanes, which is never denied */
+    RECORDED_WAY_LEFT,      /* it is none of the body's own, and always denied */
+};
+
 /* Compares the way to a state from the state before, and continues its stretch. False if the way is
- * denied. A way that is explained, as a change of lanes, is never denied. */
+ * denied. */
 bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
                                   struct recorded_stretch *now,
                                   const struct recorded_stretch *before, double length_s,
-                                  bool explained);
+                                  enum recorded_way way);
 
 /* Refuses a recording that contradicts itself. At its end, stretches of 10 m or 8 denied ways are
  * enough for that; before, it takes contradictions of 200 ways. A single way is enough if a body

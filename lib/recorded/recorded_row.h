@@ -20,6 +20,7 @@ struct recorded_row {
     const char *id;
     const char *class;     /* a word of the format, known or not */
     const char *likely;    /* the word to take if the class is unknown; NULL: none */
+    const char *lane;      /* on which SUMO has the vehicle; NULL: not said */
     const char *untold;    /* of a class that the source does not tell: what it lacks; NULL */
     double x_m, y_m;       /* y is to the left of x; of any size, UTM too */
     double ahead;          /* distance of the place ahead of the box's centre, in lengths */

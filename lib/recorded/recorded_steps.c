@@ -32,6 +32,19 @@ static bool rides(const struct recorded_row *row, const struct recorded_step *st
     return !last->passenger && last->at_m.x == row->x_m && last->at_m.y == row->y_m;
 }
 
+/* Jumps are those of SUMO's vehicles. */
+static struct recorded_jumps *begin_jumps(const struct recorded_steps *steps,
+                                          struct recorded_step *step)
+{
+    const struct recorded_row *row = &steps->row;
+    if (!steps->reader.format->of_sumo || row->passenger)
+        return NULL;
+    struct recorded_jumps *jumps = arena_get(&step->arena, sizeof *jumps);
+    if (row->lane != NULL)
+        jumps->lane = arena_text(&step->arena, row->lane, strlen(row->lane));
+    return jumps;
+}
+
 static int take_row(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
 {
     const struct recorded_row *row = &steps->row;
@@ -62,6 +75,7 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
         .since_ns = step->time_ns,
         .passenger = row->passenger,
         .place = row->place,
+        .jumps = begin_jumps(steps, step),
         .at_m = {row->x_m, row->y_m},
         .direction_rad = row->direction_rad,
         .ahead_m = row->ahead * length_m,
@@ -153,19 +167,18 @@ static int sort_states(const struct recorded_steps *steps, struct recorded_step 
 
 /* The state of the same visit in the step before: that of the id, unless the way from it is denied.
  * Spreads jumps. */
-static struct recorded_state *visit_before(struct recorded_steps *steps, struct recorded_step *step,
+static struct recorded_state *visit_before(struct recorded_steps *steps,
                                            struct recorded_state *state,
                                            struct recorded_state *named, double length_s)
 {
-    bool jumps = steps->reader.format->of_sumo && !state->passenger;
-    if (jumps)
-        state->jumps = arena_get(&step->arena, sizeof *state->jumps);
-    bool explained = jumps && named != NULL && recorded_jumps_explain(state, named, length_s);
+    enum recorded_way way = RECORDED_WAY_PLAIN;
+    if (named != NULL)
+        way = recorded_jumps_way(state, named, length_s);
     struct recorded_state *before = named;
     if (named != NULL && !recorded_plausibility_follow(&steps->plausibility, state->stretch,
-                                                       named->stretch, length_s, explained))
+                                                       named->stretch, length_s, way))
         before = NULL;
-    if (jumps)
+    if (state->jumps != NULL)
         recorded_jumps_spread(state, before, length_s, &steps->jumps);
     return before;
 }
@@ -187,7 +200,7 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
         if (last != NULL && j < last->states.count &&
             strcmp(last->states.items[j].object.id, id) == 0)
             named = &last->states.items[j];
-        struct recorded_state *before = visit_before(steps, step, state, named, length_s);
+        struct recorded_state *before = visit_before(steps, state, named, length_s);
         if (!isnan(state->object.yaw_rad) || !isnan(state->object.vx_mps)) {
             place_object(state, named, steps->reader.format->slow_mps);
             state->at_m = (struct vec2){state->object.x_m, state->object.y_m};

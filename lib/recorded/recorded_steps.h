@@ -25,6 +25,7 @@ struct recorded_jumps {
     double angle_rad;             /* in the file */
     struct vec2 rest_m, rest_mps; /* from the present place to that of the file, and its rate */
     double left_s;                /* time until the rest is 0 */
+    const char *lane;             /* recorded_row.lane */
     bool turns;                   /* the yaw has not reached the angle yet */
 };
 
@@ -90,9 +91,10 @@ double recorded_steps_slope(double before, double before_s, double after, double
 /* The state of an id, or NULL. */
 const struct recorded_state *recorded_steps_find(const struct recorded_step *step, const char *id);
 
-/* True if the way from the state before, length_s earlier, is a jump that is spread. */
-bool recorded_jumps_explain(const struct recorded_state *state, const struct recorded_state *before,
-                            double length_s);
+/* Whether the way from the state before, length_s earlier, is a jump: to another lane, which is
+ * spread, or within one, as SUMO parks vehicles. */
+enum recorded_way recorded_jumps_way(const struct recorded_state *state,
+                                     const struct recorded_state *before, double length_s);
 
 /* Spreads a jump of the place over RECORDED_JUMP_S, and a jump of the angle over the distance that
  * the body needs to turn. The state has the place and angle of its row; before is the state of the

@@ -76,6 +76,9 @@ static void add_row(struct document *document, const char **attributes, const ch
         row.class = xml_rows_name(xml, "type", own_type, &xml->arena);
     if (row.class == NULL)
         return;
+    const char *lane = xml_rows_attribute(attributes, "lane");
+    if (lane != NULL)
+        row.lane = arena_text(&xml->arena, lane, strlen(lane));
     row.yaw_rad = (90 - angle_deg) * (PI / 180);
     *list_add(&xml->events, &xml->arena) = (struct xml_event){RECORDED_ROW, row};
 }

@@ -376,8 +376,9 @@ static int read_cell(struct table *table, const struct recorded_column *column, 
         return refuse(table, place, "\" is another recording; expected that of all rows", diag);
     if (column->kind == RECORDED_ALIKE)
         return 0;
-    if (column->kind == RECORDED_TEXT) {
-        if (!recorded_row_name_fits(text))
+    bool name = column->kind == RECORDED_NAME;
+    if (name || column->kind == RECORDED_WORDS) {
+        if (name && !recorded_row_name_fits(text))
             return refuse(table, place, "\"; expected 1 to 1024 printable ASCII characters", diag);
         memcpy((char *)cells + column->offset, &text, sizeof text);
         return 0;

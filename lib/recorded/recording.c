@@ -93,6 +93,7 @@ static int prepare(struct recording *recording, struct diag *diag)
         recording_conditions(options, &recording->conditions, recording->arena, diag) != 0)
         return -1;
     bool stored = !steps->reader.format->by_time;
+    steps->plausibility.forward = steps->reader.format->of_sumo;
     if (stored)
         steps->reader =
             recorded_store_open(steps->reader, options->rate_hz, recording->arena, diag);

@@ -83,10 +83,13 @@ def refuses(kind, folder, users, *said, **sampling):
 
 
 def true_recordings_stay_whole(folder):
-    """At 25, 10 and 1 Hz: drives, curves, reversing, sliding, walkers that turn round, and noise of places."""
+    """At 25, 10 and 1 Hz: drives, curves, reversing, sliding, walkers that turn round, and noise of places and velocities."""
     draw = random.Random(37)
-    def noise(pose, _):
-        pose.x, pose.y = pose.x + draw.gauss(0, 0.3), pose.y + draw.gauss(0, 0.3)
+    def noise(places_m, velocities_mps):
+        def change(pose, _):
+            pose.x, pose.y = pose.x + draw.gauss(0, places_m), pose.y + draw.gauss(0, places_m)
+            pose.vx, pose.vy = pose.vx + draw.gauss(0, velocities_mps), pose.vy + draw.gauss(0, velocities_mps)
+        return change
     def round_again(time_s):
         phase = time_s % 4
         side = 1 if phase < 2 else -1
@@ -100,9 +103,10 @@ def true_recordings_stay_whole(folder):
                 users.append(User("7", "pedestrian", 0.5, 0.6, 1.8, 0, 0, round_again))
             _, said = frames_of(kind, folder, users, rate_hz=rate_hz, steps=steps)
             check(said == "", f"{kind.name} at {rate_hz} Hz: {said}")
-            if kind in STATED and kind.name in ("INTERACTION", "inD", "CommonRoad", "OSI"):
-                _, said = frames_of(kind, folder, changed(users, noise), rate_hz=rate_hz, steps=steps)
-                check(said == "", f"{kind.name} with noise at {rate_hz} Hz: {said}")
+            for noises in ((0.3, 0), (0.6, 1), (1, 0), (1, 1.5)):
+                if kind.name in ("INTERACTION", "inD", "CommonRoad", "OSI"):
+                    _, said = frames_of(kind, folder, changed(users, noise(*noises)), rate_hz=rate_hz, steps=steps)
+                    check(said == "", f"{kind.name} with noise of {noises} at {rate_hz} Hz: {said}")
 
 
 def denied_ways_begin_visits(folder):
@@ -155,6 +159,46 @@ def yaws_in_degrees_are_refused(folder):
                         steps=steps)
 
 
+def yaws_counted_the_other_way_are_refused(folder):
+    """Clockwise from north or from x, of two cars that drive in one direction; SUMO's first versions began at south."""
+    users = [car("1", straight(0, 0, 0.6, 15)), car("2", straight(-9, 20, 0.6, 12)), car("4", straight(60, -4, 0, 0))]
+    def compass(pose, _):
+        pose.yaw = math.pi / 2 - pose.yaw
+    for kind in YAWS:
+        refuses(kind, folder, changed(users, scaled(yaw=-1)), "as with yaws clockwise from x", steps=101)
+        if kind.name != "CommonRoad":  # whose velocities follow the yaws
+            users[0].at, users[1].at = straight(0, 0, 0.1, 15), straight(-9, 20, 0.1, 12)
+            refuses(kind, folder, changed(users, compass), "as with yaws clockwise from north", steps=101)
+            users[0].at, users[1].at = straight(0, 0, 0.6, 15), straight(-9, 20, 0.6, 12)
+    north = [car("1", straight(0, 0, math.pi / 2, 15))]
+    for kind in STATED:
+        if "SUMO" in kind.name:
+            refuses(kind, folder, changed(north, scaled(yaw=-1)), "as with yaws clockwise from x", "SUMO wrote 180 minus these")
+
+
+def parked_vehicles_leave_their_lane(folder):
+    """A way of 3.2 m aside within one lane is a new visit, be it parallel or aslant; to another lane it is spread."""
+    def step(time, lane, aside, angle):
+        y = 3.2 * aside - 1.6
+        return (f'<timestep time="{time}"><vehicle id="a" x="{5 * time}" y="1.6" angle="90" speed="5" type="passenger" '
+                f'lane="in_1"/><vehicle id="b" x="60" y="{y}" angle="{angle}" speed="0" type="passenger" lane="{lane}"/>'
+                "</timestep>", f"{time};5;a;{5 * time};1.6;90;in_1\n{time};0;b;60;{y};{angle};{lane}\n")
+    for dt in (0.1, 1):
+        for other, angle, visits in (("in_0", 90, 2), ("in_0", 30, 2), ("in_1", 90, 1)):
+            steps = [step(i * dt, other if i >= 5 else "in_0", i >= 5, angle if i >= 5 else 90) for i in range(10)]
+            xml, table = os.path.join(folder, "park.xml"), os.path.join(folder, "park.csv")
+            with open(xml, "w", encoding="ascii") as file:
+                file.write("<fcd-export>" + "".join(one for one, _ in steps) + "</fcd-export>")
+            with open(table, "w", encoding="ascii") as file:
+                file.write("time;speed;id;x;y;angle;lane\n" + "".join(one for _, one in steps))
+            for program, path in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
+                frames = run(program, path, "--ego", "b")
+                check(len({frame["scene"] for frame in frames}) == visits, f"{path}: visits of {other} at {dt} s")
+                fastest = max(math.hypot(part["vx_mps"], part["vy_mps"]) for frame in frames for part in frame["objects"]
+                              if part["id"] == "b")
+                check(fastest < 1e-6 if visits == 2 else 0.5 < fastest < 1.7, f"{path}: {fastest} m/s, {other} at {dt} s")
+
+
 def mesoscopic_places_are_refused(folder):
     """Cars of SUMO's mesoscopic model stand for five seconds, and are then 70 m ahead."""
     path = os.path.join(folder, "meso.xml")
@@ -185,7 +229,8 @@ def real_files_stay_whole():
 
 def main():
     for test in (true_recordings_stay_whole, denied_ways_begin_visits, contradictions_are_refused,
-                 yaws_in_degrees_are_refused, mesoscopic_places_are_refused):
+                 yaws_in_degrees_are_refused, yaws_counted_the_other_way_are_refused, parked_vehicles_leave_their_lane,
+                 mesoscopic_places_are_refused):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
     real_files_stay_whole()

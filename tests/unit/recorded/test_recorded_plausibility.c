@@ -31,7 +31,8 @@ static bool denies(struct pose from, struct pose to, double length_s)
 {
     struct recorded_plausibility plausibility = {0};
     struct recorded_stretch before = track_of(from, 1), now = track_of(to, 2);
-    return !recorded_plausibility_follow(&plausibility, &now, &before, length_s, false);
+    return !recorded_plausibility_follow(&plausibility, &now, &before, length_s,
+                                         RECORDED_WAY_PLAIN);
 }
 
 /* Follows one body through many poses. */
@@ -41,7 +42,7 @@ static void follow(struct recorded_plausibility *plausibility, const struct pose
     struct recorded_stretch before = track_of(poses[0], 1);
     for (size_t i = 1; i < count; i++) {
         struct recorded_stretch now = track_of(poses[i], i + 1);
-        recorded_plausibility_follow(plausibility, &now, &before, length_s, false);
+        recorded_plausibility_follow(plausibility, &now, &before, length_s, RECORDED_WAY_PLAIN);
         before = now;
     }
 }
@@ -80,12 +81,13 @@ static void a_speed_along_the_yaw_may_be_that_of_reversing(void **state)
     struct recorded_stretch before = recorded_plausibility_begin(&row);
     row.x_m = -8;
     struct recorded_stretch now = recorded_plausibility_begin(&row);
-    assert_true(recorded_plausibility_follow(&plausibility, &now, &before, 1, false));
+    assert_true(recorded_plausibility_follow(&plausibility, &now, &before, 1, RECORDED_WAY_PLAIN));
     row.x_m = 0;
     row.y_m = 14.6;
     now = recorded_plausibility_begin(&row);
-    assert_false(recorded_plausibility_follow(&plausibility, &now, &before, 1, false));
-    assert_true(recorded_plausibility_follow(&plausibility, &now, &before, 1, true));
+    assert_false(recorded_plausibility_follow(&plausibility, &now, &before, 1, RECORDED_WAY_PLAIN));
+    assert_true(
+        recorded_plausibility_follow(&plausibility, &now, &before, 1, RECORDED_WAY_EXPLAINED));
     assert_int_equal(plausibility.driving, 1);
 }
 
