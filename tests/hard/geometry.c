@@ -385,6 +385,45 @@ static void no_object_hides_its_own_outline(void **state)
     hard_case("32", "points hidden by their own outline", "wrong", naive, ours, 0);
 }
 
+/* Hard case 29 in a scene: a point as far behind a corner of a car as the sensor is before it. The
+ * car stands along the axes at a place of few binary digits, so the corner is exact. */
+static void no_point_is_seen_through_a_corner(void **state)
+{
+    (void)state;
+    uint64_t random = 29;
+    struct scene scene = {0};
+    double naive = 0, ours = 0;
+    for (int i = 0; i < hard_points(100000); i++) {
+        struct vec2 sensor = on_grid(draw_place(&random, 50), 0x1p-36);
+        struct object car = {.id = "a", .class = "car", .length_m = 4.5, .width_m = 1.75};
+        struct vec2 place = on_grid(draw_place(&random, 20), 0x1p-4);
+        car.x_m = place.x;
+        car.y_m = place.y;
+        const struct box box = {.motion.position_m = place,
+                                .heading = vec2_heading(0),
+                                .length_m = car.length_m,
+                                .width_m = car.width_m};
+        struct vec2 corner[4];
+        motion_box_outline(&box, corner);
+        int k = i % 4;
+        struct vec2 hidden = vec2_add(corner[k], vec2_sub(corner[k], sensor));
+        begin_scene(&scene, sensor, 0);
+        add_object(&scene, car);
+        struct object point = {.id = "b", .x_m = hidden.x, .y_m = hidden.y};
+        add_point(&scene, add_object(&scene, point), 0, 0);
+        scene.frame.reflectors.items[1].blocks = false;
+        look(&scene);
+        bool plain_blocks = false;
+        for (int side = 0; side < 4; side++)
+            plain_blocks |= strict_cross(sensor, hidden, corner[side], corner[(side + 1) % 4]);
+        bool in_view = lost_for(&scene, LOSS_BLOCKED) + scene.frame.echoes.count > 0;
+        naive += in_view && !plain_blocks;
+        ours += (double)scene.frame.echoes.count;
+    }
+    arena_free(&scene.arena);
+    hard_case("hidden", "points behind a corner that become targets", "wrong", naive, ours, 0);
+}
+
 /* The number of feet on two sides that a plain test finds, ends included. */
 static int plain_feet(struct vec2 a, struct vec2 joint, struct vec2 b, struct vec2 sensor)
 {
@@ -678,6 +717,7 @@ int main(void)
         cmocka_unit_test(no_ray_leaks_through_a_corner),
         cmocka_unit_test(no_ray_leaks_through_a_joint),
         cmocka_unit_test(no_object_hides_its_own_outline),
+        cmocka_unit_test(no_point_is_seen_through_a_corner),
         cmocka_unit_test(every_joint_has_one_foot),
         cmocka_unit_test(a_joint_up_to_rounding_has_one_foot_beside_it),
         cmocka_unit_test(an_outline_along_the_sight_line_blocks_the_foot),
