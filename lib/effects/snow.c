@@ -1,17 +1,12 @@
+/* Attenuation by snow by Gunn and East 1954 (MODEL 14.19). */
 #include "effects/effect.h"
 
-#include "base/elementary.h"
-#include "base/units.h"
+#include "propagation/attenuation.h"
 
-/* Gunn and East (1954): scattering by flakes smaller than the wave, and absorption (MODEL 14.19).
- */
 static const double *begin(const struct effect_scan *scan)
 {
     double rate_mmph = scan->frame->conditions.snow_mmph;
-    double wave_cm = 100 * units_wavelength_m(scan->sensor->carrier_hz);
-    double square = wave_cm * wave_cm;
-    return effect_constant(scan, 0.00349 * elementary_pow(rate_mmph, 1.6) / (square * square) +
-                                     0.00224 * rate_mmph / wave_cm);
+    return effect_constant(scan, attenuation_snow_dbpkm(scan->sensor->carrier_hz, rate_mmph));
 }
 
 const struct effect effect_snow = {

@@ -88,6 +88,14 @@ double attenuation_fog_dbpkm(double carrier_hz, double temperature_c, double wat
     return 0.819 * ghz / (loss * (1 + eta * eta)) * water_gpm3;
 }
 
+/* Scattering by flakes smaller than the wave, and absorption (Gunn and East 1954). */
+double attenuation_snow_dbpkm(double carrier_hz, double rate_mmph)
+{
+    double wave_cm = 100 * units_wavelength_m(carrier_hz), square = wave_cm * wave_cm;
+    double scattered = 0.00349 * elementary_pow(rate_mmph, 1.6) / (square * square);
+    return scattered + 0.00224 * rate_mmph / wave_cm;
+}
+
 double attenuation_amplitude_factor(double attenuation_dbpkm, double range_m)
 {
     return units_amplitude_from_db(-2 * attenuation_dbpkm * range_m / 1000);

@@ -1,7 +1,7 @@
-/* Attenuation by rain and fog, ITU-R P.838-3 and P.840 (MODEL 14.15).
+/* Attenuation by rain, fog and snow (MODEL 14.15, 14.19).
  *
- * The attenuation gamma, in dB/km, is one way. The law of rain holds for 1 to 1000 GHz, the law of
- * fog, with the double-Debye permittivity of water, up to 200 GHz. */
+ * The attenuation gamma, in dB/km, is one way. The law of rain, ITU-R P.838-3, holds for 1 to 1000
+ * GHz, the law of fog, P.840 with the double-Debye permittivity of water, up to 200 GHz. */
 #pragma once
 
 #include "propagation/carrier.h"
@@ -20,6 +20,10 @@ double attenuation_rain_dbpkm(struct attenuation_law law, double rate_mmph);
 /* gamma of fog. carrier_hz is in [1e9, 2e11], the temperature of the water in [-10, 50] deg C,
  * water_gpm3 >= 0; dense fog has 0.5 g/m^3. */
 double attenuation_fog_dbpkm(double carrier_hz, double temperature_c, double water_gpm3);
+
+/* gamma of dry snow; rate_mmph >= 0, as liquid water. For waves of 0.9 to 10 cm; shorter ones
+ * extrapolate. */
+double attenuation_snow_dbpkm(double carrier_hz, double rate_mmph);
 
 /* The factor on an echo's amplitude, there and back: 10^(-2 gamma R/(1000 · 20)). Exactly 1 for an
  * attenuation of 0. */
