@@ -212,6 +212,8 @@ static void deny(struct recorded_plausibility *plausibility, struct recorded_str
                  const struct recorded_stretch *before, double far_m, double fastest_mps,
                  double said_m)
 {
+    if (plausibility->counted)
+        return;
     if (plausibility->standing + plausibility->driving + plausibility->fast == 0)
         plausibility->first = now->place;
     if (isnan(fastest_mps))
@@ -427,4 +429,14 @@ int recorded_plausibility_check(const struct recorded_plausibility *plausibility
     if (all->stretches >= SURE_SLANTED && explains(all, RECORDED_YAW_RADIANS))
         return refuse_yaws(all, format, diag);
     return is_slanted(plausibility, ended) ? refuse_yaws(all, format, diag) : 0;
+}
+
+int recorded_plausibility_learn(struct recorded_plausibility *plausibility,
+                                const struct recorded_format *format, struct diag *diag)
+{
+    if (recorded_plausibility_check(plausibility, format, true, diag) != 0)
+        return -1;
+    plausibility->learned = true;
+    plausibility->standing = plausibility->driving = plausibility->fast = 0;
+    return 0;
 }

@@ -74,6 +74,7 @@ struct recorded_plausibility {
     bool forward; /* bodies never reverse, as those of SUMO */
     bool whole;   /* the recording is judged at its end alone */
     bool learned; /* the whole recording has been judged; only denied ways are counted again */
+    bool counted; /* nothing is counted any more */
     uint64_t ways, scatter[RECORDED_SCATTER_BINS]; /* ways by their deviations */
     size_t most;                                   /* the last bin that has ways */
     uint64_t agreeing;                             /* ways */
@@ -114,3 +115,8 @@ bool recorded_plausibility_follow(struct recorded_plausibility *plausibility,
 int recorded_plausibility_check(const struct recorded_plausibility *plausibility,
                                 const struct recorded_format *format, bool ended,
                                 struct diag *diag);
+
+/* Refuses a recording that has been followed as a whole, or else has learned its scatter: it is to
+ * be followed again, for its denied ways. */
+int recorded_plausibility_learn(struct recorded_plausibility *plausibility,
+                                const struct recorded_format *format, struct diag *diag);

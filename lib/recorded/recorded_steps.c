@@ -390,14 +390,14 @@ int recorded_steps_judge(struct recorded_steps *steps, struct diag *diag)
 {
     struct recorded_plausibility *plausibility = &steps->plausibility;
     const int64_t to_ns = steps->to_ns;
+    if (plausibility->learned)
+        return 0;
     steps->to_ns = INT64_MAX;
     plausibility->whole = true;
     while (!steps->ended)
         read_step(steps);
-    if (recorded_plausibility_check(plausibility, steps->reader.format, true, diag) != 0)
+    if (recorded_plausibility_learn(plausibility, steps->reader.format, diag) != 0)
         return -1;
-    plausibility->learned = true;
-    plausibility->standing = plausibility->driving = plausibility->fast = 0;
     steps->to_ns = to_ns;
     steps->read = 0;
     steps->jumps = (struct recorded_jump_counts){0};

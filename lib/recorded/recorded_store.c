@@ -15,6 +15,7 @@ struct store {
     struct recorded_memory memory;
     LIST_OF(int64_t) step_ns; /* times of the steps */
     double rate_hz;           /* of the instants; 0: the steps are those of the rows */
+    bool *begins; /* by row: a visit begins behind a denied way; NULL: not known, and none */
     /* What the reader gives next. */
     size_t stamp, instant;
     uint32_t row;           /* the last one of the stamp that was given; NONE */
@@ -141,11 +142,14 @@ static struct step_counts form_steps(struct store *store, double usual_ns)
 /* ---- rows at other times than their own ---- */
 
 /* Time between two rows of a road user; 0 if one is missing or they are those of two visits. */
-static double seconds_between(const struct recorded_memory *memory,
-                              const struct recorded_track *track, uint32_t from, uint32_t to)
+static double seconds_between(const struct store *store, const struct recorded_track *track,
+                              uint32_t from, uint32_t to)
 {
+    const struct recorded_memory *memory = &store->memory;
     if (from == RECORDED_NONE || to == RECORDED_NONE ||
         recorded_memory_between_ns(memory, from, to) > track->most_ns)
+        return 0;
+    if (store->begins != NULL && store->begins[to])
         return 0;
     return (double)recorded_memory_between_ns(memory, from, to) * 1e-9;
 }
@@ -159,14 +163,15 @@ static double rise(const struct recorded_memory *memory, uint32_t from, uint32_t
 }
 
 /* Finds the velocities and yaw rates that the rows of a road user lack. */
-static void find_rates(struct recorded_memory *memory, const struct recorded_track *track)
+static void find_rates(const struct store *store, const struct recorded_track *track)
 {
+    const struct recorded_memory *memory = &store->memory;
     for (uint32_t before = RECORDED_NONE, at = track->first, after; at != RECORDED_NONE;
          before = at, at = after) {
         struct recorded_memory_row *row = recorded_memory_row(memory, at);
         after = row->next;
-        double before_s = seconds_between(memory, track, before, at);
-        double after_s = seconds_between(memory, track, at, after);
+        double before_s = seconds_between(store, track, before, at);
+        double after_s = seconds_between(store, track, at, after);
         bool vector = !isnan(row->values[RECORDED_VY_MPS]);
         for (size_t i = 0; i < 2 && !vector; i++)
             row->values[RECORDED_VX_MPS + i] = recorded_steps_slope(
@@ -222,27 +227,74 @@ static void interpolate(struct recorded_row *row, const struct recorded_row *aft
     row->yaw_rate_radps = between.yaw_rate_radps;
 }
 
-/* Leaves one of rows that stand twice unchanged, and refuses different ones of one time, as the
- * steps of other recordings do. */
-static int drop_repeats(const struct store *store, const struct recorded_track *track,
-                        struct diag *diag)
+/* Leaves one of rows that stand twice unchanged. */
+static void drop_repeats(const struct recorded_memory *memory, const struct recorded_track *track)
 {
-    const struct recorded_memory *memory = &store->memory;
     for (uint32_t at = track->first; at != RECORDED_NONE;) {
         struct recorded_memory_row *row = recorded_memory_row(memory, at);
-        if (row->next == RECORDED_NONE || memory->stamp_at[row->next] != memory->stamp_at[at]) {
+        const struct recorded_memory_row *again = row;
+        if (row->next != RECORDED_NONE && memory->stamp_at[row->next] == memory->stamp_at[at])
+            again = recorded_memory_row(memory, row->next);
+        if (again != row && memcmp(again, row, offsetof(struct recorded_memory_row, place)) == 0)
+            row->next = again->next;
+        else
             at = row->next;
-            continue;
-        }
-        const struct recorded_memory_row *again = recorded_memory_row(memory, row->next);
-        if (memcmp(again, row, offsetof(struct recorded_memory_row, place)) != 0) {
-            struct recorded_row named;
-            recorded_memory_get(memory, at, &named);
-            return recorded_row_refuse_second(&store->format, named.id, named.time_ns, row->place,
-                                              again->place, diag);
-        }
-        row->next = again->next;
     }
+}
+
+/* ---- road users with times of their own ---- */
+
+/* Refuses different rows of one road user at one time, as the steps of other recordings do. */
+static int refuse_seconds(const struct store *store, const struct recorded_track *track,
+                          struct diag *diag)
+{
+    const struct recorded_memory *memory = &store->memory;
+    for (uint32_t at = track->first, after; at != RECORDED_NONE; at = after) {
+        struct recorded_row row;
+        after = recorded_memory_next(memory, at);
+        recorded_memory_get(memory, at, &row);
+        if (after != RECORDED_NONE && memory->stamp_at[after] == memory->stamp_at[at])
+            return recorded_row_refuse_second(&store->format, row.id, row.time_ns, row.place,
+                                              recorded_memory_row(memory, after)->place, diag);
+    }
+    return 0;
+}
+
+/* Compares the ways between the rows of each road user with its speeds. */
+static void follow_tracks(struct store *store, struct recorded_plausibility *plausibility)
+{
+    const struct recorded_memory *memory = &store->memory;
+    for (size_t i = 0; i < memory->order.count; i++) {
+        const struct recorded_track *track = &memory->tracks[memory->order.items[i]];
+        uint32_t at = track->first, after;
+        struct recorded_row row;
+        recorded_memory_get(memory, at, &row);
+        struct recorded_stretch before = recorded_plausibility_begin(&row);
+        for (; (after = recorded_memory_next(memory, at)) != RECORDED_NONE; at = after) {
+            recorded_memory_get(memory, after, &row);
+            struct recorded_stretch now = recorded_plausibility_begin(&row);
+            store->begins[after] = false;
+            double length_s = seconds_between(store, track, at, after);
+            store->begins[after] =
+                length_s > 0 && !recorded_plausibility_follow(plausibility, &now, &before, length_s,
+                                                              RECORDED_WAY_PLAIN);
+            before = now;
+        }
+    }
+}
+
+/* Judges the recording by the rows, as what is interpolated between them contradicts nothing. */
+static int judge_tracks(struct store *store, struct recorded_plausibility *plausibility,
+                        struct diag *diag)
+{
+    size_t size = store->memory.rows * sizeof *store->begins;
+    store->begins = arena_get(store->memory.arena, size);
+    plausibility->whole = true;
+    follow_tracks(store, plausibility);
+    if (recorded_plausibility_learn(plausibility, &store->format, diag) != 0)
+        return -1;
+    follow_tracks(store, plausibility);
+    plausibility->counted = true;
     return 0;
 }
 
@@ -293,9 +345,10 @@ static void begin_instant(struct store *store, int64_t time_ns)
 }
 
 /* The state of a road user at an instant; false if it is not there. */
-static bool state_at(const struct recorded_memory *memory, struct recorded_track *track,
-                     int64_t time_ns, struct recorded_row *row)
+static bool state_at(const struct store *store, struct recorded_track *track, int64_t time_ns,
+                     struct recorded_row *row)
 {
+    const struct recorded_memory *memory = &store->memory;
     uint32_t to;
     while ((to = recorded_memory_next(memory, track->at)) != RECORDED_NONE &&
            recorded_memory_time_ns(memory, to) <= time_ns)
@@ -303,7 +356,7 @@ static bool state_at(const struct recorded_memory *memory, struct recorded_track
     recorded_memory_get(memory, track->at, row);
     if (row->time_ns == time_ns)
         return true;
-    double length_s = seconds_between(memory, track, track->at, to);
+    double length_s = seconds_between(store, track, track->at, to);
     if (length_s == 0)
         return false;
     double since_s = (double)(time_ns - row->time_ns) * 1e-9;
@@ -327,7 +380,7 @@ static int next_state(struct store *store, struct recorded_row *row)
         begin_instant(store, time_ns);
     while (store->given < store->live.count) {
         struct recorded_track *track = &memory->tracks[store->live.items[store->given++]];
-        if (state_at(memory, track, time_ns, row))
+        if (state_at(store, track, time_ns, row))
             return RECORDED_ROW;
     }
     store->given = 0;
@@ -354,15 +407,19 @@ void recorded_store_rewind(struct recorded_reader reader)
 }
 
 /* Makes steps of the rows, or instants if road users have times of their own. */
-static int choose_times(struct store *store, double rate_hz, struct diag *diag)
+static int choose_times(struct store *store, double rate_hz,
+                        struct recorded_plausibility *plausibility, struct diag *diag)
 {
     struct recorded_memory *memory = &store->memory;
     recorded_memory_sort(memory);
     recorded_memory_link_by_track(memory);
+    for (size_t i = 0; i < memory->order.count; i++)
+        drop_repeats(memory, &memory->tracks[memory->order.items[i]]);
     double usual_ns = find_usual_steps(memory);
     recorded_memory_link_by_stamp(memory);
     struct step_counts counts = form_steps(store, usual_ns);
-    bool apart = (double)counts.torn > RECORDED_STORE_APART_SHARE * (double)counts.pairs;
+    double most = rate_hz > 0 ? 0 : RECORDED_STORE_APART_SHARE * (double)counts.pairs;
+    bool apart = (double)counts.torn > most;
     if (apart && rate_hz <= 0)
         return diag_fail(diag, DIAG_DATA,
                          "the road users have times of their own: of %zu times between two rows of "
@@ -372,12 +429,13 @@ static int choose_times(struct store *store, double rate_hz, struct diag *diag)
     if (!apart && counts.moved == 0)
         return 0;
     recorded_memory_link_by_track(memory);
-    for (size_t i = 0; i < memory->order.count; i++) {
-        const struct recorded_track *track = &memory->tracks[memory->order.items[i]];
-        if (apart && drop_repeats(store, track, diag) != 0)
+    for (size_t i = 0; apart && i < memory->order.count; i++)
+        if (refuse_seconds(store, &memory->tracks[memory->order.items[i]], diag) != 0)
             return -1;
-        find_rates(memory, track);
-    }
+    if (apart && judge_tracks(store, plausibility, diag) != 0)
+        return -1;
+    for (size_t i = 0; i < memory->order.count; i++)
+        find_rates(store, &memory->tracks[memory->order.items[i]]);
     if (apart)
         store->rate_hz = rate_hz;
     else
@@ -386,6 +444,7 @@ static int choose_times(struct store *store, double rate_hz, struct diag *diag)
 }
 
 struct recorded_reader recorded_store_open(struct recorded_reader reader, double rate_hz,
+                                           struct recorded_plausibility *plausibility,
                                            struct arena *arena, struct diag *diag)
 {
     struct store *store = arena_get(arena, sizeof *store);
@@ -403,7 +462,7 @@ struct recorded_reader recorded_store_open(struct recorded_reader reader, double
     }
     if (reader.format->close != NULL)
         reader.format->close(reader.state);
-    if (event < 0 || choose_times(store, rate_hz, diag) != 0)
+    if (event < 0 || choose_times(store, rate_hz, plausibility, diag) != 0)
         return (struct recorded_reader){0};
     recorded_store_rewind(stored);
     return stored;

@@ -8,11 +8,13 @@
  * time by its velocity and yaw rate. A step has no two stamps of one road user.
  *
  * Road users have times of their own if more than RECORDED_STORE_APART_SHARE of their successive
- * rows have a step of others in between, absences aside. Then they are interpolated, each between
- * its own rows, at the instants of a rate. Rows farther apart than 1.5 times the usual step of
- * their road user are those of two visits. */
+ * rows have a step of others in between, absences aside; if there is a rate, if any have. Then they
+ * are interpolated, each between its own rows, at the instants of the rate. Rows farther apart than
+ * 1.5 times the usual step of their road user, or with a denied way in between, are those of two
+ * visits. */
 #pragma once
 
+#include "recorded/recorded_plausibility.h"
 #include "recorded/recorded_row.h"
 
 #define RECORDED_STORE_STEP_SHARE 0.1
@@ -20,8 +22,10 @@
 
 /* Reads all rows of a reader and closes it. The new reader gives them in the order of time and
  * marks steps; its format is NULL after a message. Road users with times of their own are refused
- * if there is no rate (rate_hz <= 0). Memory is that of recorded_memory.h. */
+ * if there is no rate (rate_hz <= 0); with one, they are judged here, as their rows are not given.
+ * Memory is that of recorded_memory.h. */
 struct recorded_reader recorded_store_open(struct recorded_reader reader, double rate_hz,
+                                           struct recorded_plausibility *plausibility,
                                            struct arena *arena, struct diag *diag);
 
 /* Such a reader gives all rows again. */

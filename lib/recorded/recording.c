@@ -95,8 +95,8 @@ static int prepare(struct recording *recording, struct diag *diag)
     bool stored = !steps->reader.format->by_time;
     steps->plausibility.forward = steps->reader.format->of_sumo;
     if (stored)
-        steps->reader =
-            recorded_store_open(steps->reader, options->rate_hz, recording->arena, diag);
+        steps->reader = recorded_store_open(steps->reader, options->rate_hz, &steps->plausibility,
+                                            recording->arena, diag);
     if (steps->reader.format == NULL ||
         recorded_classes_begin(&steps->classes, steps->reader.format, options->class_map,
                                options->class_default, recording->arena, diag) != 0)

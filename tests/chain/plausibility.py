@@ -199,6 +199,61 @@ def parked_vehicles_leave_their_lane(folder):
                 check(fastest < 1e-6 if visits == 2 else 0.5 < fastest < 1.7, f"{path}: {fastest} m/s, {other} at {dt} s")
 
 
+def table(folder, users, stamp, change=lambda rows: rows):
+    """A table of INTERACTION of 4 s in which every user has a row each 0.1 s, at stamp(number, step)."""
+    path = os.path.join(folder, "own.csv")
+    rows = []
+    for number, user in enumerate(users):
+        for step in range(40):
+            time_s = stamp(number, step)
+            at = user.at(time_s)
+            rows.append(f"{user.id},{1000000 * time_s:.0f},car,{at.x:.4f},{at.y:.4f},{at.vx:.4f},{at.vy:.4f},{at.yaw:.4f},4.5,1.8\n")
+    with open(path, "w", encoding="ascii") as file:
+        file.write("track_id,timestamp_us,agent_type,x,y,vx,vy,psi_rad,length,width\n" + "".join(change(rows)))
+    return path
+
+
+def times_of_their_own_are_judged(folder):
+    """Between rows without common stamps, too, denied ways begin visits, and contradictions of units are refused."""
+    def own(number, step):
+        return 0.1 * step + 0.03 * number
+    def aside(pose, time_s):
+        pose.y += 14.6 if 1.5 < time_s < 2.5 else 0
+    for rate in ("3", "10", "25"):
+        path = table(folder, changed(traffic(), aside, "1"), own)
+        frames = run("glint-traffic", path, "--ego", "1", "--rate-hz", rate)
+        check(len({frame["scene"] for frame in frames}) == 3, f"visits at {rate} Hz")
+        for frame in frames:
+            part = next(part for part in frame["objects"] if part["id"] == "1")
+            check(math.hypot(part["vx_mps"], part["vy_mps"]) < 15.1 and part["travelled_m"] < 61, f"{part} at {rate} Hz")
+    text, _ = run("glint-traffic", table(folder, changed(traffic(), scaled(vx=3.6, vy=3.6)), own), "--ego", "1", "--rate-hz", "10",
+                  fails=65)
+    check("as with speeds in km/h" in text, text)
+
+
+def a_rare_road_user_is_interpolated(folder):
+    """One has a row a second and the others ten: its scene is whole under --rate-hz."""
+    path = table(folder, traffic(), lambda number, step: 0.1 * step,
+                 lambda rows: [row for i, row in enumerate(rows) if i >= 40 or i % 10 == 0])
+    frames = run("glint-traffic", path, "--ego", "1", "--rate-hz", "10")
+    check(len(frames) == 31 and len({frame["scene"] for frame in frames}) == 1, f"{len(frames)} frames of a rare ego")
+
+
+def rows_that_stand_twice_are_read_once(folder):
+    """Any row, the last one and all of them; with stamps that agree, that jitter, and that are of their own."""
+    draw = random.Random(3)
+    stamps = ((), lambda number, step: 0.1 * step), ((), lambda number, step: 0.1 * step + draw.uniform(0, 0.004)), (
+        ("--rate-hz", "10"), lambda number, step: 0.1 * step + 0.03 * number)
+    for words, stamp in stamps:
+        times = {}
+        def kept(number, step, times=times, stamp=stamp):
+            return times.setdefault((number, step), stamp(number, step))
+        once = run("glint-traffic", table(folder, traffic(), kept), "--ego", "1", *words)
+        for again in (slice(0, 1), slice(57, 58), slice(39, 40), slice(159, 160), slice(0, 160)):
+            path = table(folder, traffic(), kept, lambda rows, again=again: rows + rows[again])
+            check(run("glint-traffic", path, "--ego", "1", *words) == once, f"rows {again} twice")
+
+
 def mesoscopic_places_are_refused(folder):
     """Cars of SUMO's mesoscopic model stand for five seconds, and are then 70 m ahead."""
     path = os.path.join(folder, "meso.xml")
@@ -230,6 +285,7 @@ def real_files_stay_whole():
 def main():
     for test in (true_recordings_stay_whole, denied_ways_begin_visits, contradictions_are_refused,
                  yaws_in_degrees_are_refused, yaws_counted_the_other_way_are_refused, parked_vehicles_leave_their_lane,
+                 times_of_their_own_are_judged, a_rare_road_user_is_interpolated, rows_that_stand_twice_are_read_once,
                  mesoscopic_places_are_refused):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)

@@ -47,7 +47,9 @@ static struct recorded_row circling(const char *id, double time_ms, size_t place
 static struct recorded_reader stored(struct given *given, double rate_hz, struct arena *arena,
                                      struct diag *diag)
 {
-    return recorded_store_open((struct recorded_reader){&format, given}, rate_hz, arena, diag);
+    struct recorded_plausibility plausibility = {0};
+    return recorded_store_open((struct recorded_reader){&format, given}, rate_hz, &plausibility,
+                               arena, diag);
 }
 
 static int compare_letters(const void *one, const void *other)
