@@ -70,11 +70,11 @@ static void elevations(void **state)
             OVER(30), raised(3).cosine, raised(5).cosine, raised(10).cosine, raised(30).cosine);
 }
 
-/* The loss under a van that ends there, by the wave that the road mirrors. */
-static double under_db(double end_m)
+/* The loss under a van that begins there, by the wave that the road mirrors. */
+static double under_db(double from_m)
 {
-    const struct vec2 van[] = {
-        {end_m - 6.5, -1.08}, {end_m, -1.08}, {end_m, 1.08}, {end_m - 6.5, 1.08}};
+    double to_m = from_m + 6.5;
+    const struct vec2 van[] = {{from_m, -1.08}, {to_m, -1.08}, {to_m, 1.08}, {from_m, 1.08}};
     const struct obstruction_line line = {{0, 0}, {40, 0}, 0.5, -0.48};
     const struct obstruction_heights body = {0.19, 2.86};
     struct obstruction past = obstruction_of(van, 4, body, &line, units_wavelength_m(76.5e9));
