@@ -296,7 +296,7 @@ man: all
 # layout of this tree, so that commands of pages run there. What tests and measures glint stays here.
 doc = $(DESTDIR)$(PREFIX)/share/doc/glint
 scripts = dataset check-set export make-radar tracker
-doc_pages = README.md CHANGES.md MODEL.md LICENSE scripts/README.md \
+doc_pages = README.md OTHERS.md CHANGES.md MODEL.md LICENSE scripts/README.md \
     $(wildcard lib/*/MODEL.md stages/README.md tests/*/README.md)
 # One file under the names of several programs, without what only a debugger reads.
 bin = $(DESTDIR)$(PREFIX)/bin
