@@ -435,7 +435,7 @@ class Loop:
             if read in ready:
                 more = os.read(read, 1 << 20)
                 if not more:
-                    status, _ = self.end(patience_s=0.5), self.told.seek(0)
+                    status, _ = self.end(patience_s=5), self.told.seek(0)
                     raise ChainError(f"exit status {status}: {self.told.read().decode(errors='replace').strip() or self.chain}", status)
                 self.answers += more
             if write in ready:
