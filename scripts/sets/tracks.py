@@ -78,14 +78,14 @@ def ways_of(frames):
 
 def shift_of(one, other):
     """From the place of one body to that of another, if it is the same, to the centimetre, at each time that both have, and these
-    are half of the times of one of them; else None."""
-    shifts = ([there - here for here, there in zip(place, other[time_us])] for time_us, place in one.items() if time_us in other)
-    first, common = next(shifts, None), 1
-    for shift in shifts:
-        if math.dist(shift, first) > STEP_M:
-            return None
-        common += 1
-    return first if first and 2 * common >= min(len(one), len(other)) else None
+    reach over half of the time of one of them; else None."""
+    common = sorted(one.keys() & other)
+    shifts = ([there - here for here, there in zip(one[time_us], other[time_us])] for time_us in common)
+    first = next(shifts, None)
+    if any(math.dist(shift, first) > STEP_M for shift in shifts):
+        return None
+    lasts = min(max(way) - min(way) for way in (one, other))
+    return first if first and 2 * (common[-1] - common[0]) >= lasts else None
 
 
 def same_scene(one, other):

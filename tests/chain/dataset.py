@@ -559,7 +559,7 @@ def scenes_that_differ_by_a_body_are_alike(folder):
     leaks = {"more": base + [parked[0]], "less": base[:2] + base[3:], "changed": [ego, lead | {"x_m": 50}, slow, rail],
              "other-ego": [ego | {"speed_mps": 22, "x_m": 3}, lead, slow, rail], "elsewhere": moved(base, x_m=500, y_m=20)}
     sources = {name: scenario(name, objects) for name, objects in leaks.items()}
-    sources |= {"slower": scenario("slower", base, rate_hz=10), "shorter": scenario("shorter", base, duration_s=1)}
+    sources |= {"slower": scenario("slower", base, rate_hz=10), "aside": scenario("aside", base, rate_hz=15), "shorter": scenario("shorter", base, duration_s=1)}
     by_kind = {"splits": {"by": "kind", "shares": {"train": 0.5, "test": 0.5}}}
 
     def plan(one, two):
