@@ -110,6 +110,11 @@ def check_names():
     for folder, text, is_history in pages():
         for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", text):
             assert os.path.exists(os.path.join(folder, target)), f"{folder}: a link leads to {target}, which is not installed"
+        for name in re.findall(r"(?<![\w./-])scripts/[\w-]+(?![\w./-])", text):
+            gone = is_history and not os.path.exists(os.path.join(os.path.dirname(__file__), "..", "..", name))
+            assert gone or os.path.exists(os.path.join(DOCUMENTS, name)), f"{folder}: {name} is not installed"
+        for target, after in re.findall(r"`make ([a-z]+)[^`]*`(.{0,20})", text, re.DOTALL):
+            assert target in ("install", "uninstall", "part") or after.startswith(" of the source tree"), f"{folder}: make {target}: no Makefile is installed"
         if is_history:
             continue
         for name in re.findall(r"\bglint(?:-[a-z0-9]+)*(?= -|\b[^-a-z0-9/._*])", text):
