@@ -19,13 +19,13 @@
 
 enum { PRINTED_MOST = 16, PRINTED_PAGE = 1 << 17 };
 
-/* Appends a file, if there is room, with one blank for any white space but ends of lines. */
+/* Reads a file into the text, as far as there is room. */
 static inline void printed_read(const char *path, char *text)
 {
     FILE *file = fopen(path, "r");
     if (file == NULL)
         fail_msg("%s cannot be read", path);
-    size_t length = strlen(text);
+    size_t length = 0;
     for (int byte; (byte = fgetc(file)) != EOF && length + 2 < PRINTED_PAGE;)
         text[length++] = (char)byte;
     text[length] = '\0';
@@ -38,9 +38,10 @@ static inline char *printed_section(char *text, const char *section)
     size_t length = strlen(section);
     for (char *line = text; line != NULL; line = strchr(line, '\n')) {
         line += *line == '\n';
-        const char *name = line + strspn(line, "#");
-        if (name == line || *name != ' ' || strncmp(name + 1, section, length) != 0 ||
-            strchr(" .", name[1 + length]) == NULL || isdigit((unsigned char)name[2 + length]))
+        const char *name = line + strspn(line, "#"), *after = name + 1 + length;
+        if (name == line || *name != ' ' || strncmp(name + 1, section, length) != 0)
+            continue;
+        if (*after != ' ' && (*after != '.' || isdigit((unsigned char)after[1])))
             continue;
         char *end = strstr(line + 1, "\n#");
         if (end != NULL)
@@ -53,7 +54,6 @@ static inline char *printed_section(char *text, const char *section)
 /* The text of a section of the model, or of a page. */
 static inline const char *printed_text(const char *where, char *text)
 {
-    *text = '\0';
     if (strstr(where, ".md") != NULL) {
         printed_read(where, text);
         return text;
@@ -63,7 +63,6 @@ static inline const char *printed_text(const char *where, char *text)
     assert_int_equal(glob("MODEL.md", GLOB_APPEND, NULL, &pages), 0);
     char *found = NULL;
     for (size_t i = 0; i < pages.gl_pathc && found == NULL; i++) {
-        *text = '\0';
         printed_read(pages.gl_pathv[i], text);
         found = printed_section(text, where);
     }
