@@ -97,7 +97,7 @@ def no_ratio(checks):
     checks.hold(not scale.told, "a ratio to a distance whose interval reaches 0")
     rows = [{"radar": radar, "group": "models", "chain": "perfect", "scenes": 2, "seeds": 8, "us": 1}
             for radar in RADARS]
-    checks.hold(written.markdown(rows, []).count("not told from the reference") == len(RADARS), "no word of that")
+    checks.hold(written.markdown(rows).count("not told from the reference") == len(RADARS), "no word of that")
 
 
 def settings(checks, radar, cache):

@@ -2,8 +2,6 @@
 import csv
 import os
 
-from chains import BASES
-
 COST = ["radar", "group", "chain", "scenes", "seeds", "us", "root", "root_low", "root_high", "gain", "gain_low",
         "gain_high", "digest"]
 KNOBS = ["radar", "group", "setting", "us", "off", "root", "root_low", "root_high", "bytes"]
@@ -47,34 +45,25 @@ def spent(us):
     return f"{us:.3g} µs" if us < 1000 else f"{us / 1000:.3g} ms"
 
 
-def with_interval(row):
-    """An effect's gain."""
-    return f"{row['gain']:.2f} ({row['gain_low']:.2f} to {row['gain_high']:.2f})" if "gain" in row else "not told"
-
-
 def error(row):
-    """The error as text: "<" and its upper end if the interval reaches 0."""
+    """The error as text: "<" and its upper end if the interval reaches 0; alone if it has none, as ideal echoes."""
     if "root" not in row:
         return "not told"
+    if row["root_low"] == row["root_high"]:
+        return f"{row['root']:.0f}"
     if row["root_low"] <= 0:
         return f"<{row['root_high']:.1f}"
     return f"{row['root']:.1f} ({row['root_low']:.1f} to {row['root_high']:.1f})"
 
 
-def scale(rows, radar):
-    """The line of the scale: errors of spoiled lists of the reference."""
-    own = pick(rows, radar=radar, group="scale")
-    return "For scale: " + ", ".join(f"{row['chain']} {error(row)} %" for row in own) + ".\n" if own else ""
-
-
-def models(rows, radar):
-    """Chains of a radar: error with its interval, and time."""
-    of = pick(rows, radar=radar)
-    text = f"\n### {RADARS[radar].capitalize()}\n\n{of[0]['scenes']:.0f} scenes, {of[0]['seeds']:.0f} seeds of the reference.\n"
-    text += scale(rows, radar) + "\n" + head(["chain", "error, %", "time", "points of the squared error less than"])
-    for row in (row for row in of if row["group"] in ("models", "reference")):
-        less = f"{BASES[row['chain']]}: " + with_interval(row) if "gain" in row else ""
-        text += line([row["chain"], error(row), spent(row["us"]) if "us" in row else "", less])
+def models(rows, radars):
+    """Chains, and spoiled lists of the reference, by radar: error with its interval, and time."""
+    own = [row for row in rows if row["group"] in ("scale", "models", "reference")]
+    names = list(dict.fromkeys(row["chain"] for group in ("scale", "models", "reference") for row in pick(own, group=group)))
+    text = head(["lists", *(f"{RADARS[radar]}: error, %" for radar in radars)])
+    for name in names:
+        found = {row["radar"]: error(row) + (f"; {spent(row['us'])}" if "us" in row else "") for row in pick(own, chain=name)}
+        text += line([name, *(found.get(radar, "") for radar in radars)])
     return text
 
 
@@ -105,84 +94,40 @@ def spent_more(rows, row):
     return row["us"] - base["us"] if row["group"] == "added" else base["us"] - row["us"]
 
 
-def noise_us(rows, radar):
-    """Differences of times below it are not significant: twice the RMS over the effects that change no list."""
-    more = [spent_more(rows, row) for row in pick(rows, radar=radar)
-            if row["group"] in ("added", "left out") and not changes(row)]
-    return 2 * (sum((us or 0) ** 2 for us in more) / max(len(more), 1)) ** 0.5
+def gain(rows, radar, group, name):
+    """What an effect gains, as text: "-" if it is not significant, nothing where the radar has no such row."""
+    found = pick(rows, radar=radar, group=group, chain=name)
+    return "".join(f"{row['gain']:.1f}" if told(row) else "-" for row in found)
 
 
-def effect_cells(rows, row, noise):
-    if row is None:
-        return ["", "", ""]
-    more = spent_more(rows, row)
-    rate = ""
-    if told(row) > 0 and more is not None:
-        rate = f"{row['gain'] / more:.2g}" if more > noise else "free"
-    return [with_interval(row), "" if more is None else f"{more:.0f}", rate]
+LEAST = 1  # points that an effect of the table gains or harms somewhere
 
 
-def effects(rows, radar):
-    """What each effect gains and takes, added to the paper's and left out of all."""
-    if not measured(rows, radar):
-        return ""
-    own = [row for row in pick(rows, radar=radar) if row["group"] in ("added", "left out") and changes(row)]
-    found = {(row["group"], row["chain"]): row for row in own}
-    noise = noise_us(rows, radar)
-    text = f"\nEffects, {RADARS[radar]}: points of the squared error that an effect takes away; "
-    text += f"differences of times below {noise:.0f} µs are not significant\n\n"
-    text += head(["effect", "added to the paper's model", "µs", "points per µs", "in all others", "µs", "points per µs"])
-    gains = {}
-    for row in own:
-        gains[row["chain"]] = max(gains.get(row["chain"], -1000), row.get("gain", 0))
-    for name in sorted(gains, key=lambda name: -gains[name]):
-        text += line([name, *(cell for group in ("added", "left out")
-                              for cell in effect_cells(rows, found.get((group, name)), noise))])
+def effects(rows, radars):
+    """What each effect gains, added to the paper's and in all others; those that matter."""
+    most = {}
+    for row in rows:
+        if row["group"] in ("added", "left out") and told(row):
+            most[row["chain"]] = max(most.get(row["chain"], 0), abs(row["gain"]))
+    text = "\n" + head(["points that an effect gains: added to the paper's / in all others", *(RADARS[radar] for radar in radars)])
+    for name in sorted((name for name in most if most[name] >= LEAST), key=lambda name: -most[name]):
+        pairs = [[gain(rows, radar, group, name) for group in ("added", "left out")] for radar in radars]
+        text += line([name, *(f"{added or ' '} / {left_out}".strip() if added or left_out else "" for added, left_out in pairs)])
     return text
 
 
-def verdicts(rows, radar):
-    """What the intervals support, in words."""
-    text = "\n"
-    if not measured(rows, radar):
-        return text + "Ideal echoes are not told from the reference, so there are no errors.\n"
-    for group, where in (("added", "added to the paper's model"), ("left out", "in all others")):
-        own = pick(rows, radar=radar, group=group)
-        said = {"gain": [row for row in own if told(row) > 0], "harm": [row for row in own if told(row) < 0],
-                "have no significant gain, or one below 0.01": [row for row in own if not told(row) and changes(row)],
-                "change no list here": [row for row in own if not changes(row)]}
-        for verb, of in said.items():
-            names = ", ".join(row["chain"] for row in sorted(of, key=lambda row: -abs(row.get("gain", 0))))
-            text += f"- {where}, {verb}: {names}\n" if of else ""
-    return text
-
-
-UNITS = {"table": "greatest error, rad", "spacing": "error from 0.05 m, %", "digits": "GOSPA, cells",
-         "plumbing": ""}
-
-
-def knob(rows, group):
-    own = pick(rows, group=group)
-    columns = [key for key in ("off", "us", "bytes") if any(key in row or (key == "off" and "root" in row) for row in own)]
-    names = {"off": UNITS[group], "us": "time", "bytes": "bytes a frame"}
-    text = f"\n### {group.capitalize()}\n\n" + head(["radar", group, *(names[key] for key in columns)])
-    for row in own:
-        cells = {"us": spent(row["us"]) if "us" in row else "", "bytes": f"{row.get('bytes', 0):.0f}",
-                 "off": error(row) if "root" in row else f"{row.get('off', 0):.3g}"}
-        text += line([row["radar"] or "any", row["setting"], *(cells[key] for key in columns)])
-    return text
-
-
-def markdown(cost, settings):
+def markdown(cost):
     """The tables of data/accuracy/README.md."""
-    return "".join(models(cost, radar) + verdicts(cost, radar) + effects(cost, radar)
-                   for radar in RADARS if pick(cost, radar=radar)).lstrip("\n") + "".join(
-        knob(settings, group) for group in UNITS if pick(settings, group=group))
+    radars = [radar for radar in RADARS if pick(cost, radar=radar)]
+    text = models(cost, radars) + "".join(
+        f"\n{RADARS[radar].capitalize()}: ideal echoes are not told from the reference, so there are no errors.\n"
+        for radar in radars if not measured(cost, radar))
+    return text + effects(cost, radars)
 
 
 def renew_page(path, tables):
-    """Replaces what stands behind the heading of the tables, the end of the page."""
+    """Replaces what stands behind the heading of the tables, up to the next one."""
     with open(path) as file:
-        text = file.read().partition(BEGIN)[0]
+        before, _, behind = file.read().partition(BEGIN)
     with open(path, "w") as out:
-        out.write(text + BEGIN + tables)
+        out.write(before + BEGIN + tables + "\n" + behind[behind.index("## "):])
