@@ -1,9 +1,11 @@
-/* The numbers that lib/documents/MODEL.md and MODEL.md print. */
+/* The numbers that lib/documents/MODEL.md, MODEL.md and the pages on sensors print. */
 #include "support/printed.h"
 
 #include "base/units.h"
 #include "documents/reflector_models.h"
+#include "radar/array.h"
 #include "radar/interferer.h"
+#include "radar/monopulse.h"
 #include "radar/radar_equation.h"
 
 #define DEGREE (PI / 180)
@@ -59,6 +61,43 @@ static void dwells(void **state)
     PRINTED("10.1", "λ/(2 Y), # ms for RadarScenes'", 500 * units_wavelength_m(77e9) / 0.028);
 }
 
+/* The spacing, in wavelengths, of so many receivers whose beam is so wide. */
+static double spacing_of(size_t receivers, double beam_degrees)
+{
+    struct array_element sender = {0}, places[ARRAY_MOST_ELEMENTS];
+    for (size_t i = 0; i < receivers; i++)
+        places[i] = (struct array_element){(double)i};
+    struct array_layout layout = {.taper = TAPER_RECTANGULAR};
+    layout.transmit.items = &sender;
+    layout.transmit.count = 1;
+    layout.receive.items = places;
+    layout.receive.count = receivers;
+    struct array array = array_of(&layout);
+    return array_beam(&array) / sin(beam_degrees * DEGREE);
+}
+
+/* Two equal echoes at 10 degrees to either side, with phases counted from one dipole. */
+static double of_two_cars_degrees(void)
+{
+    struct antenna antenna = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
+    struct antenna_pointers left = antenna_pointers(&antenna, 10 * DEGREE);
+    struct antenna_pointers right = antenna_pointers(&antenna, -10 * DEGREE);
+    struct antenna_pointers both = {left.sum + right.sum, left.delta + right.delta};
+    return monopulse_angle(&antenna, MONOPULSE_MAGNITUDE, both).azimuth_rad / DEGREE;
+}
+
+static void pages_on_sensors(void **state)
+{
+    (void)state;
+    static const char page[] = "data/sensors/README.md", mine[] = "data/sensors/MY_RADAR.md";
+    double wavelength_m = units_wavelength_m(77e9);
+    PRINTED(page, "0.1 km/h takes # ms", 500 * wavelength_m / (0.1 / 3.6));
+    PRINTED(page, "0.033 m/s (# km/h, # ms)", 0.033 * 3.6, 500 * wavelength_m / 0.033);
+    PRINTED(page, "appear as one at #° instead", of_two_cars_degrees());
+    PRINTED(mine, "1.6 degrees: 10 receivers # wavelengths apart", spacing_of(10, 1.6));
+    PRINTED(mine, "3.2 degrees: 28 receivers # wavelengths apart", spacing_of(28, 3.2));
+}
+
 static void constants(void **state)
 {
     (void)state;
@@ -72,10 +111,8 @@ static void constants(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sensing_targets),
-        cmocka_unit_test(contours),
-        cmocka_unit_test(dwells),
-        cmocka_unit_test(constants),
+        cmocka_unit_test(sensing_targets),  cmocka_unit_test(contours),  cmocka_unit_test(dwells),
+        cmocka_unit_test(pages_on_sensors), cmocka_unit_test(constants),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
