@@ -9,7 +9,7 @@ static const double BOUND_M = 2, BOUND_MPS2 = 1, BOUND_SHARE = 0.25, BOUND_SCATT
                     MOST_NOISE_M = 12, ALIKE = 1.5, STANDS_MPS = 0.1, SLANT_RAD = PI / 6,
                     REST_M = 50, REST_SHARE = 5e-3;
 enum { CLEAN_WAYS = 30, SURE_WAYS = 200, SURE_DENIED = 8, SURE_M = 10 };
-enum { SURE_SLANTED = 3, SURE_EXPLAINED = 2, SURE_YAWS = 20 };
+enum { SURE_SLANTED = 3, SURE_EXPLAINED = 2, SURE_EXPLAINED_YAWS = 8, SURE_YAWS = 20 };
 
 /* ---- ways ---- */
 
@@ -200,7 +200,7 @@ static void end_stretch(struct recorded_plausibility *plausibility, struct recor
         return;
     if (whole && timely && stated)
         judge_length(plausibility, now, moved_m, led_m);
-    if (whole && timely && moved_m >= least_m)
+    if (whole && timely && moved_m >= least_m / ALIKE)
         judge_yaw(plausibility, now);
     begin_stretch(now);
 }
@@ -403,11 +403,14 @@ static int refuse_yaws(const struct recorded_slants *slants, const struct record
 static bool is_slanted(const struct recorded_plausibility *plausibility, bool ended)
 {
     const struct recorded_slants *all = &plausibility->all;
-    bool explained = explains(all, RECORDED_YAW_COMPASS) || explains(all, RECORDED_YAW_MIRRORED);
-    size_t users = SURE_SLANTED;
-    if (explained)
+    size_t users = SURE_SLANTED, stretches = SURE_YAWS;
+    bool explained = (!plausibility->forward && explains(all, RECORDED_YAW_DEGREES)) ||
+                     explains(all, RECORDED_YAW_COMPASS) || explains(all, RECORDED_YAW_MIRRORED);
+    if (explained) {
         users = plausibility->forward ? 1 : SURE_EXPLAINED;
-    return all->stretches >= (ended ? SURE_YAWS : SURE_WAYS) && plausibility->slanted >= users &&
+        stretches = SURE_EXPLAINED_YAWS;
+    }
+    return all->stretches >= (ended ? stretches : SURE_WAYS) && plausibility->slanted >= users &&
            (explained || 3 * all->contradicting > 2 * all->stretches);
 }
 
@@ -426,7 +429,8 @@ int recorded_plausibility_check(const struct recorded_plausibility *plausibility
         return refuse_speeds(plausibility, format, diag);
     if (far->stretches >= SURE_SLANTED && explains(far, RECORDED_YAW_DEGREES))
         return refuse_yaws(far, format, diag);
-    if (all->stretches >= SURE_SLANTED && explains(all, RECORDED_YAW_RADIANS))
+    if (all->stretches >= (ended ? SURE_SLANTED : SURE_EXPLAINED_YAWS) &&
+        explains(all, RECORDED_YAW_RADIANS))
         return refuse_yaws(all, format, diag);
     return is_slanted(plausibility, ended) ? refuse_yaws(all, format, diag) : 0;
 }

@@ -216,6 +216,17 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
 
 /* ---- reading a step ---- */
 
+static int refuse_time(const struct recorded_steps *steps, const struct recorded_step *step,
+                       const struct recorded_step *last, struct diag *diag)
+{
+    return diag_fail(diag, DIAG_DATA,
+                     "%s %zu: %.12g s after a step of %.12g s; expected a later time, by at most "
+                     "1e6 s",
+                     steps->reader.format->place, steps->row.place,
+                     recorded_row_seconds(step->time_ns), recorded_row_seconds(last->time_ns));
+}
+
+/* A step may have the time of the one before if it is the same one again. */
 static int begin_step(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
 {
     step->time_ns = steps->row.time_ns;
@@ -223,13 +234,9 @@ static int begin_step(struct recorded_steps *steps, struct recorded_step *step, 
         return 0;
     struct recorded_step *last = step_at(steps, steps->read - 1);
     step->interval_ns = step->time_ns - last->time_ns;
-    if (step->interval_ns <= 0 || step->interval_ns > INT64_C(1000000) * 1000000000)
-        return diag_fail(diag, DIAG_DATA,
-                         "%s %zu: %.12g s after a step of %.12g s; expected a later time, by at "
-                         "most 1e6 s",
-                         steps->reader.format->place, steps->row.place,
-                         recorded_row_seconds(step->time_ns), recorded_row_seconds(last->time_ns));
-    if (steps->read == 1)
+    if (step->interval_ns < 0 || step->interval_ns > INT64_C(1000000) * 1000000000)
+        return refuse_time(steps, step, last, diag);
+    if (steps->read == 1 && step->interval_ns > 0)
         last->interval_ns = step->interval_ns;
     return 0;
 }
@@ -256,6 +263,39 @@ static int take_event(struct recorded_steps *steps, struct recorded_step *step, 
     return take_row(steps, step, diag) == 0 ? 1 : -1;
 }
 
+static bool is_same(double one, double other)
+{
+    return one == other || (isnan(one) && isnan(other));
+}
+
+/* True if two rows state the same of a road user. */
+static bool stands_again(const struct recorded_state *one, const struct recorded_state *other)
+{
+    const struct recorded_stretch *a = one->stretch, *b = other->stretch;
+    return strcmp(one->object.id, other->object.id) == 0 && a->at_m.x == b->at_m.x &&
+           a->at_m.y == b->at_m.y && is_same(a->velocity_mps.x, b->velocity_mps.x) &&
+           is_same(a->velocity_mps.y, b->velocity_mps.y) && is_same(a->yaw_rad, b->yaw_rad) &&
+           is_same(a->speed_mps, b->speed_mps);
+}
+
+/* Adds a step that has been read; not one that stands twice unchanged. */
+static int add_step(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
+{
+    if (steps->read > 0 && step->interval_ns == 0) {
+        const struct recorded_step *last = step_at(steps, steps->read - 1);
+        if (sort_states(steps, step, diag) != 0)
+            return -1;
+        bool again = step->states.count == last->states.count;
+        for (size_t i = 0; again && i < last->states.count; i++)
+            again = stands_again(&step->states.items[i], &last->states.items[i]);
+        return again ? 0 : refuse_time(steps, step, last, diag);
+    }
+    if (link_states(steps, step, diag) != 0)
+        return -1;
+    steps->read++;
+    return 0;
+}
+
 /* Reads a step into the ring, if there is one. A fault drops the step and ends the recording. */
 static void read_step(struct recorded_steps *steps)
 {
@@ -269,9 +309,7 @@ static void read_step(struct recorded_steps *steps)
         more = take_event(steps, step, &begun, &steps->fault);
     while (more > 0);
     if (more == 0 && begun)
-        more = link_states(steps, step, &steps->fault);
-    if (more == 0 && begun)
-        steps->read++;
+        more = add_step(steps, step, &steps->fault);
     if (more < 0 || step->time_ns > steps->to_ns)
         steps->ended = true;
     if (steps->fault.code == DIAG_OK &&

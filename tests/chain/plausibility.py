@@ -9,6 +9,7 @@ import json
 import math
 import os
 import random
+import struct
 import subprocess
 import sys
 import tempfile
@@ -254,6 +255,36 @@ def rows_that_stand_twice_are_read_once(folder):
             check(run("glint-traffic", path, "--ego", "1", *words) == once, f"rows {again} twice")
 
 
+def steps_that_stand_twice_are_read_once(folder):
+    """A step of SUMO's XML and a message of OSI, the first, another and the last; not one that differs."""
+    for name in ("SUMO's XML", "OSI"):
+        kind = next(kind for kind in STATED if kind.name == name)
+        once, _ = frames_of(kind, folder, traffic())
+        path, options = write(kind, folder, traffic())
+        with open(path, "rb") as file:
+            whole = file.read()
+        if name == "OSI":
+            cuts = [0]
+            while cuts[-1] < len(whole):
+                cuts.append(cuts[-1] + 4 + int.from_bytes(whole[cuts[-1]:cuts[-1] + 4], "little"))
+            steps = [whole[a:b] for a, b in zip(cuts, cuts[1:])]
+            head, tail = b"", b""
+        else:
+            head, tail = b"<fcd-export>\n", b"</fcd-export>\n"
+            steps = [line + b"\n" for line in whole.splitlines() if line.startswith(b"<timestep")]
+        for again in (0, 20, 40):
+            with open(path, "wb") as file:
+                file.write(head + b"".join(steps[:again + 1] + steps[again:]) + tail)
+            check(run(kind.program, path, "--ego", "1", *options) == once, f"{name}: step {again} twice")
+        old, new = (struct.pack("<d", at) for at in (30, 31))  # the place of user 1 at 2 s, without that of its front
+        other = steps[20].replace(old, new) if name == "OSI" else steps[20].replace(b'x="32.25', b'x="33.25')
+        check(other != steps[20], name)
+        with open(path, "wb") as file:
+            file.write(head + b"".join([*steps[:21], other, *steps[21:]]) + tail)
+        text, _ = run(kind.program, path, "--ego", "1", *options, fails=65)
+        check("2 s after a step of 2 s; expected a later time" in text, text)
+
+
 def mesoscopic_places_are_refused(folder):
     """Cars of SUMO's mesoscopic model stand for five seconds, and are then 70 m ahead."""
     path = os.path.join(folder, "meso.xml")
@@ -286,6 +317,7 @@ def main():
     for test in (true_recordings_stay_whole, denied_ways_begin_visits, contradictions_are_refused,
                  yaws_in_degrees_are_refused, yaws_counted_the_other_way_are_refused, parked_vehicles_leave_their_lane,
                  times_of_their_own_are_judged, a_rare_road_user_is_interpolated, rows_that_stand_twice_are_read_once,
+                 steps_that_stand_twice_are_read_once,
                  mesoscopic_places_are_refused):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
