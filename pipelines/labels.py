@@ -9,8 +9,9 @@ signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader such as head may have 
 
 for line in fileinput.input(encoding="utf-8"):
     frame = json.loads(line)
+    print(f"{frame['time_s']:.2f} s")
     for target in frame["targets"]:
         echoes = sorted(target["contributors"], key=lambda echo: -echo["weight"])
         made_of = ", ".join(f"{100 * echo['weight']:.0f} % {echo['object']} {echo['reflector']}" for echo in echoes)
-        print(f"{frame['time_s']:.2f} s {target['sensor']:>6} {target['range_m']:7.2f} m {math.degrees(target['azimuth_rad']):6.1f} deg"
-              f" {target['range_rate_mps']:7.2f} m/s  {made_of or 'false alarm'}")
+        print(f"{target['sensor']:>6} {target['range_m']:6.2f} m {math.degrees(target['azimuth_rad']):5.1f} deg"
+              f" {target['range_rate_mps']:6.2f} m/s  {made_of}")
