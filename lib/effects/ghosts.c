@@ -6,7 +6,7 @@ const struct effect effect_ghosts = {
     .cause = "bounces of a sensor, mirrors of a vehicle",
     .left_out_when =
         "the sensor's bounces are less than 2, or no mirror in its range faces both the sensor and "
-        "another object, or the mirror and the object are both out of the sensor's view",
+        "another object, or neither the object nor its mirror image is in the sensor's view",
     .cost = "a mirror image per reflector and mirror",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -218,16 +218,20 @@ const char *reflectors_name_twice(const struct reflector_set *set, struct arena 
     return name_of_post(set);
 }
 
-/* Raises the share of the box to one that also holds the place (x, y). */
-static void include(struct reflectors_shape *shape, double x, double y)
+/* Raises the share of the box to one that also holds the place (x, y), and the range of heights to
+ * one that also holds z; 0 is no height. */
+static void include(struct reflectors_shape *shape, double x, double y, double z)
 {
     shape->share = elementary_max(shape->share, 2 * elementary_max(fabs(x), fabs(y)));
+    if (z > 0 && (shape->lowest_z == 0 || z < shape->lowest_z))
+        shape->lowest_z = z;
+    shape->highest_z = elementary_max(shape->highest_z, z);
 }
 
-#define INCLUDE_ENDS(shape, list)                                                                  \
+#define INCLUDE_ENDS(shape, list, z)                                                               \
     for (size_t i = 0; i < (list)->count; i++) {                                                   \
-        include((shape), (list)->items[i].from_x, (list)->items[i].from_y);                        \
-        include((shape), (list)->items[i].to_x, (list)->items[i].to_y);                            \
+        include((shape), (list)->items[i].from_x, (list)->items[i].from_y, (z));                   \
+        include((shape), (list)->items[i].to_x, (list)->items[i].to_y, (z));                       \
     }
 
 size_t reflectors_unclear_mirror(const struct reflector_set *set)
@@ -252,13 +256,13 @@ const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
         const struct point_reflector *point = &set->points.items[i];
         shape->faces[i] = (struct reflectors_face){vec2_heading(point->facing_rad),
                                                    directivity_dark_cosine(point->zero_rad)};
-        include(shape, point->x, point->y);
+        include(shape, point->x, point->y, point->z);
         shape->inset_m = elementary_max(shape->inset_m, point->inset_m);
         shape->under |= point->under_vehicles > 0;
     }
-    INCLUDE_ENDS(shape, &set->planes)
-    INCLUDE_ENDS(shape, &set->rows)
-    INCLUDE_ENDS(shape, &set->mirrors)
+    INCLUDE_ENDS(shape, &set->planes, set->planes.items[i].z)
+    INCLUDE_ENDS(shape, &set->rows, set->rows.items[i].z)
+    INCLUDE_ENDS(shape, &set->mirrors, 0)
     return shape;
 }
 
@@ -327,6 +331,17 @@ void reflectors_posts_within(const struct box *box, const struct post_row *row, 
     double high = ceil((foot + half_chord) / row->spacing_m) + 1;
     *first = low > 0 ? (low < (double)posts ? (int64_t)low : posts) : 0;
     *end = high > 0 ? (high < (double)posts ? (int64_t)high : posts) : 0;
+}
+
+void reflectors_cut_posts(const struct post_row *row, double first_m, double end_m, int64_t *first,
+                          int64_t *end)
+{
+    double low = ceil(first_m / row->spacing_m) - 1;
+    double high = floor(end_m / row->spacing_m) + 2;
+    if (low > (double)*first)
+        *first = low < (double)*end ? (int64_t)low : *end;
+    if (high < (double)*end)
+        *end = high > (double)*first ? (int64_t)high : *first;
 }
 
 struct vec2 reflectors_post_place(const struct box *box, const struct post_row *row, int64_t post)

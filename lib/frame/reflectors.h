@@ -87,6 +87,7 @@ struct reflectors_shape {
     struct reflectors_face *faces; /* one for each point */
     double share;                  /* at least 1 */
     double inset_m;                /* the largest of its points */
+    double lowest_z, highest_z;    /* of reflectors with a height; both 0 if none has */
     bool under;                    /* may any of its points be seen under raised vehicles? */
 };
 
@@ -122,7 +123,7 @@ struct vec2 reflectors_point_place(const struct box *box, const struct point_ref
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
                              struct vec2 facing, struct vec2 place, struct vec2 sensor);
 
-/* Slack of the two tests below, far more than the rounding of a place in the world. */
+/* Slack of such tests as the two below, far more than the rounding of a place in the world. */
 #define REFLECTORS_SLACK_M 1e-6
 
 /* True only if the visibility of a point is 0. sensor is the sensor's place in the object's frame,
@@ -149,6 +150,11 @@ double reflectors_lobe(const struct box *box, const struct point_reflector *poin
 /* The numbers [first, end) of all posts within range_m of the sensor, and of at most two others. */
 void reflectors_posts_within(const struct box *box, const struct post_row *row, struct vec2 sensor,
                              double range_m, int64_t *first, int64_t *end);
+
+/* Cuts the numbers [*first, *end) of posts to those of posts from first_m to end_m along the row,
+ * and of one more on each side. */
+void reflectors_cut_posts(const struct post_row *row, double first_m, double end_m, int64_t *first,
+                          int64_t *end);
 
 /* The place of a post in the world. */
 struct vec2 reflectors_post_place(const struct box *box, const struct post_row *row, int64_t post);

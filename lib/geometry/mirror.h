@@ -33,9 +33,11 @@ struct mirror {
     struct vec2 a, b;
     struct motion body; /* {0} for a wall that stands */
     struct vec2 sensor_m;
+    double size_m;              /* a bound of the coordinates, for the rounding of what follows */
     struct vec2 middle, normal; /* the unit normal towards the outer side; zero if a == b */
     double sensor_height_m;     /* over the wall's line; 0 if it is not before the outer face */
     struct vec2 eye_m;          /* the sensor's image in the wall, if sensor_height_m > 0 */
+    struct vec2 from_a, from_b; /* unit vectors that point into the sector, away from its borders */
 };
 
 struct mirror_image {
@@ -49,6 +51,7 @@ struct mirror mirror_of(struct vec2 a, struct vec2 b, struct motion body, struct
 double mirror_height_m(const struct mirror *mirror, struct vec2 point_m);
 
 /* The image of any point, on either side; a point on the wall is its own image. */
+struct vec2 mirror_image_place(const struct mirror *mirror, struct vec2 point_m);
 struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_m,
                                  struct vec2 point_mps);
 
@@ -63,6 +66,12 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 point_m, struct vec2
  * coordinates up to 1e7 m. May be true without need where the disc passes close by an end of the
  * wall. */
 bool mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double radius_m);
+
+/* Cuts a stretch of the line that runs from from_m along a unit vector, from *first_m >= 0 to
+ * *end_m, to a part with all its places for which mirror_bounce is true; ends are swapped if there
+ * is none. */
+void mirror_clip(const struct mirror *mirror, struct vec2 from_m, struct vec2 along,
+                 double *first_m, double *end_m);
 
 /* A ghost: the echo of an object O along a path from the sensor S by way of a wall W. */
 struct mirror_ghost {

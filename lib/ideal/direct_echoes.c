@@ -153,14 +153,14 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
 /* True if the candidate is out of reach or blocked, by a few products instead of the arctangent of
  * its azimuth. Not for accounts and sightings, which need the first reason in the order of MODEL
  * 2.5; and not by reach for a log, which counts the effects that the full test tries. */
-static bool is_surely_lost(const struct look *look, const struct look_body *body,
-                           struct candidate *candidate)
+static bool is_surely_lost(const struct look *look, struct candidate *candidate)
 {
     if (reports_all(look))
         return false;
     struct silhouette place =
         silhouette_of_place(vec2_sub(candidate->place, look->pose.position_m));
-    if (look->selection->log == NULL && look_out_of_reach(look, body->object->height_m, &place))
+    double rise_m = fabs(candidate->height_m - look->height_m);
+    if (look->selection->log == NULL && look_out_of_reach(look, rise_m, &place))
         return true;
     find_line_of_sight(look, candidate);
     return candidate->line_of_sight.by != NULL;
@@ -276,7 +276,7 @@ static void add_point(struct look *look, const struct look_body *body,
         .margin_m = (double)INFINITY,
         .effects = look_latency_effect(look, body),
     };
-    if (is_surely_lost(look, body, &candidate))
+    if (is_surely_lost(look, &candidate))
         return;
     double visible = look_visibility(look, body, point, facing, place, look->pose.position_m);
     if (frame_carries(look->frame, CARRY_MARGINS) &&
@@ -322,7 +322,7 @@ static void add_plane(struct look *look, const struct look_body *body,
             .margin_m = margin_m,
             .effects = look_latency_effect(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
-        if (is_surely_lost(look, body, &candidate))
+        if (is_surely_lost(look, &candidate))
             return;
         double range_m = vec2_length(vec2_sub(foot, look->pose.position_m));
         candidate.ercs = look_plane_ercs(look, plane, range_m, &candidate.effects);
@@ -334,11 +334,12 @@ static void add_plane(struct look *look, const struct look_body *body,
 static void add_row(struct look *look, const struct look_body *body, const struct post_row *row)
 {
     struct vec2 facing = vec2_heading(row->facing_rad);
+    struct point_reflector post = look_post(row);
     int64_t first, end;
     reflectors_posts_within(&body->box, row, look->pose.position_m, look->sensor->range_max_m,
                             &first, &end);
     for (int64_t number = first; number < end; number++) {
-        const struct point_reflector post = look_post(look, row, number);
+        post.name = look_post_name(look, row, number);
         add_point(look, body, &post, facing, reflectors_post_place(&body->box, row, number));
     }
 }
@@ -351,7 +352,7 @@ static bool is_skipped(struct look *look, const struct look_body *body, const st
     struct look_extent extent = look_reflectors_extent(look, body, set);
     bool skippable =
         !reports_all(look) && look->selection->log == NULL && set->reflectors->rows.count == 0;
-    if (skippable && look_out_of_reach(look, body->object->height_m, &extent.silhouette))
+    if (skippable && look_out_of_reach(look, look_rise_m(look, body, set), &extent.silhouette))
         return true;
     line_of_sight_find_blockers(look, body, &extent);
     return skippable && !effects_forced(look->selection, EFFECT_OCCLUSION) &&

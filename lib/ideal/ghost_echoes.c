@@ -2,113 +2,12 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "geometry/mirror.h"
-#include "geometry/predicates.h"
 #include "ideal/line_of_sight.h"
+#include "ideal/mirror_faces.h"
 #include "propagation/reflection.h"
 
 /* Bounces of a path that takes the mirror one way, or both ways. */
 enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
-
-/* Bodies with a mirror in line that ends where a mirror begins, or begins where it ends. */
-struct mirror_joints {
-    bool known;
-    const struct look_body *before, *after;
-    bool shares_end; /* a mirror begins exactly there, bit by bit */
-};
-
-/* A mirror in the world whose outer face is turned to the sensor. */
-struct mirror_face {
-    const struct look_body *body;
-    int64_t number; /* among the body's mirrors, from 1 */
-    struct mirror mirror;
-    struct vec2 along; /* unit vector from a to b */
-    const struct mirror_plane *plane;
-    struct material_permittivity permittivity; /* of its material at the sensor's carrier */
-    bool in_view;                              /* false: surely out of the field of view */
-    struct mirror_joints *joints;              /* found at the first bounce */
-};
-
-struct mirror_faces {
-    LIST_OF(struct mirror_face) list;
-};
-
-/* Adds a mirror of a body that is turned to the sensor. */
-static void add_face(const struct look *look, const struct look_body *body, size_t index,
-                     bool in_view, struct mirror_faces *faces)
-{
-    const struct mirror_plane *plane = &body->set->reflectors->mirrors.items[index];
-    struct side side =
-        line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
-    struct mirror mirror = mirror_of(side.from, side.to, body->box.motion, look->pose.position_m);
-    if (mirror.sensor_height_m == 0)
-        return;
-    *list_add(&faces->list, look->frame->arena) = (struct mirror_face){
-        .body = body,
-        .number = (int64_t)index + 1,
-        .mirror = mirror,
-        .along = side.along,
-        .plane = plane,
-        .permittivity = reflection_permittivity(plane->material, look->sensor->carrier_hz),
-        .in_view = in_view,
-        .joints = arena_get(look->frame->arena, sizeof(struct mirror_joints)),
-    };
-}
-
-/* The mirrors that may have a path: every path touches its mirror within the sensor's range. */
-static struct mirror_faces mirror_faces_of(const struct look *look)
-{
-    bool all = effects_forced(look->selection, EFFECT_GHOSTS);
-    struct mirror_faces faces = {0};
-    for (size_t i = 0; i < look->body_count; i++) {
-        const struct look_body *body = &look->bodies[i];
-        if (body->set == NULL)
-            continue;
-        struct look_extent extent = look_reflectors_extent(look, body, body->set);
-        if (!all && look_out_of_range(look, &extent.silhouette))
-            continue;
-        bool in_view = all || !look_out_of_view(look, &extent.silhouette);
-        for (size_t j = 0; j < body->set->reflectors->mirrors.count; j++)
-            add_face(look, body, j, in_view, &faces);
-    }
-    return faces;
-}
-
-/* Notes the body if its mirror is in line with the face and meets an end of it. */
-static void join(const struct mirror_face *face, const struct look_body *body,
-                 const struct mirror_plane *plane)
-{
-    struct side side =
-        line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
-    if (!vec2_same(face->along, side.along))
-        return;
-    if (vec2_length(vec2_sub(side.from, face->mirror.b)) <= LINE_OF_SIGHT_JOINT_M) {
-        face->joints->after = body;
-        face->joints->shares_end |= vec2_same(side.from, face->mirror.b);
-    }
-    if (vec2_length(vec2_sub(face->mirror.a, side.to)) <= LINE_OF_SIGHT_JOINT_M)
-        face->joints->before = body;
-}
-
-static const struct mirror_joints *joints_of(const struct look *look,
-                                             const struct mirror_face *face)
-{
-    double half_m = 0.5 * vec2_length(vec2_sub(face->mirror.b, face->mirror.a));
-    for (size_t i = 0; i < look->body_count && !face->joints->known; i++) {
-        const struct look_body *body = &look->bodies[i];
-        struct vec2 way = vec2_sub(face->mirror.middle, body->box.motion.position_m);
-        if (body->set == NULL)
-            continue;
-        double reach_m =
-            half_m + 10 * LINE_OF_SIGHT_JOINT_M + body->set->shape->share * body->radius_m;
-        if (fabs(way.x) > reach_m || fabs(way.y) > reach_m)
-            continue;
-        for (size_t j = 0; j < body->set->reflectors->mirrors.count; j++)
-            join(face, body, &body->set->reflectors->mirrors.items[j]);
-    }
-    face->joints->known = true;
-    return face->joints;
-}
 
 /* A route between the sensor and a reflector: the direct one, or that by the mirror. */
 struct route {
@@ -116,6 +15,13 @@ struct route {
     double factor;          /* on amplitude, for there and back */
     double margin_m;        /* the least sight margin so far */
     uint64_t effects;       /* the effects that changed a value */
+};
+
+/* The wave on the way between the sensor and a reflector by the mirror. */
+struct mirror_way {
+    bool known; /* the other members are set */
+    struct line_of_sight out, onward;
+    double margin_m; /* the least sight margin of both legs and the bounce */
 };
 
 /* A reflector that may have ghosts in a mirror. */
@@ -126,7 +32,16 @@ struct ghost_candidate {
     struct vec2 place, bounce;
     double height_m; /* of the reflector over the road */
     double ercs;
+    struct mirror_way way;
     struct route direct, mirrored;
+};
+
+/* A mirror and a body that it may show. */
+struct ghost_pair {
+    const struct mirror_face *face;
+    const struct look_body *body;
+    bool all;           /* nothing is left out */
+    bool image_in_view; /* false: surely no wave arrives from the mirror */
 };
 
 static struct route route_to(const struct look *look, struct vec2 place, struct vec2 velocity,
@@ -138,35 +53,27 @@ static struct route route_to(const struct look *look, struct vec2 place, struct 
     return route;
 }
 
-static struct ghost_candidate candidate_of(const struct look *look, const struct mirror_face *face,
-                                           const struct look_body *body, const char *reflector,
-                                           struct vec2 place, double z, struct vec2 bounce)
+static struct ghost_candidate candidate_of(const struct look *look, const struct ghost_pair *pair,
+                                           const char *reflector, struct vec2 place, double z,
+                                           struct vec2 bounce)
 {
-    struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
-    struct mirror_image image = mirror_image(&face->mirror, place, velocity);
-    double height_m = look_reflector_height_m(look, body, z);
     return (struct ghost_candidate){
-        .face = face,
-        .body = body,
+        .face = pair->face,
+        .body = pair->body,
         .reflector = reflector,
         .place = place,
         .bounce = bounce,
-        .height_m = height_m,
-        .direct = route_to(look, place, velocity, height_m),
-        .mirrored = route_to(look, image.place_m, image.velocity_mps, height_m),
+        .height_m = look_reflector_height_m(look, pair->body, z),
     };
 }
 
-/* True if the mirror has a bounce for the place. A bounce exactly on an end that two mirrors share
- * belongs to the next one. */
-static bool has_bounce(const struct look *look, const struct mirror_face *face, struct vec2 place,
-                       struct vec2 *bounce)
+static void set_routes(const struct look *look, struct ghost_candidate *candidate)
 {
-    if (!mirror_bounce(&face->mirror, place, bounce))
-        return false;
-    struct vec2 image = mirror_image(&face->mirror, place, (struct vec2){0, 0}).place_m;
-    return predicates_orientation(look->pose.position_m, image, face->mirror.b) != 0 ||
-           !joints_of(look, face)->shares_end;
+    struct vec2 velocity = motion_velocity_at(&candidate->body->box.motion, candidate->place);
+    struct mirror_image image = mirror_image(&candidate->face->mirror, candidate->place, velocity);
+    double height_m = candidate->height_m;
+    candidate->direct = route_to(look, candidate->place, velocity, height_m);
+    candidate->mirrored = route_to(look, image.place_m, image.velocity_mps, height_m);
 }
 
 /* Distance of the bounce from vanishing: the least of its distances from the mirror's ends, and of
@@ -182,17 +89,28 @@ static double bounce_margin_m(const struct look *look, const struct ghost_candid
     return elementary_min(elementary_min(fabs(from_a_m), fabs(to_b_m)), line_m);
 }
 
-/* Multiplies a route by the wave that passes one of its legs, which the bodies of except do not
- * block. False if nothing passes. */
-static bool pass_leg(const struct look *look, struct route *route, struct obstruction_line line,
-                     const struct look_body *const *except, size_t count)
+/* The wave that passes a leg, which the bodies of except do not block. Lowers margin_m to the
+ * leg's. */
+static struct line_of_sight leg_of(const struct look *look, const struct obstruction_line *line,
+                                   const struct look_body *const *except, size_t count,
+                                   double *margin_m)
 {
-    struct line_of_sight passed = line_of_sight_along(look, &line, except, count);
+    struct line_of_sight passed = line_of_sight_along(look, line, except, count);
+    if (frame_carries(look->frame, CARRY_MARGINS) && passed.factor > 0)
+        *margin_m = elementary_min(*margin_m,
+                                   line_of_sight_margin_m(look, except, count, line, false, false));
+    return passed;
+}
+
+/* Multiplies the direct route by the wave that passes. False if nothing passes. */
+static bool pass_straight(const struct look *look, struct ghost_candidate *candidate)
+{
+    const struct obstruction_line line = {look->pose.position_m, candidate->place, look->height_m,
+                                          candidate->height_m};
+    struct route *route = &candidate->direct;
+    struct line_of_sight passed = leg_of(look, &line, &candidate->body, 1, &route->margin_m);
     route->factor *= passed.factor;
     route->effects |= passed.effects;
-    if (frame_carries(look->frame, CARRY_MARGINS) && passed.factor > 0)
-        route->margin_m = elementary_min(
-            route->margin_m, line_of_sight_margin_m(look, except, count, &line, false, false));
     return route->factor > 0;
 }
 
@@ -205,30 +123,45 @@ static double upright_margin_m(const struct look *look, const struct mirror_face
     return bottom_m > 0 ? elementary_min(below_m, height_m - bottom_m) : below_m;
 }
 
-static bool pass_by_mirror(const struct look *look, struct ghost_candidate *candidate)
+/* Finds what passes on the way by the mirror. False if nothing. */
+static bool has_way(const struct look *look, struct ghost_candidate *candidate)
 {
     const struct mirror_face *face = candidate->face;
+    struct mirror_way *way = &candidate->way;
+    if (way->known)
+        return way->onward.factor > 0;
     double out_m = vec2_length(vec2_sub(candidate->bounce, look->pose.position_m));
     double onward_m = vec2_length(vec2_sub(candidate->place, candidate->bounce));
     double height_m =
         look->height_m + (candidate->height_m - look->height_m) * (out_m / (out_m + onward_m));
-    double within_m = upright_margin_m(look, face, height_m);
-    struct route *route = &candidate->mirrored;
     struct obstruction_line out = {look->pose.position_m, candidate->bounce, look->height_m,
                                    height_m};
     struct obstruction_line onward = {candidate->bounce, candidate->place, height_m,
                                       candidate->height_m};
-    if (!(route->factor > 0 && within_m >= 0))
-        return false;
-    const struct mirror_joints *joints = joints_of(look, face);
+    const struct mirror_joints *joints = mirror_faces_joints(look, face);
     const struct look_body *touched[] = {face->body, joints->before, joints->after,
                                          candidate->body};
-    if (!pass_leg(look, route, out, touched, 3) || !pass_leg(look, route, onward, touched, 4))
+    way->known = true;
+    way->margin_m = upright_margin_m(look, face, height_m);
+    if (way->margin_m >= 0)
+        way->out = leg_of(look, &out, touched, 3, &way->margin_m);
+    if (way->out.factor > 0)
+        way->onward = leg_of(look, &onward, touched, 4, &way->margin_m);
+    if (frame_carries(look->frame, CARRY_MARGINS) && way->onward.factor > 0)
+        way->margin_m = elementary_min(way->margin_m, bounce_margin_m(look, candidate));
+    return way->onward.factor > 0;
+}
+
+static bool pass_by_mirror(const struct look *look, struct ghost_candidate *candidate)
+{
+    struct route *route = &candidate->mirrored;
+    const struct mirror_way *way = &candidate->way;
+    if (!(route->factor > 0) || !has_way(look, candidate))
         return false;
-    if (frame_carries(look->frame, CARRY_MARGINS))
-        route->margin_m = elementary_min(
-            route->margin_m, elementary_min(bounce_margin_m(look, candidate), within_m));
-    return true;
+    route->factor = route->factor * way->out.factor * way->onward.factor;
+    route->effects |= way->out.effects | way->onward.effects;
+    route->margin_m = elementary_min(route->margin_m, way->margin_m);
+    return route->factor > 0;
 }
 
 static bool is_within_limits(const struct look *look, const struct kinematics *read,
@@ -296,7 +229,8 @@ static double bounce_factor(const struct look *look, const struct ghost_candidat
 }
 
 /* Adds the ghosts of a candidate: on all three paths, or on wall_object_wall alone if one_way is
- * false. Blocking bodies are searched only if a path is within the sensor's limits. */
+ * false. Unless the way by the mirror is known, it is searched only if a path is within the
+ * sensor's limits. */
 static void add_paths(struct look *look, struct ghost_candidate *candidate, bool one_way)
 {
     const struct route *direct = &candidate->direct, *mirrored = &candidate->mirrored;
@@ -316,9 +250,7 @@ static void add_paths(struct look *look, struct ghost_candidate *candidate, bool
         return;
     if (has_both)
         add_ghost(look, candidate, PATH_WALL_OBJECT_WALL, both, mirrored, mirrored);
-    const struct obstruction_line line = {look->pose.position_m, candidate->place, look->height_m,
-                                          candidate->height_m};
-    if (!(has_out || has_back) || !pass_leg(look, &candidate->direct, line, &candidate->body, 1))
+    if (!(has_out || has_back) || !pass_straight(look, candidate))
         return;
     if (has_out)
         add_ghost(look, candidate, PATH_WALL_OBJECT, out, mirrored, direct);
@@ -346,79 +278,100 @@ static void apply_visibility(const struct look *look, const struct ghost_candida
 
 /* A cheap test before all others. False if every path of the point is out of range or, under auto,
  * out of view, or if the point faces away from the bounce. The shortest path goes by the mirror one
- * way and straight the other. */
-static bool may_have_path(const struct look *look, const struct look_body *body,
+ * way and straight the other. Waves arrive from the point or from its image. */
+static bool may_have_path(const struct look *look, const struct ghost_pair *pair,
                           const struct point_reflector *point, struct vec2 facing,
                           struct vec2 place, struct vec2 bounce)
 {
-    struct silhouette straight = silhouette_of_place(vec2_sub(place, look->pose.position_m));
-    struct silhouette mirrored = silhouette_of_place(vec2_sub(bounce, look->pose.position_m));
-    if (!effects_forced(look->selection, EFFECT_GHOSTS) && look_out_of_view(look, &mirrored) &&
-        look_out_of_reach(look, body->object->height_m, &straight))
+    struct vec2 sensor = look->pose.position_m;
+    struct vec2 image = mirror_image_place(&pair->face->mirror, place);
+    struct silhouette straight = silhouette_of_place(vec2_sub(place, sensor));
+    double rise_m = fabs(look_reflector_height_m(look, pair->body, point->z) - look->height_m);
+    if (!pair->all && look_disc_out_of_view(look, rise_m, image, 0) &&
+        look_out_of_reach(look, rise_m, &straight))
         return false;
-    double onward_m = vec2_length(vec2_sub(place, bounce));
-    double way_m = mirrored.nearest_m + onward_m + straight.nearest_m;
+    double way_m = vec2_length(vec2_sub(image, sensor)) + straight.nearest_m;
     return way_m <= 2 * look->sensor->range_max_m + 1e-6 &&
            (!effects_enabled(look->selection, EFFECT_VISIBILITY) ||
-            reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
+            reflectors_visibility(&pair->body->box, point, facing, place, bounce) > 0);
 }
 
-static void add_point(struct look *look, const struct mirror_face *face,
-                      const struct look_body *body, const struct point_reflector *point,
-                      struct vec2 facing, struct vec2 place, struct vec2 bounce)
+/* Adds the ghosts of a point. Under auto most of those that are left have a blocked way, which
+ * costs less to find than the kinematics of both routes. */
+static void add_point(struct look *look, const struct ghost_pair *pair,
+                      const struct point_reflector *point, struct vec2 facing, struct vec2 place,
+                      struct vec2 bounce)
 {
-    if (!may_have_path(look, body, point, facing, place, bounce))
-        return;
     struct ghost_candidate candidate =
-        candidate_of(look, face, body, point->name, place, point->z, bounce);
+        candidate_of(look, pair, point->name, place, point->z, bounce);
+    if (!pair->all && !has_way(look, &candidate))
+        return;
+    set_routes(look, &candidate);
     candidate.ercs = point->ercs;
     apply_visibility(look, &candidate, point, facing, look->pose.position_m, &candidate.direct);
     apply_visibility(look, &candidate, point, facing, bounce, &candidate.mirrored);
     add_paths(look, &candidate, true);
 }
 
-static void add_points(struct look *look, const struct mirror_face *face,
-                       const struct look_body *body)
+/* Adds ghosts of the points. If none arrives from the mirror, all arrive from the point itself. */
+static void add_points(struct look *look, const struct ghost_pair *pair)
 {
-    const struct reflector_set *set = body->set->reflectors;
-    for (size_t i = 0; i < set->points.count; i++) {
-        const struct point_reflector *point = &set->points.items[i];
-        struct vec2 place = reflectors_point_place(&body->box, point), bounce;
-        if (has_bounce(look, face, place, &bounce))
-            add_point(look, face, body, point, body->set->shape->faces[i].heading, place, bounce);
-    }
-}
-
-/* Adds ghosts of the posts in range: no path is shorter than the direct one. */
-static void add_row(struct look *look, const struct mirror_face *face, const struct look_body *body,
-                    const struct post_row *row)
-{
-    struct vec2 facing = vec2_heading(row->facing_rad), bounce;
-    int64_t number, end;
-    reflectors_posts_within(&body->box, row, look->pose.position_m, look->sensor->range_max_m,
-                            &number, &end);
-    for (; number < end; number++) {
-        struct vec2 place = reflectors_post_place(&body->box, row, number);
-        if (!has_bounce(look, face, place, &bounce))
+    const struct look_body *body = pair->body;
+    bool straight = !pair->image_in_view && effects_enabled(look->selection, EFFECT_VISIBILITY);
+    for (size_t i = 0; i < body->set->reflectors->points.count; i++) {
+        const struct point_reflector *point = &body->set->reflectors->points.items[i];
+        const struct reflectors_face *face = &body->set->shape->faces[i];
+        if (straight && reflectors_surely_unseen(&body->box, point, face, body->sensor_m))
             continue;
-        struct point_reflector post = look_post(look, row, number);
-        add_point(look, face, body, &post, facing, place, bounce);
+        struct vec2 place = reflectors_point_place(&body->box, point), bounce;
+        if (mirror_faces_bounce(look, pair->face, place, &bounce) &&
+            may_have_path(look, pair, point, face->heading, place, bounce))
+            add_point(look, pair, point, face->heading, place, bounce);
     }
 }
 
-static void add_plane(struct look *look, const struct mirror_face *face,
-                      const struct look_body *body, const struct plane_reflector *plane)
+/* Adds ghosts of the posts in range, as no path is shorter than the direct one, that the mirror may
+ * show. */
+static void add_row(struct look *look, const struct ghost_pair *pair, const struct post_row *row)
 {
+    const struct box *box = &pair->body->box;
+    struct vec2 facing = vec2_heading(row->facing_rad), bounce;
+    struct point_reflector post = look_post(row);
+    struct side line =
+        line_of_sight_side(pair->body, row->from_x, row->from_y, row->to_x, row->to_y);
+    double first_m = 0, end_m = vec2_length(vec2_sub(line.to, line.from));
+    int64_t number, end;
+    reflectors_posts_within(box, row, look->pose.position_m, look->sensor->range_max_m, &number,
+                            &end);
+    if (!pair->all && end_m > 0) {
+        mirror_clip(&pair->face->mirror, line.from, line.along, &first_m, &end_m);
+        reflectors_cut_posts(row, first_m, end_m, &number, &end);
+    }
+    for (; number < end; number++) {
+        struct vec2 place = reflectors_post_place(box, row, number);
+        if (!mirror_faces_bounce(look, pair->face, place, &bounce) ||
+            !may_have_path(look, pair, &post, facing, place, bounce))
+            continue;
+        post.name = look_post_name(look, row, number);
+        add_point(look, pair, &post, facing, place, bounce);
+    }
+}
+
+static void add_plane(struct look *look, const struct ghost_pair *pair,
+                      const struct plane_reflector *plane)
+{
+    const struct look_body *body = pair->body;
     const struct side side =
         line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
-    struct vec2 eye = face->mirror.eye_m, foot, bounce;
+    struct vec2 eye = pair->face->mirror.eye_m, foot, bounce;
     if (!mirror_specular_point(side.from, side.to, side.along, plane->margin_m, eye, &foot) ||
-        !has_bounce(look, face, foot, &bounce))
+        !mirror_faces_bounce(look, pair->face, foot, &bounce))
         return;
     struct ghost_candidate candidate =
-        candidate_of(look, face, body, plane->name, foot, plane->z, bounce);
+        candidate_of(look, pair, plane->name, foot, plane->z, bounce);
     struct route *route = &candidate.mirrored;
     double range_m = vec2_length(vec2_sub(foot, eye));
+    set_routes(look, &candidate);
     candidate.ercs = look_plane_ercs(look, plane, range_m, &route->effects);
     route->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     if (frame_carries(look->frame, CARRY_MARGINS))
@@ -427,18 +380,30 @@ static void add_plane(struct look *look, const struct mirror_face *face,
     add_paths(look, &candidate, false);
 }
 
-static void add_body(struct look *look, const struct mirror_face *face,
-                     const struct look_body *body)
+/* Adds ghosts of the flat sides, whose only path arrives from the mirror. */
+static void add_planes(struct look *look, const struct ghost_pair *pair)
 {
-    const struct reflector_set *set = body->set->reflectors;
-    bool planes = look->sensor->bounces >= BOUNCES_BOTH_WAYS &&
-                  effects_enabled(look->selection, EFFECT_PLANE_REFLECTION);
-    bool rows = effects_enabled(look->selection, EFFECT_ROWS);
-    add_points(look, face, body);
-    for (size_t i = 0; i < set->planes.count && planes; i++)
-        add_plane(look, face, body, &set->planes.items[i]);
-    for (size_t i = 0; i < set->rows.count && rows; i++)
-        add_row(look, face, body, &set->rows.items[i]);
+    const struct reflector_set *set = pair->body->set->reflectors;
+    if (look->sensor->bounces < BOUNCES_BOTH_WAYS || !pair->image_in_view ||
+        !effects_enabled(look->selection, EFFECT_PLANE_REFLECTION))
+        return;
+    for (size_t i = 0; i < set->planes.count; i++)
+        add_plane(look, pair, &set->planes.items[i]);
+}
+
+/* Sets up a pair. False only if the body has no ghosts in the mirror, which has no bounce for it,
+ * or neither the body nor its image is in view. */
+static bool begin_pair(const struct look *look, struct ghost_pair *pair, double radius_m,
+                       double rise_m, bool in_view)
+{
+    const struct mirror *mirror = &pair->face->mirror;
+    struct vec2 centre = pair->body->box.motion.position_m;
+    if (!pair->all &&
+        (!(in_view || pair->face->in_view) || !mirror_may_bounce(mirror, centre, radius_m)))
+        return false;
+    struct vec2 image = mirror_image_place(mirror, centre);
+    pair->image_in_view = pair->all || !look_disc_out_of_view(look, rise_m, image, radius_m);
+    return in_view || pair->image_in_view;
 }
 
 /* Adds the ghosts of a body. A path is no shorter than twice the distance of the body, and arrives
@@ -447,20 +412,24 @@ static void add_ghosts_of(struct look *look, const struct mirror_faces *faces,
                           const struct look_body *body)
 {
     const struct selection *selection = look->selection;
+    const struct look_set *set = body->set;
     bool all = effects_forced(selection, EFFECT_GHOSTS);
-    const struct reflectors_shape *shape = body->set->shape;
-    double radius_m = shape->share * body->radius_m + shape->inset_m;
-    struct look_extent extent = look_reflectors_extent(look, body, body->set);
-    bool in_view = all || !look_out_of_reach(look, body->object->height_m, &extent.silhouette);
+    double radius_m = set->shape->share * body->radius_m + set->shape->inset_m;
+    double rise_m = look_rise_m(look, body, set);
+    struct look_extent extent = look_reflectors_extent(look, body, set);
+    bool in_view = all || !look_out_of_reach(look, rise_m, &extent.silhouette);
     if (!in_view && look_out_of_range(look, &extent.silhouette))
         return;
     for (size_t i = 0; i < faces->list.count; i++) {
-        const struct mirror_face *face = &faces->list.items[i];
-        if (face->body == body || !(in_view || face->in_view) ||
-            !(all || mirror_may_bounce(&face->mirror, body->box.motion.position_m, radius_m)))
+        struct ghost_pair pair = {.face = &faces->list.items[i], .body = body, .all = all};
+        if (pair.face->body == body || !begin_pair(look, &pair, radius_m, rise_m, in_view))
             continue;
         effects_note(selection, EFFECT_GHOSTS, true);
-        add_body(look, face, body);
+        add_points(look, &pair);
+        add_planes(look, &pair);
+        for (size_t j = 0; j < set->reflectors->rows.count; j++)
+            if (effects_enabled(selection, EFFECT_ROWS))
+                add_row(look, &pair, &set->reflectors->rows.items[j]);
     }
 }
 

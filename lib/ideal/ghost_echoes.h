@@ -13,6 +13,7 @@
 
 /* Adds all ghosts of the look's sensor to the frame, and the sensor's counts of them. `mirror` of
  * an echo is the id of the mirror's object, `number` is that of the mirror on this object, from 1.
- * auto skips bodies and mirrors that surely have no path within the sensor's range and view, and
- * pairs that surely have no bounce (mirror_may_bounce). */
+ * auto skips mirrors, bodies and posts that surely have no path within the sensor's range and
+ * view, where both the body and its image count, and pairs that surely have no bounce
+ * (mirror_may_bounce, mirror_clip). */
 void ghost_echoes_add(struct look *look);

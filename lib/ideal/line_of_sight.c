@@ -83,15 +83,17 @@ static bool ends_beside(double from_m, double to_m, double reach_m)
 /* Whether a line touches a body's outline, by cheap tests that settle most cases. */
 enum crossing { CROSSING_UNSURE, CROSSING_NONE, CROSSING_SURE };
 
-/* None: the line stays clear of the circle around the body and its rim, or both its ends lie beyond
- * the same side. Sure: the line runs through the circle inside the body's sides, from end to end of
+/* None: the line stays clear of the circle around the body and its rim, or the line, a side or the
+ * front of the body parts both. The rim is what a line of this length feels, which is less than
+ * look->rim_m. Sure: the line runs through the circle inside the body's sides, from end to end of
  * the circle around it. The slack covers the rounding of these tests. */
 static enum crossing crossing_by_circles(const struct look_body *body, struct vec2 from,
-                                         struct vec2 to, double rim_m)
+                                         struct vec2 to, double wavelength_m)
 {
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
     double square = vec2_dot(line, line), length_m = sqrt(square), along = vec2_dot(line, centre);
-    double aside = fabs(vec2_cross(line, centre)), slack_m = 1e-6 + rim_m;
+    double aside = fabs(vec2_cross(line, centre));
+    double slack_m = 1e-6 + obstruction_edge_reach_m(length_m, wavelength_m);
     double reach = (body->radius_m + slack_m) * (1 + 1e-9) * length_m;
     if (aside > reach || along < -reach || along > square + reach)
         return CROSSING_NONE;
@@ -100,11 +102,13 @@ static enum crossing crossing_by_circles(const struct look_body *body, struct ve
     if (aside < inner_m * length_m && along > reach && along < square - reach)
         return CROSSING_SURE;
     struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
+    double half_length_m = 0.5 * body->box.length_m, half_width_m = 0.5 * body->box.width_m;
     slack_m += 1e-9 * (length_m + body->radius_m);
-    bool beside = ends_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
-                              0.5 * body->box.width_m + slack_m) ||
-                  ends_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
-                              0.5 * body->box.length_m + slack_m);
+    bool beside =
+        aside > half_length_m * fabs(vec2_cross(line, ahead)) +
+                    half_width_m * fabs(vec2_dot(line, ahead)) + slack_m * length_m ||
+        ends_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest), half_width_m + slack_m) ||
+        ends_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest), half_length_m + slack_m);
     return beside ? CROSSING_NONE : CROSSING_UNSURE;
 }
 
@@ -230,9 +234,9 @@ struct line_of_sight line_of_sight_past_blockers(const struct look *look, const 
         const struct look_body *body = look->blockers[i];
         if (under && body->raised)
             continue;
-        enum crossing crossing = exact
-                                     ? crossing_by_circles(body, line->from, line->to, look->rim_m)
-                                     : crossing_by_silhouette(body, &place);
+        enum crossing crossing = exact ? CROSSING_UNSURE : crossing_by_silhouette(body, &place);
+        if (crossing == CROSSING_UNSURE)
+            crossing = crossing_by_circles(body, line->from, line->to, look->wavelength_m);
         struct line_of_sight past = past_body(look, body, line, crossing);
         if ((past.factor == 1 && past.effects == 0) ||
             (side != NULL && (joins(body, side, true, LINE_OF_SIGHT_JOINT_M) ||
@@ -273,7 +277,7 @@ struct line_of_sight line_of_sight_along(const struct look *look,
         if (is_among(body, except, count))
             continue;
         struct line_of_sight past = past_body(
-            look, body, line, crossing_by_circles(body, line->from, line->to, look->rim_m));
+            look, body, line, crossing_by_circles(body, line->from, line->to, look->wavelength_m));
         if (past.by != NULL)
             return past;
         all.factor *= past.factor;

@@ -231,17 +231,35 @@ bool look_out_of_view(const struct look *look, const struct silhouette *silhouet
     return silhouette_outside(silhouette, look->view_right, look->view_left);
 }
 
-/* Nearer than this, what is outside the borders of view may be in view. */
-static double steep_m(const struct look *look, double height_m)
+double look_rise_m(const struct look *look, const struct look_body *body,
+                   const struct look_set *set)
 {
-    return look->height_m > 0 ? LEVEL * elementary_max(look->height_m, 2 * height_m) : 0;
+    const struct reflectors_shape *shape = set->shape;
+    double lowest_m = look_reflector_height_m(look, body, shape->lowest_z) - look->height_m;
+    double highest_m = look_reflector_height_m(look, body, shape->highest_z) - look->height_m;
+    return elementary_max(fabs(lowest_m), fabs(highest_m));
 }
 
-bool look_out_of_reach(const struct look *look, double height_m,
-                       const struct silhouette *silhouette)
+/* Nearer than this, what is outside the borders of view may be in view. */
+static double steep_m(const struct look *look, double rise_m)
+{
+    return look->height_m > 0 ? LEVEL * rise_m : 0;
+}
+
+bool look_disc_out_of_view(const struct look *look, double rise_m, struct vec2 centre,
+                           double radius_m)
+{
+    struct vec2 sight = vec2_sub(centre, look->pose.position_m);
+    double reach_m = radius_m + SLACK;
+    return vec2_length(sight) - reach_m > steep_m(look, rise_m) &&
+           (vec2_cross(look->view_right, sight) < -reach_m ||
+            vec2_cross(sight, look->view_left) < -reach_m);
+}
+
+bool look_out_of_reach(const struct look *look, double rise_m, const struct silhouette *silhouette)
 {
     return look_out_of_range(look, silhouette) ||
-           (silhouette->nearest_m > steep_m(look, height_m) && look_out_of_view(look, silhouette));
+           (silhouette->nearest_m > steep_m(look, rise_m) && look_out_of_view(look, silhouette));
 }
 
 /* Keeps what lies to the left of a border through the sensor, or less than aside_m to its right. */
@@ -259,13 +277,13 @@ static void keep_left(struct look_stretch *stretch, struct vec2 border, struct v
 }
 
 struct look_stretch look_stretch_in_reach(const struct look *look, struct vec2 from,
-                                          struct vec2 heading, double half_width_m, double height_m)
+                                          struct vec2 heading, double half_width_m, double rise_m)
 {
     struct vec2 start = vec2_sub(from, look->pose.position_m), still = {0, 0};
     double foot_m = -vec2_dot(start, heading), range_m = look->sensor->range_max_m + SLACK;
     double aside_m = elementary_max(fabs(vec2_cross(heading, start)) - half_width_m, 0);
     double chord_m = sqrt(elementary_max((range_m - aside_m) * (range_m + aside_m), 0));
-    double steep = steep_m(look, height_m);
+    double steep = steep_m(look, rise_m);
     struct look_stretch stretch = {foot_m - chord_m, foot_m + chord_m};
     if (aside_m > range_m)
         stretch.end_m = -(double)INFINITY;
@@ -362,20 +380,19 @@ double look_visibility(const struct look *look, const struct look_body *body,
     return visible * reflectors_lobe(box, point, place, viewer, elementary_atan2(range_m, rise_m));
 }
 
-static const char *post_name(struct arena *arena, const struct post_row *row, int64_t post)
+const char *look_post_name(const struct look *look, const struct post_row *row, int64_t post)
 {
     size_t length = strlen(row->name);
-    char *name = arena_get(arena, length + 1 + NUMBER_SIZE);
+    char *name = arena_get(look->frame->arena, length + 1 + NUMBER_SIZE);
     memcpy(name, row->name, length);
     name[length] = '_';
     number_write_whole((uint64_t)post, name + length + 1);
     return name;
 }
 
-struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post)
+struct point_reflector look_post(const struct post_row *row)
 {
     return (struct point_reflector){
-        .name = post_name(look->frame->arena, row, post),
         .z = row->z,
         .extent = row->extent,
         .facing_rad = row->facing_rad,

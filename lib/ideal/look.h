@@ -114,10 +114,15 @@ struct margins look_sight_margins(const struct look *look, double margin_m);
 bool look_out_of_range(const struct look *look, const struct silhouette *silhouette);
 bool look_out_of_view(const struct look *look, const struct silhouette *silhouette);
 
-/* True only if nothing up to this height over the road within the silhouette can be in range and in
- * view. */
-bool look_out_of_reach(const struct look *look, double height_m,
-                       const struct silhouette *silhouette);
+/* The most that a reflector of the body's set is above or below the sensor. */
+double look_rise_m(const struct look *look, const struct look_body *body,
+                   const struct look_set *set);
+
+/* True only if nothing within the silhouette that is at most rise_m above or below the sensor can
+ * be in range and in view; the same for a disc and the view alone. */
+bool look_out_of_reach(const struct look *look, double rise_m, const struct silhouette *silhouette);
+bool look_disc_out_of_view(const struct look *look, double rise_m, struct vec2 centre,
+                           double radius_m);
 
 /* A part of a line: empty if first is above end. */
 struct look_stretch {
@@ -125,11 +130,10 @@ struct look_stretch {
 };
 
 /* The part of a straight strip of this half width that holds all that may be in range and in view,
- * up to this height over the road. The strip runs endlessly both ways along the unit vector
- * heading; lengths along it count from the place `from`. */
+ * and is at most rise_m above or below the sensor. The strip runs endlessly both ways along the
+ * unit vector heading; lengths along it count from the place `from`. */
 struct look_stretch look_stretch_in_reach(const struct look *look, struct vec2 from,
-                                          struct vec2 heading, double half_width_m,
-                                          double height_m);
+                                          struct vec2 heading, double half_width_m, double rise_m);
 
 /* Factor on a point's ERCS towards a viewer, which is the sensor or a bounce on the way to it: the
  * point's visibility (MODEL 2.2) times its lobe (MODEL 2.8) at the sensor's elevation. facing is
@@ -138,8 +142,10 @@ double look_visibility(const struct look *look, const struct look_body *body,
                        const struct point_reflector *point, struct vec2 facing, struct vec2 place,
                        struct vec2 viewer);
 
-/* Post number `post` >= 0 of a row, as a point; its name is that of the row, "_" and the number. */
-struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
+/* A post of a row as a point, without its name; and the name of post number `post` >= 0, which is
+ * that of the row, "_" and the number. */
+struct point_reflector look_post(const struct post_row *row);
+const char *look_post_name(const struct look *look, const struct post_row *row, int64_t post);
 
 /* EFFECT_BIT of latency if the ego or the body moved between the measurement and the frame's time,
  * else 0. */

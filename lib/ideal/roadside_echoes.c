@@ -89,7 +89,7 @@ static void add_row(struct look *look, const struct roadside *side, int64_t acro
     struct look_stretch stretch = {here_m - reach_m, here_m + reach_m};
     if (!effects_forced(look->selection, EFFECT_ROADSIDE))
         stretch = look_stretch_in_reach(look, middle_m, grid->heading, 0.5 * grid->across_m,
-                                        side->height_m);
+                                        fabs(side->height_m - look->height_m));
     /* Counted from the middle of the first cell; one cell is left at each end for rounding. */
     double first = elementary_max(floor(stretch.first_m / cell_m) - 1, 0);
     double end = elementary_min(ceil(stretch.end_m / cell_m) + 2, count);

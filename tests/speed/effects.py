@@ -1,6 +1,6 @@
 """scripts/bench --effects: what leaving out effects gains.
 
-The same frames of four scenes in rain, under lrr77-full, with --effects all, auto, and none, which is the
+The same frames of six scenes in rain, under lrr77-full, with --effects all, auto, and none, which is the
 floor. The part physics is the steps of ideal, sensor and noise; end to end is from a file of frames to target
 lists. Each ratio is the time of all divided by that of its line.
 """
@@ -13,7 +13,7 @@ import counts
 import timing
 
 SCENES = {"highway": "glint-traffic highway-straight", "intersection": "glint-traffic intersection",
-          "empty road": "glint-traffic empty-road",
+          "empty road": "glint-traffic empty-road", "cut-in": "glint-traffic cut-in", "motorway": "glint-traffic motorway",
           "densest": "glint-traffic-random --density dense --frames 40"}
 EFFECTS = ["all", "auto", "none"]
 PHYSICS = ["ideal", "sensor", "noise"]

@@ -105,6 +105,25 @@ static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
     }
 }
 
+/* Posts 3 to 9 stand from 5 m to 19 m along the row, at 6 m, 8 m and so on; 2 and 10 are beside. */
+static void a_cut_keeps_the_posts_between_two_lengths_and_one_on_each_side(void **state)
+{
+    (void)state;
+    static const struct {
+        double first_m, end_m;
+        int64_t first, end;
+    } cases[] = {{5.5, 19.5, 2, 11},  {6, 18, 2, 11},         {-50, 19.5, 0, 11},
+                 {5.5, 1e300, 2, 15}, {1e300, 2e300, 15, 15}, {5, -(double)INFINITY, 2, 2},
+                 {9, 8, 4, 6}};
+    static const struct post_row row = {.spacing_m = 2};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        int64_t first = 0, end = 15;
+        reflectors_cut_posts(&row, cases[i].first_m, cases[i].end_m, &first, &end);
+        assert_int_equal(first, cases[i].first);
+        assert_int_equal(end, cases[i].end);
+    }
+}
+
 /* Half of the raised cosine between 1 and 2 rad is at 1.5 rad off the facing. */
 static void visibility_follows_the_angle_from_which_a_point_is_seen(void **state)
 {
@@ -304,6 +323,25 @@ static void a_shape_holds_all_reflectors_of_its_set(void **state)
     arena_free(&arena);
 }
 
+/* Of points, sides and rows; a reflector without a height, 0, does not count. */
+static void a_shape_tells_the_range_of_heights_of_its_set(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct reflector_set set = {.model = "m"};
+    list_add(&set.points, &arena);
+    assert_close(reflectors_shape(&set, &arena)->lowest_z, 0, 0);
+    assert_close(reflectors_shape(&set, &arena)->highest_z, 0, 0);
+    list_add(&set.points, &arena)->z = 0.5;
+    assert_close(reflectors_shape(&set, &arena)->lowest_z, 0.5, 0);
+    assert_close(reflectors_shape(&set, &arena)->highest_z, 0.5, 0);
+    list_add(&set.planes, &arena)->z = 0.25;
+    list_add(&set.rows, &arena)->z = 1.5;
+    assert_close(reflectors_shape(&set, &arena)->lowest_z, 0.25, 0);
+    assert_close(reflectors_shape(&set, &arena)->highest_z, 1.5, 0);
+    arena_free(&arena);
+}
+
 static void a_set_has_its_documents_shape_until_one_of_its_lists_changes(void **state)
 {
     (void)state;
@@ -336,6 +374,7 @@ int main(void)
         cmocka_unit_test(a_post_on_the_end_of_its_row_is_one),
         cmocka_unit_test(a_row_without_length_is_one_post),
         cmocka_unit_test(rows_are_expanded_in_range_and_no_post_is_missed),
+        cmocka_unit_test(a_cut_keeps_the_posts_between_two_lengths_and_one_on_each_side),
         cmocka_unit_test(visibility_follows_the_angle_from_which_a_point_is_seen),
         cmocka_unit_test(a_lobe_lies_around_the_facing_of_its_point),
         cmocka_unit_test(a_point_that_is_surely_unseen_has_no_visibility),
@@ -343,6 +382,7 @@ int main(void)
         cmocka_unit_test(reflectors_of_one_set_have_names_of_their_own),
         cmocka_unit_test(one_name_among_many_is_found_twice),
         cmocka_unit_test(a_shape_holds_all_reflectors_of_its_set),
+        cmocka_unit_test(a_shape_tells_the_range_of_heights_of_its_set),
         cmocka_unit_test(a_set_has_its_documents_shape_until_one_of_its_lists_changes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -322,6 +322,41 @@ static void a_disc_that_touches_the_mirrored_sector_is_not_left_out(void **state
     }
 }
 
+/* Lines of 60 m, some of them along the wall or towards its ends. What is kept has few places too
+ * many, so that a cut at the wrong side would be seen. */
+static void a_clipped_line_keeps_every_place_with_a_bounce(void **state)
+{
+    (void)state;
+    uint64_t sample = 78;
+    int mirrored = 0, left_out = 0, needless = 0;
+    for (int i = 0; i < 200000; i++) {
+        struct vec2 shift = {i % 3 == 0 ? 1e6 : 0, i % 3 == 0 ? -3e6 : 0};
+        struct vec2 a = vec2_add(random_place(&sample, 40), shift);
+        struct vec2 b = vec2_add(a, random_place(&sample, i % 4 == 0 ? 1 : 40));
+        struct vec2 sensor = vec2_add(random_place(&sample, 40), shift);
+        struct vec2 from = vec2_add(random_place(&sample, 40), shift), bounce;
+        struct vec2 to =
+            i % 5 == 0 ? a : vec2_add(from, i % 7 == 0 ? vec2_sub(b, a) : random_place(&sample, 9));
+        struct vec2 along = vec2_scale(1 / vec2_length(vec2_sub(to, from)), vec2_sub(to, from));
+        struct mirror mirror = mirror_of(a, b, (struct motion){0}, sensor);
+        double first_m = 0, end_m = 60;
+        if (mirror.sensor_height_m == 0)
+            continue;
+        mirror_clip(&mirror, from, along, &first_m, &end_m);
+        for (int k = 0; k <= 20; k++) {
+            bool kept = first_m <= 3 * k && 3 * k <= end_m;
+            bool does = mirror_bounce(&mirror, vec2_add(from, vec2_scale(3 * k, along)), &bounce);
+            assert_true(kept || !does);
+            mirrored += does;
+            left_out += !kept;
+            needless += kept && !does;
+        }
+    }
+    assert_true(mirrored > 100000);
+    assert_true(left_out > 500000);
+    assert_true(needless < 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -334,6 +369,7 @@ int main(void)
         cmocka_unit_test(the_images_velocity_is_the_derivative_of_its_place),
         cmocka_unit_test(no_wall_that_mirrors_a_point_of_the_disc_is_left_out),
         cmocka_unit_test(a_disc_that_touches_the_mirrored_sector_is_not_left_out),
+        cmocka_unit_test(a_clipped_line_keeps_every_place_with_a_bounce),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -96,12 +96,47 @@ static void bodies_that_block_alike_stand_for_each_other(void **state)
     assert_int_equal(look_at(scene, 10).indexed_count, 10);
 }
 
+/* Places on and in the disc, as much above or below the sensor as is said. A steep sight line moves
+ * a place outside the borders into view. */
+static void a_disc_out_of_view_has_no_place_in_view(void **state)
+{
+    struct scene *scene = *state;
+    uint64_t random = 9;
+    int outside = 0, in_view = 0;
+    for (int i = 0; i < 100000; i++) {
+        scene->sensor.field_of_view_rad = sample_between(&random, 0.1, i % 2 ? 2 * PI : 1);
+        scene->sensor.mount_z_m = i % 4 == 0 ? 0 : sample_between(&random, 0.2, 2);
+        struct look look;
+        assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, &everything, 10, NULL),
+                         0);
+        double distance_m = sample_between(&random, 0, i % 3 ? 60 : 5);
+        struct vec2 sight = vec2_scale(distance_m, vec2_heading(sample_between(&random, -PI, PI)));
+        struct vec2 centre = vec2_add(look.pose.position_m, sight), still = {0, 0};
+        double radius_m = sample_between(&random, 0, 4), rise_m = sample_between(&random, 0, 3);
+        bool out = look_disc_out_of_view(&look, rise_m, centre, radius_m);
+        for (int k = 0; k < 6; k++) {
+            double part_m = k < 4 ? radius_m : sample_between(&random, 0, radius_m), gain;
+            double height_m = look.height_m + rise_m * (k % 2 ? 1 : -1);
+            uint64_t effects = 0;
+            struct vec2 arm = vec2_scale(part_m, vec2_heading(sample_between(&random, -PI, PI)));
+            struct kinematics plane = look_kinematics(&look, vec2_add(centre, arm), still);
+            struct kinematics read = look_slant(&look, height_m, plane, &gain, &effects);
+            bool seen = look_within_view_rad(&look, read.azimuth_rad) > 0;
+            assert_false(out && seen);
+            in_view += seen;
+        }
+        outside += out;
+    }
+    assert_true(outside > 30000 && in_view > 100000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         SCENE_TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego),
         SCENE_TEST(a_late_measurement_shows_where_everything_was),
         SCENE_TEST(bodies_that_block_alike_stand_for_each_other),
+        SCENE_TEST(a_disc_out_of_view_has_no_place_in_view),
         SCENE_TEST(a_set_that_lists_an_unknown_object_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
