@@ -202,6 +202,25 @@ static void scatterers_are_uniform_across_a_strip_and_each_in_its_cell(void **st
     assert_in_range((int64_t)chi_square(seen, expected, BINS), 0, (int64_t)CHI_SQUARE_9);
 }
 
+/* The correlation of the two places within a cell, each from -1/2 to 1/2, is that of independent
+ * draws: the sum of 12 times their products has the variance of their number. */
+static void places_along_a_strip_tell_nothing_of_those_across(void **state)
+{
+    (void)state;
+    struct roadside_scatterer found[100];
+    double sum = 0, count = 0;
+    for (int64_t cell = 0; cell < CELLS; cell++) {
+        int here = draw(&MEADOW, cell / 4, cell % 4, 0, found);
+        for (int i = 0; i < here; i++) {
+            double along = (found[i].place_m.x - MEADOW.from_x_m) / 4;
+            double across = (found[i].place_m.y - MEADOW.from_y_m + 8) / 4;
+            sum += 12 * (along - floor(along) - 0.5) * (across - floor(across) - 0.5);
+            count++;
+        }
+    }
+    assert_close(sum, 0, 4 * sqrt(count));
+}
+
 static void cells_beside_each_other_across_a_strip_have_draws_of_their_own(void **state)
 {
     (void)state;
@@ -341,6 +360,7 @@ int main(void)
         cmocka_unit_test(nothing_stands_outside_a_strip),
         cmocka_unit_test(cells_strips_and_scenes_have_draws_of_their_own),
         cmocka_unit_test(scatterers_are_uniform_across_a_strip_and_each_in_its_cell),
+        cmocka_unit_test(places_along_a_strip_tell_nothing_of_those_across),
         cmocka_unit_test(cells_beside_each_other_across_a_strip_have_draws_of_their_own),
         cmocka_unit_test(absent_numbers_are_those_of_the_kind),
         cmocka_unit_test(the_level_of_a_scatterer_is_its_own_and_changes_with_range),
