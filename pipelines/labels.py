@@ -13,5 +13,5 @@ for line in fileinput.input(encoding="utf-8"):
     for target in frame["targets"]:
         echoes = sorted(target["contributors"], key=lambda echo: -echo["weight"])
         made_of = ", ".join(f"{100 * echo['weight']:.0f} % {echo['object']} {echo['reflector']}" for echo in echoes)
-        print(f"{target['sensor']:>6} {target['range_m']:6.2f} m {math.degrees(target['azimuth_rad']):5.1f} deg"
-              f" {target['range_rate_mps']:6.2f} m/s  {made_of}")
+        print(f"{target['sensor']:>5} {target['range_m']:6.2f} m {math.degrees(target['azimuth_rad']):5.1f} deg"
+              f" {target['range_rate_mps']:5.2f} m/s  {made_of}")
