@@ -1,5 +1,5 @@
-# glint: one executable per file in stages/, each of a stage or of a tool, and `glint`, which runs
-# them all fused.
+# glint: one executable per file in stages/, each of a stage or of a tool, those of plug-ins, which
+# are folders there, and `glint`, which runs them all fused.
 #
 #   make            everything, into build/bin
 #   make check      unit tests and house checks; scripts/test runs all tests
@@ -45,31 +45,30 @@ HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -iquote lib -MMD -MP $(S
 LINK = $(CXX) -static-libstdc++ -static-libgcc $(SANITIZE) $(LDFLAGS)
 LIBS = -ljansson -lcsv -lz -lm
 
-# The programs by the files of stages/. A file that needs another library says so in one line, and is
-# left out where that is missing: /* needs: fftw3 */
-needs = $(shell sed -n 's:^/\* needs\: \(.*\) \*/$$:\1:p' $(1))
-have = $(if $(call needs,$(1)),$(shell pkg-config --exists $(call needs,$(1)) $(call generator,$(1)) && echo yes),yes)
-# What needs protobuf has an interface, NAME.proto, from which protoc-c makes C.
-generator = $(if $(findstring protobuf,$(call needs,$(1))),&& command -v protoc-c >/dev/null)
-all_names := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages/*.c))))
-names := $(foreach n,$(all_names),$(if $(call have,stages/$(n).c),$(n)))
-$(foreach n,$(filter-out $(names),$(all_names)),$(info glint-$(subst _,-,$(n)) is left out: it needs $(call needs,stages/$(n).c)$(if $(call generator,stages/$(n).c), and protoc-c)))
-# What it needs beyond the four packages is linked into it, and into glint.
-flags_of = $(if $(call needs,$(1)),$(shell pkg-config --cflags $(call needs,$(1))))
-libs_of = $(if $(call needs,$(1)),$(shell pkg-config --libs $(call needs,$(1))))
-stage_libs := $(sort $(foreach n,$(names),$(call libs_of,stages/$(n).c)))
+# Plug-ins: folders of stages/ with what needs a library of its own or speaks a foreign format. The Makefile of each
+# says what it needs and which stages it has, and builds them (stages/plugin.mk). A plug-in is left out where what
+# it needs is missing, as protoc-c for an interface of protobuf.
+said = $(shell sed -n 's/^$(2) = //p' stages/$(1)/Makefile)
+missing = $(shell pkg-config --exists $(call said,$(1),needs) || echo $(call said,$(1),needs)) \
+    $(if $(wildcard stages/$(1)/*.proto),$(shell command -v protoc-c >/dev/null || echo protoc-c))
+all_plugins := $(patsubst stages/%/Makefile,%,$(sort $(wildcard stages/*/Makefile)))
+plugins := $(foreach p,$(all_plugins),$(if $(strip $(call missing,$(p))),,$(p)))
+$(foreach p,$(filter-out $(plugins),$(all_plugins)),$(info stages/$(p) is left out ($(call said,$(p),stages)): it needs $(strip $(call missing,$(p)))))
+plugin_names := $(foreach p,$(plugins),$(call said,$(p),stages))
+plugin_archives := $(plugins:%=$(BUILD)/stages/%/plugin.a)
+plugin_needs := $(sort $(foreach p,$(plugins),$(call said,$(p),needs)))
+plugin_libs := $(if $(plugin_needs),$(shell pkg-config --libs $(plugin_needs)))
 
-# Files of lib/ that need another library are linked with the stages that need it, and are not in libglint.a.
-lib_sources := $(wildcard lib/*/*.c lib/*/*.cc)
-all_extra_sources := $(shell grep -l '^/\* needs: ' $(lib_sources))
-extra_sources := $(foreach s,$(all_extra_sources),$(if $(call have,$(s)),$(s)))
-interfaces := $(patsubst %.proto,$(BUILD)/%.pb-c,$(wildcard $(extra_sources:.c=.proto)))
-lib_objects := $(patsubst %,$(BUILD)/%.o,$(filter-out $(all_extra_sources),$(lib_sources))) $(BUILD)/lib/view_page.o
-extra_objects := $(extra_sources:%=$(BUILD)/%.o)
-stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names)) $(extra_objects) $(interfaces:%=%.o)
+# The programs by the files of stages/, and those of plug-ins.
+file_names := $(filter-out main,$(patsubst stages/%.c,%,$(wildcard stages/*.c)))
+names := $(sort $(file_names) $(plugin_names))
+lib_objects := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc)) $(BUILD)/lib/view_page.o
+stage_objects := $(file_names:%=$(BUILD)/stages/%.o)
+# The registry stands before these, for it names the stages that archives have.
+archives := $(plugin_archives) $(BUILD)/libglint.a
 programs_of = $(foreach n,$(1),$(BUILD)/bin/glint-$(subst _,-,$(n)))
 # glint-plan and glint-cost try stages of all kinds, so they lie in the file that has all.
-plain_names := $(filter-out plan cost,$(foreach n,$(names),$(if $(call needs,stages/$(n).c),,$(n))))
+plain_names := $(sort $(filter-out plan cost,$(file_names)))
 plain_programs := $(call programs_of,$(plain_names))
 full_programs := $(BUILD)/bin/glint $(call programs_of,$(filter-out $(plain_names),$(names)))
 programs := $(plain_programs) $(full_programs)
@@ -86,8 +85,7 @@ all: $(programs) $(test_programs)
 
 $(BUILD)/lib/%.c.o: lib/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) $(EXTRA) $(CFLAGS) -c -o $@ $<
-$(extra_objects): EXTRA = -iquote $(BUILD)/lib $(call flags_of,$<)
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/lib/%.cc.o: lib/%.cc
 	@mkdir -p $(@D)
@@ -114,42 +112,12 @@ $(BUILD)/libglint.a: $(lib_objects)
 
 $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) $(call flags_of,$<) $(CFLAGS) -c -o $@ $<
-
-# The C of protobuf-c has no room for a field called "base".
-protos := $(interfaces:%.pb-c=%.proto)
-$(protos): $(BUILD)/lib/%.proto: lib/%.proto
-	@mkdir -p $(@D)
-	$(Q)sed 's/ base = / body = /' $< >$@
-
-$(BUILD)/lib/%.pb-c.c: $(protos)
-	$(Q)protoc-c --proto_path=$(BUILD)/lib --c_out=$(BUILD)/lib $(BUILD)/lib/$*.proto
-
-# What protoc-c writes is not held to our warnings.
-$(interfaces:%=%.o): %.pb-c.o: %.pb-c.c
-	$(Q)$(CC) $(HOUSE_C) -w -iquote $(BUILD)/lib $(call flags_of,$(*:$(BUILD)/%=%).c) $(CFLAGS) -c -o $@ $<
-$(extra_objects) $(interfaces:%=%.o): $(interfaces:%=%.c)
-
-# What glint-mcap embeds: the interface of OSI as a FileDescriptorSet, schemas and patterns.
-ifneq ($(filter mcap,$(names)),)
-embedded := $(BUILD)/lib/export/embedded
-$(embedded)/osi_trace_descriptors: $(wildcard lib/*/*.proto)
-	@mkdir -p $(@D)
-	$(Q)protoc-c --proto_path=lib --include_imports --descriptor_set_out=$@ lib/export/osi_trace.proto
-
-$(embedded)/%: lib/export/%.json
-	@mkdir -p $(@D)
-	$(Q)sed 's/^ *//' $< | tr -d '\n' >$@
-
-$(embedded).c: $(embedded)/osi_trace_descriptors $(patsubst lib/export/%.json,$(embedded)/%,$(wildcard lib/export/*.json))
-	$(Q)for file in $^; do name=$${file##*/}; echo "extern const char $$name[]; const char $$name[] = {"; \
-	    od -An -v -tu1 $$file | sed 's/[0-9]\{1,\}/(char)&,/g'; echo '0};'; done >$@
-	$(Q)echo 'extern const unsigned osi_trace_size; const unsigned osi_trace_size = sizeof osi_trace_descriptors - 1;' >>$@
-
-$(embedded).o: $(embedded).c
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
-stage_objects += $(embedded).o
-endif
+
+# An archive is rewritten only when a file of its folder has changed.
+$(plugin_archives): $(BUILD)/stages/%/plugin.a: FORCE
+	$(Q)$(MAKE) -s -f stages/$*/Makefile PLUGIN=stages/plugin.mk folder=stages/$* out=$(@D) \
+	    CC='$(CC)' AR='$(AR)' CFLAGS='$(CFLAGS)' GLINT_CFLAGS='$(HOUSE_C)' $@
 
 # The folder is the registry; the file is rewritten only when the list has changed.
 registry = for n in $(1); do echo "extern const struct stage stage_$$n;"; done; \
@@ -175,9 +143,9 @@ $(BUILD)/main.o: stages/main.c
 
 # Two files under many names, which say what they do: glint with all stages, and those that need no
 # library beyond the four packages.
-$(BUILD)/bin/glint: $(BUILD)/main.o $(BUILD)/registry.o $(stage_objects) $(BUILD)/libglint.a
+$(BUILD)/bin/glint: $(BUILD)/main.o $(BUILD)/registry.o $(stage_objects) $(archives)
 	@mkdir -p $(@D)
-	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS)
+	$(Q)$(LINK) -o $@ $^ $(plugin_libs) $(LIBS)
 
 $(BUILD)/plain: $(BUILD)/main.o $(BUILD)/plain_registry.o $(plain_names:%=$(BUILD)/stages/%.o) $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
@@ -191,32 +159,32 @@ $(filter-out $(BUILD)/bin/glint,$(full_programs)): $(BUILD)/bin/glint
 
 $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) -iquote tests -iquote tests/support $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) -iquote stages -iquote tests -iquote tests/support $(CFLAGS) -c -o $@ $<
 
-$(tests): %: %.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka
+$(tests): %: %.o $(stage_objects) $(BUILD)/registry.o $(archives)
+	$(Q)$(LINK) -o $@ $^ $(plugin_libs) $(LIBS) -lcmocka
 
-$(BUILD)/tests/glint: $(BUILD)/main.o $(BUILD)/tests/registry.o $(test_stage_objects) $(stage_objects) $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS)
+$(BUILD)/tests/glint: $(BUILD)/main.o $(BUILD)/tests/registry.o $(test_stage_objects) $(stage_objects) $(archives)
+	$(Q)$(LINK) -o $@ $^ $(plugin_libs) $(LIBS)
 
 $(BUILD)/tests/glint-traffic-adversarial: $(BUILD)/tests/glint
 	$(Q)ln -f $< $@
 
-$(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(test_stage_objects) $(stage_objects) $(BUILD)/tests/registry.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka -lmpfr -lgmp
+$(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(test_stage_objects) $(stage_objects) $(BUILD)/tests/registry.o $(archives)
+	$(Q)$(LINK) -o $@ $^ $(plugin_libs) $(LIBS) -lcmocka -lmpfr -lgmp
 
 # scripts/soundness: the planner as it is, and with faults planted in place of functions of lib/.
 soundness_objects := $(addprefix $(BUILD)/tests/soundness/,soundness.o compare.o)
 wraps = $(shell grep -o '__wrap_[a-z_]*' $(1) | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
 $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(soundness_objects) \
-    $(test_stage_objects) $(stage_objects) $(BUILD)/tests/registry.o $(BUILD)/libglint.a
-	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(stage_libs) $(LIBS)
+    $(test_stage_objects) $(stage_objects) $(BUILD)/tests/registry.o $(archives)
+	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(plugin_libs) $(LIBS)
 
 # Harnesses of libFuzzer, each with the mutator of numbers: make FUZZ=1 fuzz.
 harnesses := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/fuzz/fuzz_*.c))
 $(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) \
-    $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ $(stage_libs) $(LIBS)
+    $(stage_objects) $(BUILD)/registry.o $(archives)
+	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ $(plugin_libs) $(LIBS)
 
 # For scripts/bench: our functions beside libm's, the machine's floors, what a command spends. For
 # scripts/accuracy-cost: angles by table.
@@ -277,12 +245,12 @@ lib/README.md: FORCE
 	$(Q)scripts/lib-readme >$@.new && mv $@.new $@
 
 format:
-	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
+	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 
-lint: $(interfaces:%=%.c)
-	clang-format --dry-run --Werror $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
-	printf '%s\n' $(wildcard lib/*.c lib/*/*.c stages/*.c) | xargs -P $$(nproc) -n 16 sh -c \
-	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib -iquote $(BUILD)/lib' clang-tidy
+lint: $(plugin_archives)
+	clang-format --dry-run --Werror $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
+	printf '%s\n' $(wildcard lib/*.c lib/*/*.c stages/*.c $(plugins:%=stages/%/*.c)) | xargs -P $$(nproc) -n 16 sh -c \
+	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib $(plugins:%=-iquote $(BUILD)/stages/%)' clang-tidy
 
 # Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
 man: all
@@ -297,14 +265,16 @@ man: all
 doc = $(DESTDIR)$(PREFIX)/share/doc/glint
 scripts = dataset check-set export make-radar tracker
 doc_pages = README.md OTHERS.md CHANGES.md MODEL.md LICENSE scripts/README.md \
-    $(wildcard lib/*/MODEL.md stages/README.md tests/*/README.md)
+    $(wildcard lib/*/MODEL.md stages/*/MODEL.md stages/README.md tests/*/README.md)
 # One file under the names of several programs, without what only a debugger reads.
 bin = $(DESTDIR)$(PREFIX)/bin
 install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
     for name in $(notdir $(filter-out $(firstword $(1)),$(1))); do \
         ln -f $(bin)/$(notdir $(firstword $(1))) $(bin)/$$name || exit 1; done
-# What a stage outside this tree is built from: the headers of what libglint.a has, the library, and how to ask for them.
-headers = $(filter-out $(all_extra_sources:.c=.h),$(wildcard lib/*/*.h lib/*/*.def))
+# What a stage outside this tree is built from: headers, the library, the rules of plug-ins, and how to ask for them.
+# Sources of plug-ins lie beside the pages as examples.
+plugin_sources = $(foreach p,$(all_plugins),$(wildcard $(addprefix stages/$(p)/,Makefile *.[ch] *.def *.proto *.json)))
+headers = $(wildcard lib/*/*.h lib/*/*.def)
 version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
 install: all man
 	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig share/man/man1 share/glint)
@@ -318,7 +288,7 @@ install: all man
 	$(Q)for page in $(BUILD)/man/*.1; do \
 	    [ ! -e $$page ] || install -m 644 $$page $(DESTDIR)$(PREFIX)/share/man/man1; done
 	cp -R data/* $(DESTDIR)$(PREFIX)/share/glint
-	cp -R pipelines schemas $(DESTDIR)$(PREFIX)/share/glint
+	cp -R pipelines schemas stages/plugin.mk $(DESTDIR)$(PREFIX)/share/glint
 	$(Q)for page in $(doc_pages); do \
 	    install -D -m 644 $$page $(doc)/$$page || exit 1; done
 	ln -sfn ../../glint $(doc)/data
@@ -334,8 +304,11 @@ install: all man
 	install -m 644 scripts/radars/*.py $(doc)/scripts/radars
 	install -m 644 tests/support/progress.py tests/support/command_line.py $(doc)/tests/support
 	install -m 644 stages/noise_none.c $(doc)/stages
-	sed '/^```c$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray.c
-	sed '/^```make$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/Makefile
+	$(Q)for source in $(plugin_sources); do \
+	    install -D -m 644 $$source $(doc)/$$source || exit 1; done
+	install -d $(doc)/stages/spray
+	sed '/^```c$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray/spray.c
+	sed '/^```make$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray/Makefile
 	scripts/installed-pages "$(scripts) glint.py sets exports radars" $(doc) $(DESTDIR)$(PREFIX)/share/glint
 
 # Takes away what `make install` puts there: programs and pages by name, and glint's own folders.

@@ -1,8 +1,9 @@
 /* Rows of a recording, and their readers.
  *
  * A reader gives the rows of a file one by one; recorded_steps.h makes steps of them, with classes,
- * centres, velocities and yaw rates. A new format is a file beside this one that fills a struct
- * recorded_format. A new layout of CSV tables is a row of recorded_layouts.c. */
+ * centres, velocities and yaw rates. A new format is a file that fills a struct
+ * recorded_format: of this folder, or of a plug-in. A new layout of CSV tables is a row of
+ * recorded_layouts.c. */
 #pragma once
 
 #include <stdbool.h>
@@ -101,12 +102,3 @@ int recorded_row_refuse_second(const struct recorded_format *format, const char 
  * Other files of the recording may lie beside path. The reader's format is NULL after a message. */
 struct recorded_reader recorded_table_open(struct input *input, const char *path,
                                            struct arena *arena, struct diag *diag);
-
-/* Open other formats, and take over the input. These readers need expat and protobuf-c, so they are
- * no part of libglint.a, but are linked to their stages. If rear_axle is set, velocities of an OSI
- * trace are those of rear axles. *host becomes the id of the host vehicle in the first message, or
- * NULL; format is NULL after a message. Ids and classes of a trace of glint-osi are glint's own. */
-struct recorded_reader recorded_sumo_open(struct input *input, struct arena *arena);
-struct recorded_reader recorded_commonroad_open(struct input *input, struct arena *arena);
-struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, const char **host,
-                                         struct arena *arena, struct diag *diag);

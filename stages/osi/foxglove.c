@@ -1,5 +1,4 @@
-#include "export/foxglove.h"
-/* needs: libprotobuf-c */
+#include "foxglove.h"
 #include "base/number.h"
 #include "geometry/kinematics.h"
 

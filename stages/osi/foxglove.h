@@ -1,13 +1,12 @@
 /* Messages of Foxglove's viewers: points and boxes.
  *
  * They are JSON by the schemas foxglove_*_schema.json. Places are those of frames, in "world";
- * times are those of the trace. An object's number is 1 for the first of the trace. foxglove.c is
- * linked with glint-mcap alone. */
+ * times are those of the trace. An object's number is 1 for the first of the trace. */
 #pragma once
 
-#include "export/osi_trace.h"
+#include "osi_trace.h"
 
-/* Files of this folder as texts without line breaks, which make prints: schemas, and patterns with
+/* Files of this folder as texts without line breaks (Makefile): schemas, and patterns with
  * # for a number and @ for a string. */
 extern const char foxglove_points_schema[], foxglove_points[];
 extern const char foxglove_scene_schema[], foxglove_entity[];

@@ -1,23 +1,22 @@
 /* MCAP: one indexed file with what viewers draw, the frames themselves, and messages of OSI. */
-#include "export/mcap.h"
-#include "export/foxglove.h"
 #include "export/record_schema.h"
+#include "foxglove.h"
 #include "frame/frame_text.h"
-/* needs: libprotobuf-c */
+#include "mcap_file.h"
 #include "run/stage.h"
 
 #include <protobuf-c/protobuf-c.h>
 
 struct mcap_stage {
     struct osi_trace trace; /* first: its option is the stage's */
-    struct mcap file;
+    struct mcap_file file;
     struct intern sensors;
     struct text message;
 };
 
 enum { OSI = 1, FRAMES, SCENE, SENSORS }; /* channels; SENSORS is that of the first sensor */
 
-/* The interface of OSI as a FileDescriptorSet, which make prints. */
+/* The interface of OSI as a FileDescriptorSet (Makefile). */
 extern const char osi_trace_descriptors[];
 extern const unsigned osi_trace_size;
 
@@ -41,9 +40,10 @@ static const char *const of_osi[] = {"net.asam.osi.trace.channel.osi_version", V
                                      "net.asam.osi.trace.channel.protobuf_version",
                                      PROTOBUF_C_VERSION, NULL};
 
-static uint16_t add_json(struct mcap *file, const char *topic, const char *name, const char *schema)
+static uint16_t add_json(struct mcap_file *file, const char *topic, const char *name,
+                         const char *schema)
 {
-    return mcap_add_channel(
+    return mcap_file_add_channel(
         file, topic,
         &(struct mcap_schema){name, "jsonschema", "json", schema, strlen(schema), none});
 }
@@ -52,10 +52,10 @@ static int mcap_start(void *state, struct runner *runner)
 {
     struct mcap_stage *own = state;
     own->trace.arena = own->file.arena = runner_arena(runner);
-    mcap_begin(&own->file, "net.asam.osi.trace", of_file);
-    mcap_add_channel(&own->file, "/osi/SensorData",
-                     &(struct mcap_schema){"osi3.SensorData", "protobuf", "protobuf",
-                                           osi_trace_descriptors, osi_trace_size, of_osi});
+    mcap_file_begin(&own->file, "net.asam.osi.trace", of_file);
+    mcap_file_add_channel(&own->file, "/osi/SensorData",
+                          &(struct mcap_schema){"osi3.SensorData", "protobuf", "protobuf",
+                                                osi_trace_descriptors, osi_trace_size, of_osi});
     record_schema_add(&frame_record, false, &own->message);
     text_add(&own->message, "", 1);
     add_json(&own->file, "/frames", "glint.frame", own->message.bytes);
@@ -69,7 +69,7 @@ static int mcap_start(void *state, struct runner *runner)
 
 static void add_message(struct mcap_stage *own, uint16_t channel)
 {
-    mcap_add_message(&own->file, channel, own->trace.time_ns, &own->message);
+    mcap_file_add_message(&own->file, channel, own->trace.time_ns, &own->message);
     own->message.length = 0;
 }
 
@@ -91,7 +91,7 @@ static int add_points(struct mcap_stage *own, const struct frame *frame,
 static int send(struct mcap_stage *own, struct runner *runner)
 {
     int result = runner_write(runner, own->file.out.bytes, own->file.out.length);
-    mcap_sent(&own->file);
+    mcap_file_sent(&own->file);
     return result;
 }
 
@@ -119,14 +119,14 @@ static int mcap_step(void *state, struct frame *frame, struct runner *runner)
 static int mcap_stop(void *state, struct runner *runner)
 {
     struct mcap_stage *own = state;
-    mcap_end(&own->file);
+    mcap_file_end(&own->file);
     return send(own, runner);
 }
 
 static void mcap_release(void *state)
 {
     struct mcap_stage *own = state;
-    mcap_free(&own->file);
+    mcap_file_free(&own->file);
     text_free(&own->message);
 }
 

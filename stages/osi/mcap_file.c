@@ -1,5 +1,4 @@
-#include "export/mcap.h"
-/* needs: zlib */
+#include "mcap_file.h"
 #include <zlib.h>
 
 enum { HEADER = 1, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, CHUNK_INDEX };
@@ -53,7 +52,7 @@ static struct text map_of(const char *const *pairs)
     return map;
 }
 
-static uint64_t place(const struct mcap *mcap)
+static uint64_t place(const struct mcap_file *mcap)
 {
     return mcap->sent + mcap->out.length;
 }
@@ -63,7 +62,7 @@ static uint32_t crc_of(uint32_t crc, const char *bytes, size_t length)
     return (uint32_t)crc32_z(crc, (const unsigned char *)bytes, length);
 }
 
-void mcap_begin(struct mcap *mcap, const char *name, const char *const *pairs)
+void mcap_file_begin(struct mcap_file *mcap, const char *name, const char *const *pairs)
 {
     struct text map = map_of(pairs), *out = &mcap->out;
     text_add(out, magic, sizeof magic - 1);
@@ -77,7 +76,8 @@ void mcap_begin(struct mcap *mcap, const char *name, const char *const *pairs)
 
 /* Each channel has a schema of its own, of the same id. Both records stand in the data and in the
  * summary. */
-uint16_t mcap_add_channel(struct mcap *mcap, const char *topic, const struct mcap_schema *schema)
+uint16_t mcap_file_add_channel(struct mcap_file *mcap, const char *topic,
+                               const struct mcap_schema *schema)
 {
     struct text *groups = mcap->groups, map = map_of(schema->pairs);
     size_t from[] = {groups[MCAP_SCHEMAS].length, groups[MCAP_CHANNELS].length};
@@ -94,7 +94,7 @@ uint16_t mcap_add_channel(struct mcap *mcap, const char *topic, const struct mca
 }
 
 /* Writes the chunk, the places of each channel's messages in it, and its own for the summary. */
-static void end_chunk(struct mcap *mcap)
+static void end_chunk(struct mcap_file *mcap)
 {
     struct text *out = &mcap->out, *chunk = &mcap->chunk, indexes = {0};
     uint64_t begin = place(mcap);
@@ -119,8 +119,8 @@ static void end_chunk(struct mcap *mcap)
     text_free(&indexes);
 }
 
-void mcap_add_message(struct mcap *mcap, uint16_t channel, uint64_t time_ns,
-                      const struct text *message)
+void mcap_file_add_message(struct mcap_file *mcap, uint16_t channel, uint64_t time_ns,
+                           const struct text *message)
 {
     struct mcap_channel *own = &mcap->channels.items[channel - 1];
     if (mcap->messages++ == 0)
@@ -136,14 +136,14 @@ void mcap_add_message(struct mcap *mcap, uint16_t channel, uint64_t time_ns,
         end_chunk(mcap);
 }
 
-void mcap_sent(struct mcap *mcap)
+void mcap_file_sent(struct mcap_file *mcap)
 {
     mcap->crc = crc_of(mcap->crc, mcap->out.bytes, mcap->out.length);
     mcap->sent += mcap->out.length;
     mcap->out.length = 0;
 }
 
-static void add_statistics(struct mcap *mcap)
+static void add_statistics(struct mcap_file *mcap)
 {
     size_t channels = mcap->channels.count;
     struct text counts = {0};
@@ -155,7 +155,7 @@ static void add_statistics(struct mcap *mcap)
     text_free(&counts);
 }
 
-void mcap_end(struct mcap *mcap)
+void mcap_file_end(struct mcap_file *mcap)
 {
     struct text *out = &mcap->out, offsets = {0};
     end_chunk(mcap);
@@ -180,7 +180,7 @@ void mcap_end(struct mcap *mcap)
     text_free(&offsets);
 }
 
-void mcap_free(struct mcap *mcap)
+void mcap_file_free(struct mcap_file *mcap)
 {
     for (int i = 0; i < MCAP_GROUPS; i++)
         text_free(&mcap->groups[i]);

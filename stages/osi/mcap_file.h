@@ -1,7 +1,7 @@
 /* MCAP files: messages in chunks, checksums and an index.
  *
- * Bytes of the file gather in out; the caller writes them and tells so by mcap_sent. Chunks are not
- * compressed. mcap.c needs zlib for checksums; it is linked with glint-mcap alone. */
+ * Bytes of the file gather in out; the caller writes them and tells so by mcap_file_sent. Chunks
+ * are not compressed; zlib computes checksums. */
 #pragma once
 
 #include "base/arena.h"
@@ -31,7 +31,7 @@ struct mcap_schema {
 };
 
 /* Zeroed before the first call, but for the arena. */
-struct mcap {
+struct mcap_file {
     struct arena *arena;
     struct text out;
     uint64_t sent; /* bytes of the file before out */
@@ -45,17 +45,18 @@ struct mcap {
 };
 
 /* Begins a file with metadata, pairs as in a schema. */
-void mcap_begin(struct mcap *mcap, const char *name, const char *const *pairs);
+void mcap_file_begin(struct mcap_file *mcap, const char *name, const char *const *pairs);
 
 /* Returns the id of a new channel, which must not exceed 65,535. */
-uint16_t mcap_add_channel(struct mcap *mcap, const char *topic, const struct mcap_schema *schema);
+uint16_t mcap_file_add_channel(struct mcap_file *mcap, const char *topic,
+                               const struct mcap_schema *schema);
 
 /* Times must not descend. */
-void mcap_add_message(struct mcap *mcap, uint16_t channel, uint64_t time_ns,
-                      const struct text *message);
+void mcap_file_add_message(struct mcap_file *mcap, uint16_t channel, uint64_t time_ns,
+                           const struct text *message);
 
-void mcap_end(struct mcap *mcap);
+void mcap_file_end(struct mcap_file *mcap);
 
-void mcap_sent(struct mcap *mcap);
+void mcap_file_sent(struct mcap_file *mcap);
 
-void mcap_free(struct mcap *mcap);
+void mcap_file_free(struct mcap_file *mcap);

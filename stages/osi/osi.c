@@ -1,6 +1,5 @@
 /* OSI 3.8: a trace of messages SensorData, with the detections of all radars and the truth. */
-#include "export/osi_trace.h"
-/* needs: libprotobuf-c */
+#include "osi_trace.h"
 #include "run/stage.h"
 
 static int osi_start(void *state, struct runner *runner)

@@ -1,8 +1,7 @@
-#include "recorded/osi_message.h"
-/* needs: libprotobuf-c */
+#include "osi_message.h"
 #include <stdbool.h>
 
-#include "recorded/osi_message.pb-c.h"
+#include "osi_message.pb-c.h"
 
 static void *arena_give(void *arena, size_t size)
 {

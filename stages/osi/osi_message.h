@@ -3,11 +3,10 @@
  * A message is a GroundTruth, a SensorView with a global_ground_truth, or a SensorData with such a
  * SensorView. Nothing but its fields tells which one it is: it is a SensorData or a SensorView if
  * it unpacks as one and has a ground truth there with a timestamp or a moving object. */
-/* needs: libprotobuf-c */
 #pragma once
 
 #include "base/arena.h"
-#include "recorded/recorded_osi.pb-c.h"
+#include "recorded_osi.pb-c.h"
 
 struct osi_message {
     const Osi3__GroundTruth *truth; /* NULL: the message has none */

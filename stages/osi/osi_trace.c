@@ -1,9 +1,8 @@
-#include "export/osi_trace.h"
-/* needs: libprotobuf-c */
+#include "osi_trace.h"
 #include "base/elementary.h"
 #include "base/number.h"
-#include "export/osi_trace.pb-c.h"
 #include "frame/frame_order.h"
+#include "osi_trace.pb-c.h"
 
 static const uint64_t second_ns = 1000000000;
 
@@ -160,7 +159,7 @@ static struct type type_of(const struct object *object)
 {
     static const struct type types[] = {
 #define OSI_FIRST(kind, number, word, class) {kind, number, class},
-#include "recorded/recorded_classes.def"
+#include "osi_classes.def"
         {VEHICLE, TYPE_OTHER, "articulated_truck"},
     };
     bool moves = object->vx_mps != 0 || object->vy_mps != 0 || object->yaw_rate_radps != 0;

@@ -2,8 +2,7 @@
  *
  * A trace holds one scene; its times ascend from 0 on. Objects and sensors are numbers in it: an id
  * of at most 15 digits is the number itself, other objects are numbered from OSI_TRACE_NAMED on,
- * and sensors from 1 on, in the order of the frame's list. osi_trace.c needs protobuf-c, so it is
- * no part of libglint.a. */
+ * and sensors from 1 on, in the order of the frame's list. */
 #pragma once
 
 #include "base/intern.h"

@@ -1,13 +1,12 @@
-/* Reader of the ground truth of an OSI trace. */
-/* needs: libprotobuf-c */
+#include "recorded_osi.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
 #include "base/text.h"
 #include "base/vec2.h"
-#include "recorded/osi_message.h"
-#include "recorded/recorded_row.h"
+#include "osi_message.h"
 #include "text/file_format.h"
 #include "text/input.h"
 
@@ -40,7 +39,7 @@ static const struct type {
     const char *word;
 } types[] = {
 #define OSI(kind, number, word, class) {kind, number, word},
-#include "recorded/recorded_classes.def"
+#include "osi_classes.def"
     {MOVING, 0, "unknown"},        {MOVING, 1, "other"},        {VEHICLE, 0, "unknown_vehicle"},
     {VEHICLE, 1, "other_vehicle"}, {VEHICLE, 20, "watercraft"}, {VEHICLE, 21, "aircraft"},
 };
@@ -364,7 +363,7 @@ static void close_trace(void *state)
 
 static const struct recorded_word words[] = {
 #define OSI(kind, number, word, class) RECORDED_WORD(word, class)
-#include "recorded/recorded_classes.def"
+#include "osi_classes.def"
     {0},
 };
 

@@ -1,5 +1,5 @@
 /* Traffic of OSI: the ground truth of a trace, message by message, also while it is written. */
-/* needs: libprotobuf-c */
+#include "recorded_osi.h"
 #include "run/recording_source.h"
 
 struct traffic_osi {
@@ -48,7 +48,7 @@ const struct stage stage_traffic_osi = {
         "classes below stay until a message has others; other types are left out.\n"
         "\n"
         "Classes, each with the types of OSI that are read as it:"
-#include "recorded/recorded_classes.def"
+#include "osi_classes.def"
     ,
     .options = STAGE_OPTIONS(struct traffic_osi, traffic_osi_fields),
     .operand = "SOURCE",

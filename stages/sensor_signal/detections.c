@@ -1,4 +1,4 @@
-#include "signal/detections.h"
+#include "detections.h"
 
 #include "base/elementary.h"
 #include "base/units.h"
@@ -9,7 +9,7 @@
 #include "radar/measurement_sigma.h"
 #include "radar/monopulse.h"
 #include "sensor/resolution_cell.h"
-#include "signal/unfolding.h"
+#include "unfolding.h"
 
 #define CRAMER_RAO 0.389848400616838 /* sqrt(6)/(2 pi) */
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "effects/effect.h"
-#include "signal/signal_cube.h"
+#include "signal_cube.h"
 
 struct clustered_echoes;
 

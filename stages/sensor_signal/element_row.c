@@ -1,4 +1,4 @@
-#include "signal/element_row.h"
+#include "element_row.h"
 
 #include <stdbool.h>
 

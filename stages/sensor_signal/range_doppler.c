@@ -1,4 +1,4 @@
-#include "signal/range_doppler.h"
+#include "range_doppler.h"
 
 #include "base/elementary.h"
 #include "base/sort.h"

@@ -1,11 +1,10 @@
 /* The signal itself instead of a model of its cells: samples of every receiver, transformed and
  * searched for peaks as a radar does it (MODEL 11.3). */
-/* needs: fftw3 */
 #include <fftw3.h>
 
+#include "detections.h"
 #include "run/suite_choice.h"
 #include "sensor/scan.h"
-#include "signal/detections.h"
 
 /* FFTW takes its memory here, instead of in its own function of this name, which would abort the
  * program where there is none. */

@@ -1,4 +1,4 @@
-#include "signal/signal_cube.h"
+#include "signal_cube.h"
 
 #include <complex.h>
 

@@ -17,8 +17,8 @@
 
 #include "base/random.h"
 #include "documents/suite.h"
-#include "signal/element_row.h"
-#include "signal/range_doppler.h"
+#include "element_row.h"
+#include "range_doppler.h"
 
 struct received_echo;
 struct scan;

@@ -1,4 +1,4 @@
-#include "signal/unfolding.h"
+#include "unfolding.h"
 
 #include "base/elementary.h"
 #include "radar/folding.h"

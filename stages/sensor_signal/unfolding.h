@@ -8,7 +8,7 @@
  * in the first train; of equal ones the slowest (MODEL 11.3). */
 #pragma once
 
-#include "signal/signal_cube.h"
+#include "signal_cube.h"
 
 struct unfolding_reading {
     double range_m, range_rate_mps;

@@ -1,5 +1,5 @@
-/* Reader of the obstacles of a CommonRoad scenario in XML. */
-/* needs: expat */
+#include "recorded_commonroad.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "base/elementary.h"
 #include "base/intern.h"
 #include "base/vec2.h"
-#include "recorded/xml_rows.h"
 #include "text/field.h"
+#include "xml_rows.h"
 
 #define UNSAID ((double)NAN)
 #define BLANKS " \t\r\n"
@@ -417,7 +417,7 @@ static int next_event(void *state, struct recorded_row *row, struct diag *diag)
 
 static const struct recorded_word words[] = {
 #define COMMONROAD RECORDED_WORD
-#include "recorded/recorded_classes.def"
+#include "commonroad_classes.def"
     {0},
 };
 

@@ -1,11 +1,11 @@
-/* Reader of SUMO's floating car data in XML. */
-/* needs: expat */
+#include "recorded_sumo.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/units.h"
 #include "recorded/sumo_types.h"
-#include "recorded/xml_rows.h"
+#include "xml_rows.h"
 
 /* Floating car data that are being read. */
 struct document {

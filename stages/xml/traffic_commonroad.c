@@ -1,5 +1,5 @@
 /* Traffic of CommonRoad: the obstacles of a scenario in XML, 2018b or 2020a. */
-/* needs: expat */
+#include "recorded_commonroad.h"
 #include "run/recording_source.h"
 
 static const struct field traffic_commonroad_fields[] = {
@@ -34,7 +34,7 @@ const struct stage stage_traffic_commonroad = {
         "lists the whole motion of one obstacle after the other.\n"
         "\n"
         "Classes, each with the types of obstacles that are read as it:"
-#include "recorded/recorded_classes.def"
+#include "commonroad_classes.def"
     ,
     .options = STAGE_OPTIONS(struct recording, traffic_commonroad_fields),
     .operand = "SOURCE",

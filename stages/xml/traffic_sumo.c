@@ -1,5 +1,5 @@
 /* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs. */
-/* needs: expat */
+#include "recorded_sumo.h"
 #include "run/recording_source.h"
 
 static const struct field traffic_sumo_fields[] = {

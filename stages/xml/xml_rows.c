@@ -1,5 +1,4 @@
-/* needs: expat */
-#include "recorded/xml_rows.h"
+#include "xml_rows.h"
 
 #include <stdio.h>
 

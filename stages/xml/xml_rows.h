@@ -2,7 +2,6 @@
  *
  * A file is parsed piece by piece. The reader's handlers add events, which are given out before the
  * next piece is parsed. A fault ends the file after the events before it. */
-/* needs: expat */
 #pragma once
 
 #include <expat.h>

@@ -3,8 +3,9 @@
 
     tests/chain/installed.py PREFIX BIN_DIR
 
-PREFIX may lie elsewhere than where it was installed. BIN_DIR has the programs that were installed. The
-stage is the one that the installed page shows, built with the Makefile that the page shows.
+PREFIX may lie elsewhere than where it was installed. BIN_DIR has the programs that were installed. One
+stage is the one that the installed page shows, built with the Makefile that the page shows. The others are glint's
+plug-ins, which give the bytes of the programs in BIN_DIR.
 """
 import json
 import math
@@ -19,6 +20,7 @@ PREFIX, BUILT = (os.path.abspath(folder) for folder in sys.argv[1:3])
 DOCUMENTS = os.path.join(PREFIX, "share/doc/glint")  # has the layout of the source tree
 PROGRAMS = os.path.join(PREFIX, "bin")
 MOST_BYTES = 4_000_000
+STRICT = "-std=c11 -D_XOPEN_SOURCE=700 -O2 -Wall -Wextra -Werror"
 ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C",
                "PKG_CONFIG_PATH": os.path.join(PREFIX, "lib/pkgconfig")}
 REACH_M = 40
@@ -65,11 +67,10 @@ def build_stage(folder):
     with open(os.path.join(DOCUMENTS, "stages/README.md"), encoding="utf-8") as page:
         blocks = dict(re.findall(r"```(c|make)\n(.*?)```", page.read(), re.DOTALL))
     for name, text in ("spray.c", blocks["c"]), ("Makefile", blocks["make"]):
-        shutil.copy(os.path.join(DOCUMENTS, "stages", name), folder)
-        with open(os.path.join(folder, name), encoding="utf-8") as file:
+        with open(os.path.join(DOCUMENTS, "stages/spray", name), encoding="utf-8") as file:
             assert file.read() == text, f"{name} is another one than the page's"
-    assert len(blocks["make"].splitlines()) <= 12, "the page promises a Makefile of twelve lines"
-    run('make -s install CFLAGS="-std=c11 -O2 -Wall -Wextra -Werror"', folder)
+    shutil.copytree(os.path.join(DOCUMENTS, "stages/spray"), os.path.join(folder, "spray"))
+    run(f'make -s -C spray install CFLAGS="{STRICT}"', folder)
 
 
 def check_stage(folder):
@@ -92,6 +93,48 @@ def check_stage(folder):
     assert re.search(r"%  blocked", summary), summary
     refusal = run("glint-spray --reach-m 0.5", folder, expected=64)
     assert refusal.startswith("glint-spray: --reach-m: "), refusal
+
+
+FLOATING = """<fcd-export>
+<timestep time="0"><vehicle id="a" x="10" y="5" angle="90" type="car" speed="10"/><vehicle id="b" x="40" y="2" angle="90" speed="9"/></timestep>
+<timestep time="0.1"><vehicle id="a" x="11" y="5" angle="90" type="car" speed="10"/><vehicle id="b" x="40.9" y="2" angle="90" speed="9"/></timestep>
+</fcd-export>
+"""
+STATE = """<{0}><position><point><x>{1}</x><y>{2}</y></point></position><orientation><exact>0.2</exact></orientation>
+<time><exact>{3}</exact></time><velocity><exact>10</exact></velocity></{0}>"""
+OBSTACLES = '<commonRoad timeStepSize="0.1" commonRoadVersion="2020a">' + "".join(
+    f'''<dynamicObstacle id="{number}"><type>car</type><shape><rectangle><length>4.6</length><width>1.8</width></rectangle></shape>
+{STATE.format("initialState", 20 * number, number, 0)}<trajectory>{STATE.format("state", 20 * number + 1, number, 1)}</trajectory>
+</dynamicObstacle>''' for number in (1, 2)) + "</commonRoad>\n"
+PLUGINS = {  # what each program is given; each writes to standard output
+    "xml": {"glint-traffic-sumo": "floating.xml --ego all --class-map car=car --class-default van", "glint-traffic-commonroad": "obstacles.xml --ego all"},
+    "osi": {"glint-osi": "list.jsonl", "glint-mcap": "list.jsonl", "glint-traffic-osi": "list.osi"},
+    "sensor_signal": {"glint-sensor-signal": "ideal.jsonl"},
+}
+
+
+def build_plugins(folder):
+    """Each plug-in of glint builds as a folder of a user's, without a warning, and its programs give the tree's bytes."""
+    for name, text in ("floating.xml", FLOATING), ("obstacles.xml", OBSTACLES):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+    run("""glint-traffic cut-in | glint-extract | glint-ideal --sensors srr24-signal | head -n 6 >ideal.jsonl
+        glint-traffic cut-in | glint-extract | glint-ideal --sensors srr24-pair --sections quality,objects | glint-sensor | glint-noise >list.jsonl
+        ! command -v glint-osi >/dev/null || glint-osi list.jsonl -o list.osi""", folder)
+    for plugin, programs in PLUGINS.items():
+        if not all(os.path.exists(os.path.join(BUILT, program)) for program in programs):
+            print(f"skipped  stages/{plugin} outside the tree: it was not built")
+            continue
+        shutil.copytree(os.path.join(DOCUMENTS, "stages", plugin), os.path.join(folder, plugin))
+        run(f'make -s -j2 -C {plugin} CFLAGS="{STRICT}"', folder)
+        made = sorted(name for name in os.listdir(os.path.join(folder, plugin)) if name.startswith("glint-"))
+        assert made == sorted(programs), f"{plugin} makes {made}"
+        for program, words in programs.items():
+            at = f"GLINT_DATA={PREFIX}/share/glint"
+            run(f"{at} {plugin}/{program} {words} >outside && {BUILT}/{program} {words} >inside", folder)
+            assert os.path.getsize(os.path.join(folder, "inside")) > 1000, f"{program} {words} writes little"
+            run("cmp outside inside", folder)
+            assert run(f"{plugin}/{program} --help", folder) == run(f"{BUILT}/{program} --help"), f"{program} --help differs"
 
 
 def pages():
@@ -154,5 +197,6 @@ with tempfile.TemporaryDirectory() as place:
     check_scripts(place)
     build_stage(place)
     check_stage(place)
+    build_plugins(place)
 os.remove(os.path.join(PROGRAMS, "glint-spray"))
-print("installed: one body for all programs, all that pages name, and a stage of one's own")
+print("installed: one body for all programs, all that pages name, a stage of one's own, and plug-ins outside the tree")

@@ -381,8 +381,8 @@ def the_interface_is_part_of_the_standard():
                  "osi_sensordata"):
         with open(f"{DATA}/osi/proto/{name}.proto", encoding="utf-8") as file:
             full += re.sub(r"//.*", "", file.read())
-    for name in ("recorded/recorded_osi", "export/osi_trace"):
-        with open(os.path.join(os.path.dirname(__file__), "..", "..", "lib", name + ".proto"), encoding="utf-8") as file:
+    for name in ("recorded_osi", "osi_trace"):
+        with open(os.path.join(os.path.dirname(__file__), "../../stages/osi", name + ".proto"), encoding="utf-8") as file:
             ours += re.sub(r"//.*", "", file.read())
     fields = re.findall(r"(?:(optional|repeated) (\w+) )?(\w+) = (\d+);", ours)
     check(len(fields) > 80, f"{len(fields)} fields")

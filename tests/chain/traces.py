@@ -11,6 +11,7 @@ import csv
 import json
 import math
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -49,7 +50,7 @@ def osi_of(lines, *words):
     """The messages SensorData of a stream, decoded with each interface that is there."""
     trace = pipe(" ".join(("glint-osi", *words)), lines)
     with tempfile.TemporaryDirectory() as folder:
-        ours = decode(trace, "SensorData", folder, os.path.join(ROOT, "lib"), "export/osi_trace.proto")
+        ours = decode(trace, "SensorData", folder, os.path.join(ROOT, "stages", "osi"), "osi_trace.proto")
         if DATA is None:
             return ours
         full = decode(trace, "SensorData", folder, os.path.join(DATA, "osi", "proto"), "osi_sensordata.proto")
@@ -379,6 +380,8 @@ def every_number():
         check(file.groups == [3, 4, 11, 8, 13], f"groups of the summary: {file.groups}")
         check([name for name, _, _ in list(file.schemas.values())[:3]] == ["osi3.SensorData", "glint.frame", "foxglove.SceneUpdate"],
               "schemas")
+        named = set(re.findall(rb"[a-z_]+/[a-z_]+\.proto", file.schemas[1][2]))
+        check(named == {b"export/osi_trace.proto", b"recorded/recorded_osi.proto"}, f"names that all files have: {named}")
         with open(os.path.join(ROOT, "schemas/frame.json"), encoding="utf-8") as schema:
             check(json.loads(file.schemas[2][2].rstrip(b"\0")) == json.load(schema), "the schema of frames")
     missing = [key for key in [*PATHS, "merged"] if not sums.get(key)]

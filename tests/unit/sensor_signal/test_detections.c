@@ -4,7 +4,7 @@
 
 #include "effects/effect.h"
 #include "sensor/resolution_cell.h"
-#include "signal/detections.h"
+#include "sensor_signal/detections.h"
 
 #define PI 3.14159265358979323846
 

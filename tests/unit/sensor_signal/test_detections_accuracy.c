@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "signal/detections.h"
+#include "sensor_signal/detections.h"
 
 #define DEGREE (PI / 180)
 

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "signal/element_row.h"
+#include "sensor_signal/element_row.h"
 
 #define PI 3.14159265358979323846
 #define DEGREE (PI / 180)

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "signal/signal_cube.h"
+#include "sensor_signal/signal_cube.h"
 
 #define PI 3.14159265358979323846
 

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "signal/range_doppler.h"
+#include "sensor_signal/range_doppler.h"
 
 /* 32 bins by 64, with two cells to a bin. */
 enum { BINS = 32, RATES = 64, WIDTH = 2 * BINS, HEIGHT = 2 * RATES };

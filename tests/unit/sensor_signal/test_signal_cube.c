@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "sensor/scan.h"
-#include "signal/signal_cube.h"
+#include "sensor_signal/signal_cube.h"
 
 #define PI 3.14159265358979323846
 #define DEGREE (PI / 180)

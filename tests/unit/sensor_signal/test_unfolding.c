@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "sensor/received_echo.h"
-#include "signal/unfolding.h"
+#include "sensor_signal/unfolding.h"
 
 #define PI 3.14159265358979323846
 
