@@ -245,10 +245,10 @@ lib/README.md: FORCE
 	$(Q)scripts/lib-readme >$@.new && mv $@.new $@
 
 format:
-	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
+	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] pipelines/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 
 lint: $(plugin_archives)
-	clang-format --dry-run --Werror $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
+	clang-format --dry-run --Werror $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] pipelines/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 	printf '%s\n' $(wildcard lib/*.c lib/*/*.c stages/*.c $(plugins:%=stages/%/*.c)) | xargs -P $$(nproc) -n 16 sh -c \
 	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib $(plugins:%=-iquote $(BUILD)/stages/%)' clang-tidy
 

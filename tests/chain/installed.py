@@ -25,7 +25,7 @@ ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C"
                "PKG_CONFIG_PATH": os.path.join(PREFIX, "lib/pkgconfig")}
 REACH_M = 40
 EXAMPLES = {"summary.c", "noise_mine.c"}  # of stages; only noise_none.c is installed
-OWN_STAGES = {"glint-spray", "glint-noise-mine", "glint-traffic-adversarial"}  # of readers and of the tests
+OWN_STAGES = {"glint-spray", "glint-bins", "glint-noise-mine", "glint-traffic-adversarial"}  # of readers and of the tests
 
 
 def run(command, folder="/", expected=0):
@@ -137,6 +137,36 @@ def build_plugins(folder):
             assert run(f"{plugin}/{program} --help", folder) == run(f"{BUILT}/{program} --help"), f"{program} --help differs"
 
 
+def check_own_sensor(folder):
+    """The sensor stage of the pages, in Python and in C, makes the same cells, with labels that glint-check takes."""
+    at = os.path.join(DOCUMENTS, "pipelines")
+    shutil.copytree(os.path.join(at, "bins"), os.path.join(folder, "bins"))
+    run(f'make -s -C bins install CFLAGS="{STRICT}"', folder)
+    run("glint-traffic cut-in | glint-extract | glint-ideal --sensors srr24-pair --sections account >seen.jsonl", folder)
+    for stage in f"python3 -B {at}/bins.py", "glint-bins":
+        found = run(f"{stage} seen.jsonl | glint-noise | glint-check", folder)
+        assert re.fullmatch(r"201 frames, \d+ targets; (\d{4}) of \1 contributors recomputed\n", found), f"{stage}: {found}"
+    alike = list(zip(frames(f"python3 -B {at}/bins.py seen.jsonl | glint-noise-none", folder),
+                     frames("glint-bins seen.jsonl | glint-noise-none", folder), strict=True))
+    for one, other in alike:
+        same = near(one["targets"], other["targets"]) and lost_of(one) == lost_of(other)
+        assert same, f"frame {one['frame']}: bins.py and bins.c differ"
+    os.remove(os.path.join(PROGRAMS, "glint-bins"))
+
+
+def lost_of(frame):
+    return [(group["sensor"], group["stage"], echo["object"], echo["reflector"]) for group in frame["lost"] for echo in group["echoes"]]
+
+
+def near(one, other):
+    """The same, numbers but for their last digits."""
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(near(one[name], other[name]) for name in one)
+    if isinstance(one, list):
+        return len(one) == len(other) and all(map(near, one, other))
+    return one == other or type(one) in (int, float) and math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-9)
+
+
 def pages():
     """(folder, text, is it a history?) of every installed page. CHANGES.md names what is gone."""
     for top in DOCUMENTS, os.path.join(PREFIX, "share/glint"):
@@ -198,5 +228,6 @@ with tempfile.TemporaryDirectory() as place:
     build_stage(place)
     check_stage(place)
     build_plugins(place)
+    check_own_sensor(place)
 os.remove(os.path.join(PROGRAMS, "glint-spray"))
 print("installed: one body for all programs, all that pages name, a stage of one's own, and plug-ins outside the tree")
