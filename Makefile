@@ -49,11 +49,12 @@ LIBS = -ljansson -lcsv -lz -lm
 # says what it needs and which stages it has, and builds them (stages/plugin.mk). A plug-in is left out where what
 # it needs is missing, as protoc-c for an interface of protobuf.
 said = $(shell sed -n 's/^$(2) = //p' stages/$(1)/Makefile)
-missing = $(shell pkg-config --exists $(call said,$(1),needs) || echo $(call said,$(1),needs)) \
+missing = $(foreach library,$(call said,$(1),needs),$(shell pkg-config --exists $(library) || echo $(library))) \
     $(if $(wildcard stages/$(1)/*.proto),$(shell command -v protoc-c >/dev/null || echo protoc-c))
 all_plugins := $(patsubst stages/%/Makefile,%,$(sort $(wildcard stages/*/Makefile)))
 plugins := $(foreach p,$(all_plugins),$(if $(strip $(call missing,$(p))),,$(p)))
-$(foreach p,$(filter-out $(plugins),$(all_plugins)),$(info stages/$(p) is left out ($(call said,$(p),stages)): it needs $(strip $(call missing,$(p)))))
+left_out := $(filter-out $(plugins),$(all_plugins))
+$(foreach p,$(left_out),$(info stages/$(p) is left out ($(call said,$(p),stages)): it needs $(strip $(call missing,$(p)))))
 plugin_names := $(foreach p,$(plugins),$(call said,$(p),stages))
 plugin_archives := $(plugins:%=$(BUILD)/stages/%/plugin.a)
 plugin_needs := $(sort $(foreach p,$(plugins),$(call said,$(p),needs)))
@@ -72,7 +73,9 @@ plain_names := $(sort $(filter-out plan cost,$(file_names)))
 plain_programs := $(call programs_of,$(plain_names))
 full_programs := $(BUILD)/bin/glint $(call programs_of,$(filter-out $(plain_names),$(names)))
 programs := $(plain_programs) $(full_programs)
-tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c tests/*/test_*.c tests/unit/*/test_*.c))
+# Without a plug-in there are no unit tests of it.
+tests := $(filter-out $(left_out:%=$(BUILD)/tests/unit/%/%), \
+    $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c tests/*/test_*.c tests/unit/*/test_*.c)))
 # A stage of the tests, and glint with it: build/tests/glint.
 test_stage_objects := $(addprefix $(BUILD)/tests/soundness/,traffic_adversarial.o adversarial_traffic.o)
 test_programs := $(BUILD)/tests/glint $(BUILD)/tests/glint-traffic-adversarial
