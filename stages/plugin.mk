@@ -2,7 +2,7 @@
 #
 #     needs = expat                                  # names of pkg-config; none: leave the line out
 #     stages = traffic_sumo traffic_commonroad       # each NAME.c defines const struct stage stage_NAME
-#     PLUGIN ?= $(shell pkg-config --variable=plugin glint)
+#     PLUGIN ?= $(shell pkg-config --print-errors --variable=plugin glint || echo glint.pc)
 #     include $(PLUGIN)
 #
 # is the folder's whole Makefile. All C files of the folder belong to its stages, and protoc-c makes NAME.pb-c.h and
@@ -18,9 +18,9 @@
 MAKEFLAGS += -r
 Q = $(if $(V),,@)
 CFLAGS ?= -std=c11 -D_XOPEN_SOURCE=700 -O2 -g
+GLINT_CFLAGS ?= $(shell pkg-config --cflags glint)
 folder ?= .
 out ?= $(folder)/build
-GLINT_CFLAGS ?= $(shell pkg-config --cflags glint)
 
 plugin_flags := $(if $(needs),$(shell pkg-config --cflags $(needs))) -iquote $(out) -MMD -MP
 plugin_interfaces := $(patsubst $(folder)/%.proto,$(out)/%.pb-c,$(wildcard $(folder)/*.proto))
@@ -54,9 +54,22 @@ $(plugin_archive): $(plugin_objects)
 	$(Q)$(AR) rcs $@ $^
 
 # The main of a program runs its one stage.
-$(plugin_programs): $(folder)/glint-%: $(plugin_archive)
-	$(Q)printf '#include "run/chain.h"\nextern const struct stage stage_$(subst -,_,$*);\nint main(int count, char **words)\n{\n    return chain_main(&stage_$(subst -,_,$*), count, words);\n}\n' >$(out)/main-$*.c
-	$(Q)$(CC) $(GLINT_CFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $(out)/main-$*.c $< \
+define plugin_main
+#include "run/chain.h"
+
+extern const struct stage STAGE;
+
+int main(int count, char **words)
+{
+    return chain_main(&STAGE, count, words);
+}
+endef
+
+$(out)/main.c: $(plugin_archive)
+	$(file >$@,$(plugin_main))
+
+$(plugin_programs): $(folder)/glint-%: $(out)/main.c $(plugin_archive)
+	$(Q)$(CC) $(GLINT_CFLAGS) $(CFLAGS) -DSTAGE=stage_$(subst -,_,$*) $(LDFLAGS) -o $@ $^ \
 	    $(if $(needs),$(shell pkg-config --libs $(needs))) $(shell pkg-config --libs glint)
 
 install: all

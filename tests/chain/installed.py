@@ -126,6 +126,8 @@ def build_plugins(folder):
             print(f"skipped  stages/{plugin} outside the tree: it was not built")
             continue
         shutil.copytree(os.path.join(DOCUMENTS, "stages", plugin), os.path.join(folder, plugin))
+        refusal = run(f"PKG_CONFIG_PATH= PKG_CONFIG_LIBDIR=none make -C {plugin}", folder, expected=2)
+        assert "glint.pc" in refusal and not os.path.exists(os.path.join(folder, plugin, "build")), refusal
         run(f'make -s -j2 -C {plugin} CFLAGS="{STRICT}"', folder)
         made = sorted(name for name in os.listdir(os.path.join(folder, plugin)) if name.startswith("glint-"))
         assert made == sorted(programs), f"{plugin} makes {made}"

@@ -208,7 +208,7 @@ def doubling(bench):
 
 def false_alarms(bench):
     """What noise makes is labelled as its own: with two cells to a bin it is listed about as often as the
-    document says that it passes in one. tests/unit/signal/test_false_alarm_rate.c has the probability."""
+    document says that it passes in one. tests/unit/sensor_signal/test_false_alarm_rate.c has the probability."""
     scans, probability = 200, 1e-3
     for window in ("hann", "rectangular"):
         shape = {"window": window, "cfar_false_alarm": probability}
