@@ -36,6 +36,11 @@ void *memory_resize(void *memory, size_t size)
     return grant(realloc(memory, size), size);
 }
 
+void memory_free(void *memory)
+{
+    free(memory);
+}
+
 static struct arena_block *block_of(size_t size, struct arena_block *older)
 {
     struct arena_block *block = memory_get(sizeof *block + size);

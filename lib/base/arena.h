@@ -13,6 +13,9 @@
 void *memory_get(size_t size);
 void *memory_resize(void *memory, size_t size);
 
+/* Frees what either has given; NULL: nothing. */
+void memory_free(void *memory);
+
 struct arena_block;
 
 /* A zeroed arena is empty and ready. */

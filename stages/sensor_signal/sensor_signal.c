@@ -7,11 +7,18 @@
 #include "sensor/scan.h"
 
 /* FFTW takes its memory here, instead of in its own function of this name, which would abort the
- * program where there is none. */
+ * program where there is none, and gives it back. A static library has both in one file. */
 void *fftw_kernel_malloc(size_t size);
+void fftw_kernel_free(void *memory);
+
 void *fftw_kernel_malloc(size_t size)
 {
     return memory_get(size);
+}
+
+void fftw_kernel_free(void *memory)
+{
+    memory_free(memory);
 }
 
 /* One sensor's signal and the transforms that turn it into a spectrum, in place. */
