@@ -320,7 +320,8 @@ def own_stage(folder):
     """Builds the C stage of stages/README.md by the commands there, but with the headers and the library of this build."""
     with open(os.path.join(ROOT, "stages", "README.md"), encoding="utf-8") as page, \
             open(os.path.join(folder, "spray.c"), "w", encoding="utf-8") as file:
-        file.write(re.search(r"```c\n(.*?)```", page.read(), re.DOTALL)[1])
+        file.write(re.search(r"```c\n(.*?)```", page.read(), re.DOTALL)[1] + '#include "run/chain.h"\n'
+                   "int main(int count, char **words)\n{\n    return chain_main(&stage_spray, count, words);\n}\n")
     library = os.path.join(ROOT, os.environ["BUILD"], "libglint.a")
     done = run(["cc", "-std=c11", "-O2", "-ffp-contract=off", f"-I{ROOT}/lib", "-o", "spray", "spray.c", library, "-ljansson", "-lcsv",
                 "-lz", "-lstdc++", "-lm"], cwd=folder)
