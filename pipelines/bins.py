@@ -26,7 +26,8 @@ def pointers(echo):
 def cell_of(sensor, echoes):
     """The cell of a bin: pointers add, places are means, and the echoes with their shares of the amplitude are its label."""
     heard = sorted(((*pointers(echo), echo) for echo in echoes), key=lambda one: -one[0])
-    amplitude, delta = sum(one[0] for one in heard) or 1e-300, sum(one[1] for one in heard)
+    amplitude = sum(one[0] for one in heard) or 1e-300  # where no echo has any, no share is one
+    delta = sum(one[1] for one in heard)
     range_m, rate_mps = (sum(one[0] * one[2][name] for one in heard) / amplitude for name in ("range_m", "range_rate_mps"))
     label = [{**{name: echo[name] for name in LABEL}, "weight": part / amplitude} for part, _, echo in heard]
     effects = {name: True for echo in echoes for name in echo.get("effects", ())}
@@ -36,6 +37,7 @@ def cell_of(sensor, echoes):
 
 
 def change(frame):
+    """The cells of a frame in the place of its echoes."""
     if "echoes" not in frame:
         raise glint.BadFrame(f"{frame.place}: echoes: missing; expected behind glint-ideal")
     size = {one["name"]: (one["cell_range_m"], one["cell_range_rate_mps"]) for one in frame["sensors"]["list"]}
@@ -44,12 +46,15 @@ def change(frame):
         of_range, of_rate = size[echo["sensor"]]
         place = echo["sensor"], math.floor(echo["range_m"] / of_range), math.floor(echo["range_rate_mps"] / of_rate)
         bins.setdefault(place, []).append(echo)
-    cells = [cell_of(sensor, echoes) for (sensor, _, _), echoes in sorted(bins.items())]
-    frame["cells"] = [cell for cell in cells if cell["amplitude"] >= THRESHOLD]
-    for cell in (cell for cell in cells if cell["amplitude"] < THRESHOLD):
-        weak.setdefault(cell["sensor"], []).extend({name: one[name] for name in LABEL[:5]} for one in cell["members"])
+    frame["cells"] = []
+    for (sensor, _, _), echoes in sorted(bins.items()):
+        cell = cell_of(sensor, echoes)
+        if cell["amplitude"] >= THRESHOLD:
+            frame["cells"].append(cell)
+        else:
+            weak.setdefault(sensor, []).extend({name: echo[name] for name in LABEL[:5]} for echo in echoes)
     if "account" in frame["sections"]:
-        frame["lost"] += [{"sensor": name, "stage": "bins", "reason": "weak", "echoes": echoes} for name, echoes in weak.items()]
+        frame["lost"] += [{"sensor": name, "stage": "bins", "reason": "weak", "echoes": lost} for name, lost in weak.items()]
     return frame
 
 

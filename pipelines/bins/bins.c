@@ -68,28 +68,39 @@ static struct cell cell_of(const struct heard *heard, size_t count, struct arena
     return cell;
 }
 
+/* The cell goes into the frame, or its echoes are lost. */
+static void report(struct frame *frame, const struct cell *cell, double threshold)
+{
+    if (cell->amplitude >= threshold) {
+        *list_add(&frame->cells, frame->arena) = *cell;
+        return;
+    }
+    for (size_t i = 0; i < cell->members.count; i++) {
+        struct lost_echo lost = frame_lost_echo(&cell->members.items[i], &cell->margins);
+        frame_lose_own(frame, "bins", cell->sensor, "weak", &lost);
+    }
+}
+
+static bool same_bin(const struct heard *a, const struct heard *b)
+{
+    return a->range_bin == b->range_bin && a->rate_bin == b->rate_bin;
+}
+
 static void sense(struct frame *frame, const struct sensor_view *sensor, double threshold)
 {
-    struct arena *arena = frame->arena;
     struct echo_span echoes = frame_echoes_of(frame, sensor->name);
-    struct heard *heard = arena_get(arena, echoes.count * sizeof *heard);
+    struct heard *heard = arena_get(frame->arena, echoes.count * sizeof *heard);
     for (size_t i = 0; i < echoes.count; i++)
         heard[i] = hear(&echoes.items[i], sensor);
-    sort_items(heard, echoes.count, sizeof *heard, compare, arena);
-    for (size_t first = 0, end; first < echoes.count; first = end) {
-        for (end = first + 1; end < echoes.count; end++)
-            if (heard[end].range_bin != heard[first].range_bin ||
-                heard[end].rate_bin != heard[first].rate_bin)
-                break;
-        struct cell cell = cell_of(heard + first, end - first, arena);
-        if (cell.amplitude >= threshold) {
-            *list_add(&frame->cells, arena) = cell;
-            continue;
-        }
-        for (size_t i = 0; i < cell.members.count; i++) {
-            struct lost_echo lost = frame_lost_echo(&cell.members.items[i], &cell.margins);
-            frame_lose_own(frame, "bins", sensor->name, "weak", &lost);
-        }
+    sort_items(heard, echoes.count, sizeof *heard, compare, frame->arena);
+    size_t first = 0;
+    while (first < echoes.count) {
+        size_t end = first + 1;
+        while (end < echoes.count && same_bin(&heard[first], &heard[end]))
+            end++;
+        struct cell cell = cell_of(heard + first, end - first, frame->arena);
+        report(frame, &cell, threshold);
+        first = end;
     }
 }
 
