@@ -60,6 +60,7 @@ static inline const char *printed_text(const char *where, char *text)
     }
     glob_t pages;
     assert_int_equal(glob("lib/*/MODEL.md", 0, NULL, &pages), 0);
+    assert_int_equal(glob("stages/*/MODEL.md", GLOB_APPEND, NULL, &pages), 0);
     assert_int_equal(glob("MODEL.md", GLOB_APPEND, NULL, &pages), 0);
     char *found = NULL;
     for (size_t i = 0; i < pages.gl_pathc && found == NULL; i++) {

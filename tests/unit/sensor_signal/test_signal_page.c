@@ -1,10 +1,10 @@
-/* The numbers that lib/signal/MODEL.md prints. */
+/* The numbers that stages/sensor_signal/MODEL.md prints. */
 #include "support/printed.h"
 
 #include "base/units.h"
 #include "radar/cfar.h"
 #include "radar/point_response.h"
-#include "signal/element_row.h"
+#include "sensor_signal/element_row.h"
 
 #define DEGREE (PI / 180)
 
