@@ -27,7 +27,7 @@ MOST_OTHERS = 1.05
 FRAMES = 12
 TABLES_SHARE = 1.5
 GHOSTS_SHARE = 20
-LEAST_GAIN = 1.6
+LEAST_GAIN = 2.2
 CHAINS = [("highway", 20, 1, "default"), ("highway", 20, 1, "account"),
           ("intersection", 20, 4, "default"), ("in-view", 100, 1, "default"),
           ("highway", 20, 1, "full"), ("highway", 20, 1, "full, all")]
