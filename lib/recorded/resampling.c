@@ -37,6 +37,22 @@ static double travelled_between(const struct object *a, const struct object *b, 
     return a->travelled_m + at_m.x;
 }
 
+/* Lessens the velocities along the heading if the body would roll back on it, although it moves
+ * forward and both velocities lead forward; or the reverse. */
+static void roll_on(struct vec2 heading, struct vec2 way_mps, struct vec2 *from_mps,
+                    struct vec2 *to_mps)
+{
+    double from = vec2_dot(*from_mps, heading), to = vec2_dot(*to_mps, heading);
+    double mean = vec2_dot(way_mps, heading);
+    if (from * to < 0 || from * mean < 0 || to * mean < 0)
+        return;
+    double less = 1 - motion_monotone_share(fabs(from), fabs(to), fabs(mean));
+    if (less == 0)
+        return;
+    *from_mps = vec2_sub(*from_mps, vec2_scale(less * from, heading));
+    *to_mps = vec2_sub(*to_mps, vec2_scale(less * to, heading));
+}
+
 struct object resampling_between(const struct object *a, const struct object *b, double length_s,
                                  double share)
 {
@@ -48,13 +64,18 @@ struct object resampling_between(const struct object *a, const struct object *b,
     object.travelled_m = travelled_between(a, b, from, to, length_s, share);
     if (vec2_dot(from_mps, to_mps) >= 0)
         limit = motion_monotone_share(from, to, vec2_length(vec2_sub(to_m, from_m)) / length_s);
-    motion_hermite(from_m, vec2_scale(limit, from_mps), to_m, vec2_scale(limit, to_mps), length_s,
-                   share, &place_m, &velocity_mps, &acceleration_mps2);
+    double turned_rad = units_wrap_rad(b->yaw_rad - a->yaw_rad);
+    from_mps = vec2_scale(limit, from_mps);
+    to_mps = vec2_scale(limit, to_mps);
+    roll_on(vec2_heading(a->yaw_rad + turned_rad / 2),
+            vec2_scale(1 / length_s, vec2_sub(to_m, from_m)), &from_mps, &to_mps);
+    motion_hermite(from_m, from_mps, to_m, to_mps, length_s, share, &place_m, &velocity_mps,
+                   &acceleration_mps2);
     object.x_m = place_m.x;
     object.y_m = place_m.y;
     object.vx_mps = velocity_mps.x;
     object.vy_mps = velocity_mps.y;
-    object.yaw_rad = units_wrap_rad(a->yaw_rad + share * units_wrap_rad(b->yaw_rad - a->yaw_rad));
+    object.yaw_rad = units_wrap_rad(a->yaw_rad + share * turned_rad);
     object.yaw_rate_radps += share * (b->yaw_rate_radps - a->yaw_rate_radps);
     return object;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "recorded/resampling.h"
 #include "recorded_file.h"
 
 #define HEADER "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n"
@@ -328,6 +329,24 @@ static void resampling_rolls_nobody_back(void **state)
     assert_close(object_at(played, 2, "v")->vx_mps, 1, 1e-12);
 }
 
+/* A car changes lanes in a queue: it goes ahead by 0.17 m in 1 s, from 1.6 m/s to 0.4 m/s, and
+ * sideways by 0.83 m. With these slopes it would roll back at 0.34 m/s. From rest and at rest in
+ * place, it stays. */
+static void resampling_rolls_nobody_back_beside_a_lane_change(void **state)
+{
+    (void)state;
+    const struct object from = {.vx_mps = 1.6, .vy_mps = -1.2};
+    struct object to = {.x_m = 0.17, .y_m = -0.83, .vx_mps = 0.4, .vy_mps = -0.4};
+    for (int i = 0; i <= 20; i++) {
+        struct object between = resampling_between(&from, &to, 1, i / 20.0);
+        assert_true(between.vx_mps >= -1e-12 && between.vy_mps <= 0);
+    }
+    const struct object rest = {.vy_mps = -0.4};
+    to.x_m = 0;
+    for (int i = 0; i <= 20; i++)
+        assert_close(resampling_between(&rest, &to, 1, i / 20.0).x_m, 0, 1e-12);
+}
+
 /* A body that reverses does so between the steps, too: from 1 m/s to -1 m/s within 1 s. */
 static void resampling_lets_who_reverses_reverse(void **state)
 {
@@ -501,6 +520,7 @@ int main(void)
         cmocka_unit_test(a_recording_begins_and_ends_at_given_times),
         cmocka_unit_test(the_distance_travelled_is_resampled_like_the_place),
         cmocka_unit_test(resampling_rolls_nobody_back),
+        cmocka_unit_test(resampling_rolls_nobody_back_beside_a_lane_change),
         cmocka_unit_test(resampling_lets_who_reverses_reverse),
         cmocka_unit_test(nothing_crosses_a_denied_way),
         cmocka_unit_test(neighbours_are_those_within_the_radius),
