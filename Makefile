@@ -4,7 +4,7 @@
 #   make            everything, into build/bin
 #   make check      unit tests and house checks; scripts/test runs all tests
 #   make SAN=1 ...  the same under address and undefined-behaviour sanitizers, in build-san/
-#   make CC=clang CXX=clang++ BUILD=build-clang
+#   make CC=clang BUILD=build-clang
 #   make install    PREFIX=/usr/local DESTDIR=      make uninstall   with the same two
 
 # No built-in rules: one of them would try to make a.d from a.d.o.
@@ -13,7 +13,6 @@ MAKEFLAGS += -r
 PREFIX ?= /usr/local
 BUILD ?= build
 CFLAGS ?= -O2 -g
-CXXFLAGS ?= -O2 -g
 
 # make V=1 shows the commands.
 Q = $(if $(V),,@)
@@ -28,7 +27,6 @@ endif
 ifdef FUZZ
 BUILD = build-fuzz
 CC = clang
-CXX = clang++
 comma = ,
 SANITIZE = -fsanitize=fuzzer-no-link$(comma)address$(comma)undefined$(comma)float-cast-overflow \
     -fno-sanitize=pointer-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer
@@ -40,9 +38,7 @@ WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 # gcc 12's vectorizer does it all the same where a subtraction and an addition stand side by side.
 EXACT = -ffp-contract=off -fno-fast-math -fno-tree-vectorize -fno-tree-slp-vectorize
 HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib -MMD -MP $(SANITIZE)
-HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -iquote lib -MMD -MP $(SANITIZE)
-# number.cc is the only C++ in it; its library is linked in, so that nobody needs it at run time.
-LINK = $(CXX) -static-libstdc++ -static-libgcc $(SANITIZE) $(LDFLAGS)
+LINK = $(CC) $(SANITIZE) $(LDFLAGS)
 LIBS = -ljansson -lcsv -lz -lm
 
 # Plug-ins: folders of stages/ with what needs a library of its own or speaks a foreign format. The Makefile of each
@@ -63,7 +59,7 @@ plugin_libs := $(if $(plugin_needs),$(shell pkg-config --libs $(plugin_needs)))
 # The programs by the files of stages/, and those of plug-ins.
 file_names := $(filter-out main,$(patsubst stages/%.c,%,$(wildcard stages/*.c)))
 names := $(sort $(file_names) $(plugin_names))
-lib_objects := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc)) $(BUILD)/lib/view_page.o
+lib_objects := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c)) $(BUILD)/lib/view_page.o
 stage_objects := $(file_names:%=$(BUILD)/stages/%.o)
 # The registry stands before these, for it names the stages that archives have.
 archives := $(plugin_archives) $(BUILD)/libglint.a
@@ -89,10 +85,6 @@ all: $(programs) $(test_programs)
 $(BUILD)/lib/%.c.o: lib/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
-
-$(BUILD)/lib/%.cc.o: lib/%.cc
-	@mkdir -p $(@D)
-	$(Q)$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
 
 # The page of glint-view: its parts joined, where page.html names them, and embedded as bytes.
 page = lib/view/page
@@ -194,12 +186,15 @@ $(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) 
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(SPEED_LIBS) -lz -lm
 $(BUILD)/tests/speed/parse_xml: SPEED_LIBS = -lexpat
-$(BUILD)/tests/speed/read_table: SPEED_LIBS = -ljansson -lcsv
+$(BUILD)/tests/speed/read_table: SPEED_LIBS = -ljansson -lcsv -lstdc++
 $(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o $(BUILD)/tests/speed/digits.o
 $(BUILD)/tests/speed/read_table: $(BUILD)/tests/speed/digits.o
+$(BUILD)/tests/speed/floors: SPEED_LIBS = -lstdc++
+# Shortest digits by the C++ library, which only tests use, where there is a C++ compiler.
+digits := $(if $(shell command -v $(CXX)),$(BUILD)/tests/speed/digits.o)
 $(BUILD)/tests/speed/digits.o: tests/speed/digits.cc
 	@mkdir -p $(@D)
-	$(Q)$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
+	$(Q)$(CXX) -std=c++17 -O2 -Wall -Wextra -MMD -MP -c -o $@ $<
 $(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -shared -fPIC -o $@ $< -ljansson
@@ -210,8 +205,10 @@ $(filter %/test_adversarial_traffic,$(tests)): $(BUILD)/tests/soundness/adversar
 # Its test sees file systems of other kinds.
 $(filter %/test_output,$(tests)): LDFLAGS += -Wl,--wrap=open,--wrap=flock,--wrap=rename
 
-# The reference of this one test alone.
+# The references of these two tests alone.
 $(filter %/test_elementary,$(tests)): LIBS += -lmpfr -lgmp
+$(filter %/test_number_oracle,$(tests)): $(digits)
+$(filter %/test_number_oracle,$(tests)): LIBS += $(if $(digits),-lstdc++)
 
 # A program that fails shows what failed and how it ended, and one that skips a test which and why; with -k all others run on.
 %.ran: % FORCE

@@ -1,29 +1,26 @@
 /* Doubles and whole numbers as text, and back. A double is written as the shortest decimal that
- * reads back to the same double, and a decimal is read as the nearest double. This is the one
- * module in C++ (std::to_chars, std::from_chars), because C's own printf and strtod are ten times
- * slower and depend on the locale. For most numbers of a frame the shortest decimal follows from
- * one exact product, in half the time of std::to_chars. */
+ * reads back to the same double, and a decimal is read as the nearest double. C's own printf and
+ * strtod are ten times slower and depend on the locale. Most numbers of a frame follow from one
+ * exact product or quotient of 128 bits; base/decimal.h has all others. */
 #pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-enum { NUMBER_SIZE = 32, NUMBER_DIGITS = 19, NUMBER_ROOM = 64 };
+enum { NUMBER_SIZE = 40, NUMBER_DIGITS = 19, NUMBER_ROOM = 64 };
 
 /* Writes a finite double at text (at least NUMBER_SIZE bytes) without a NUL; returns its length.
- * Minus zero is "-0.0". */
+ * It has an exponent where that is shorter. Minus zero is "-0.0". Bytes behind the text may change
+ * too. */
 size_t number_write(double value, char *text);
 
-/* Writes a whole number at text (at least NUMBER_SIZE bytes) without a NUL; returns its length. */
+/* The same for a whole number. */
 size_t number_write_whole(uint64_t value, char *text);
 
 /* Reads the whole of [begin, end), which must have the form of a JSON number, as the nearest
- * double. A number too small becomes 0 or a subnormal; one too large returns false. */
+ * double. A number too small becomes 0 or a subnormal; one too large returns false, as does a text
+ * that is no number. */
 bool number_read(const char *begin, const char *end, double *value);
 
 /* Reads the number at the beginning of [begin, end), as the nearest double, if it has the form of
@@ -34,7 +31,3 @@ const char *number_take(const char *begin, const char *end, double *value);
 
 /* The double nearest to digits / 10^places; places from 0 to NUMBER_DIGITS. */
 double number_of_digits(uint64_t digits, int places);
-
-#ifdef __cplusplus
-}
-#endif

@@ -383,10 +383,11 @@ double look_visibility(const struct look *look, const struct look_body *body,
 const char *look_post_name(const struct look *look, const struct post_row *row, int64_t post)
 {
     size_t length = strlen(row->name);
-    char *name = arena_get(look->frame->arena, length + 1 + NUMBER_SIZE);
+    char *name = arena_get(look->frame->arena, length + 1 + NUMBER_SIZE + 1);
     memcpy(name, row->name, length);
-    name[length] = '_';
-    number_write_whole((uint64_t)post, name + length + 1);
+    name[length++] = '_';
+    length += number_write_whole((uint64_t)post, name + length);
+    name[length] = '\0';
     return name;
 }
 

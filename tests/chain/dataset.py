@@ -324,7 +324,7 @@ def own_stage(folder):
                    "int main(int count, char **words)\n{\n    return chain_main(&stage_spray, count, words);\n}\n")
     library = os.path.join(ROOT, os.environ["BUILD"], "libglint.a")
     done = run(["cc", "-std=c11", "-O2", "-ffp-contract=off", f"-I{ROOT}/lib", "-o", "spray", "spray.c", library, "-ljansson", "-lcsv",
-                "-lz", "-lstdc++", "-lm"], cwd=folder)
+                "-lz", "-lm"], cwd=folder)
     assert done.returncode == 0, done.stdout
 
 

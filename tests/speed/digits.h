@@ -1,5 +1,5 @@
 /* Numbers as text by the compiler's own C++ library: the floor of shortest digits, which does not
- * move when lib/base/number.cc gets faster. */
+ * move when lib/base/number.c gets faster. */
 #pragma once
 
 #ifdef __cplusplus

@@ -157,6 +157,13 @@ static void numbers_look_as_people_write_them(void **state)
                  {DBL_MIN, "2.2250738585072014e-308"},
                  {DBL_MAX, "1.7976931348623157e+308"},
                  {9007199254740993.0, "9007199254740992"},
+                 {123456789012345680000.0, "123456789012345683968"},
+                 {1.5e300, "1.5e+300"},
+                 /* 5e22 is midway between these two and reads as the even one. */
+                 {5960464477539062 * 0x1p23, "5e+22"},
+                 {5960464477539063 * 0x1p23, "5.0000000000000004e+22"},
+                 {-1.25e-5, "-1.25e-05"},
+                 {0x1p-1022 - 0x1p-1074, "2.225073858507201e-308"},
                  {3.14159265358979323846, "3.141592653589793"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         char text[NUMBER_SIZE + 1];
@@ -233,6 +240,29 @@ static void decimals_round_to_the_nearest_double(void **state)
     assert_true(reads("9007199254740995", &value) && value == 9007199254740996.0);
     assert_true(reads("9007199254740993.00000000000000000000000000000000001", &value) &&
                 value == 9007199254740994.0);
+}
+
+/* Among more digits than a double can tell, the last one may decide, zeros in front count nothing,
+ * and the exponent may take back what the digits say. */
+static void numbers_of_a_thousand_digits_are_read_exactly(void **state)
+{
+    (void)state;
+    char text[3000];
+    double value;
+    int length = snprintf(text, sizeof text, "1.%01000d", 0);
+    assert_true(reads(text, &value) && value == 1);
+    snprintf(text + length, sizeof text - (size_t)length, "1");
+    assert_true(reads(text, &value) && value == 1);
+    snprintf(text, sizeof text, "9007199254740993.%01000d1", 0);
+    assert_true(reads(text, &value) && value == 9007199254740994.0);
+    snprintf(text, sizeof text, "0.%01000d15e1001", 0);
+    assert_true(reads(text, &value) && value == 1.5);
+    snprintf(text, sizeof text, "15%01000de-1001", 0);
+    assert_true(reads(text, &value) && value == 1.5);
+    snprintf(text, sizeof text, "%01000d15e-1", 0);
+    assert_true(reads(text, &value) && value == 1.5);
+    snprintf(text, sizeof text, "0.%01000d", 0);
+    assert_true(reads(text, &value) && value == 0);
 }
 
 static void digits_and_places_round_to_the_nearest_double(void **state)
@@ -334,6 +364,12 @@ static void whole_numbers_are_written_in_full(void **state)
     char text[NUMBER_SIZE];
     assert_int_equal(number_write_whole(UINT64_MAX, text), 20);
     assert_memory_equal(text, "18446744073709551615", 20);
+    for (uint64_t value = UINT64_MAX; value > 0; value /= 3) {
+        char expected[NUMBER_SIZE];
+        int length = snprintf(expected, sizeof expected, "%llu", (unsigned long long)value);
+        assert_int_equal(number_write_whole(value, text), length);
+        assert_memory_equal(text, expected, (size_t)length);
+    }
     assert_int_equal(number_write_whole(0, text), 1);
     assert_memory_equal(text, "0", 1);
 }
@@ -341,8 +377,9 @@ static void whole_numbers_are_written_in_full(void **state)
 static void nothing_may_follow_the_number(void **state)
 {
     (void)state;
-    static const char *const texts[] = {"1x",    "1 ", " 1",  "1e", "1e+", "-",
-                                        "1.2.3", "+1", "--1", "x",  "1,5"};
+    static const char *const texts[] = {"1x",    "1 ",  " 1",  "1e", "1e+", "-",
+                                        "1.2.3", "+1",  "--1", "x",  "1,5", "",
+                                        "inf",   "nan", "0x1", ".",  "e5",  "1e5e5"};
     double value;
     for (size_t i = 0; i < COUNT(texts); i++)
         if (reads(texts[i], &value))
@@ -359,6 +396,7 @@ int main(void)
         cmocka_unit_test(subnormals_and_the_ends_of_the_range_come_back),
         cmocka_unit_test(too_large_numbers_are_refused_and_too_small_ones_are_zero),
         cmocka_unit_test(decimals_round_to_the_nearest_double),
+        cmocka_unit_test(numbers_of_a_thousand_digits_are_read_exactly),
         cmocka_unit_test(digits_and_places_round_to_the_nearest_double),
         cmocka_unit_test(everyday_numbers_are_taken_from_the_beginning),
         cmocka_unit_test(other_numbers_and_texts_are_not_taken),

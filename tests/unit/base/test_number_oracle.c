@@ -1,0 +1,170 @@
+/* Numbers as text beside std::to_chars and std::from_chars, of which a standard demands the same:
+ * the shortest decimal that reads back, the nearest of several, and the nearest double. Minus zero,
+ * which they write as "-0", is left out, and all where make finds no C++ compiler. The argument is
+ * how many doubles are written. */
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "sample.h"
+#include "speed/digits.h"
+
+/* The oracle is linked only if it could be compiled. */
+char *digits_write(double value, char *at) __attribute__((weak));
+const char *digits_read(const char *at, const char *end, double *value) __attribute__((weak));
+
+enum { TEXT_SIZE = 256 };
+
+static double from_bits(uint64_t bits)
+{
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static uint64_t bits_of(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static uint64_t any_word(uint64_t *random)
+{
+    uint64_t high = sample_bits(random) << 32;
+    return high ^ sample_bits(random);
+}
+
+static void compare_written(double value)
+{
+    if (!isfinite(value) || value == 0)
+        return;
+    char ours[NUMBER_SIZE + 1] = "", theirs[TEXT_SIZE] = "";
+    ours[number_write(value, ours)] = '\0';
+    *digits_write(value, theirs) = '\0';
+    if (strcmp(ours, theirs) != 0)
+        fail_msg("%.17g is %s, expected %s", value, ours, theirs);
+}
+
+static void compare_read(const char *text)
+{
+    const char *end = text + strlen(text);
+    double ours = 0, theirs = 0;
+    bool read = number_read(text, end, &ours);
+    /* from_chars leaves the value alone if it is too large or too small. */
+    theirs = strtod(text, NULL);
+    if (read != isfinite(theirs))
+        fail_msg("%s was %s", text, read ? "read" : "refused");
+    if (read && bits_of(ours) != bits_of(theirs))
+        fail_msg("%s became %.17g, expected %.17g", text, ours, theirs);
+    if (read && isnormal(ours) && (digits_read(text, end, &theirs) != end || theirs != ours))
+        fail_msg("%s became %.17g, expected %.17g", text, ours, theirs);
+}
+
+/* The double of these bits, its neighbours and their negatives. */
+static void compare_around(uint64_t bits)
+{
+    for (uint64_t near = bits - (bits > 1); near <= bits + 1; near++) {
+        compare_written(from_bits(near));
+        compare_written(-from_bits(near));
+    }
+}
+
+static void powers_of_two_and_ten_and_their_neighbours_are_written_alike(void **state)
+{
+    (void)state;
+    if (digits_write == NULL)
+        skip_because("there is no C++ compiler");
+    for (uint64_t bits = 1; bits < 3000; bits++)
+        compare_around(bits);
+    for (uint64_t bit = 0; bit < 52; bit++)
+        compare_around(UINT64_C(1) << bit);
+    for (uint64_t field = 1; field < 2047; field++)
+        compare_around(field << 52);
+    for (int exponent = -323; exponent <= 308; exponent++)
+        for (int digits = 1; digits < 100; digits++) {
+            char text[TEXT_SIZE];
+            snprintf(text, sizeof text, "%de%d", digits, exponent);
+            compare_around(bits_of(strtod(text, NULL)));
+        }
+}
+
+/* A double of one of many kinds. */
+static double number_of_kind(uint64_t *random, int kind)
+{
+    uint64_t word = any_word(random);
+    double digits = (double)(word >> word % 64), power = pow(10, (double)(any_word(random) % 40));
+    switch (kind) {
+    case 0: /* any double */
+        return from_bits(word);
+    case 1: /* few bits */
+        return from_bits(word & UINT64_MAX << any_word(random) % 52);
+    case 2: /* subnormal */
+        return from_bits(word >> (12 + any_word(random) % 52));
+    case 3: /* whole, and halves and quarters of whole numbers */
+        return ldexp(digits, -(int)(any_word(random) % 4));
+    case 4: /* few digits */
+        return (double)(word % 1000000) / power;
+    case 5: /* many digits */
+        return digits / power;
+    case 6: /* whole and beyond 2^53, where decimals end with zeros */
+        return (double)(word >> any_word(random) % 12) * (double)(1 + any_word(random) % 5000);
+    default: /* as coordinates and amplitudes are */
+        return sample_between(random, -300, 300) / (double)(1 + any_word(random) % 1000);
+    }
+}
+
+static void doubles_of_every_kind_are_written_alike(void **state)
+{
+    if (digits_write == NULL)
+        skip_because("there is no C++ compiler");
+    const int64_t count = *(const int64_t *)*state;
+    uint64_t random = 1;
+    for (int64_t i = 0; i < count; i++)
+        compare_written(number_of_kind(&random, (int)(i % 8)));
+}
+
+/* Appends so many digits; returns where they end. */
+static char *put_digits(char *at, uint64_t *random, uint64_t count)
+{
+    for (; count > 0; count--)
+        *at++ = (char)('0' + sample_bits(random) % 10);
+    return at;
+}
+
+static void decimals_of_every_length_are_read_alike(void **state)
+{
+    if (digits_write == NULL)
+        skip_because("there is no C++ compiler");
+    const int64_t count = *(const int64_t *)*state / 8;
+    uint64_t random = 2;
+    for (int64_t i = 0; i < count; i++) {
+        char text[TEXT_SIZE], *at = text;
+        const uint64_t longest = i % 5 == 0 ? 60 : 20;
+        *at = '-';
+        at = put_digits(at + i % 2, &random, 1 + sample_bits(&random) % longest);
+        *at = '.';
+        if (i % 3 != 0)
+            at = put_digits(at + 1, &random, 1 + sample_bits(&random) % longest);
+        *at = '\0';
+        const int range = i % 7 == 0 ? 340 : 30;
+        if (i % 4 != 0)
+            snprintf(at, 8, "%c%lld", i % 8 == 1 ? 'E' : 'e',
+                     (long long)sample_integer(&random, range));
+        compare_read(text);
+    }
+}
+
+int main(int count, char **words)
+{
+    int64_t doubles = count > 1 ? atoll(words[1]) : 1000000;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(powers_of_two_and_ten_and_their_neighbours_are_written_alike),
+        cmocka_unit_test_prestate(doubles_of_every_kind_are_written_alike, &doubles),
+        cmocka_unit_test_prestate(decimals_of_every_length_are_read_alike, &doubles),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
