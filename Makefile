@@ -2,15 +2,17 @@
 # are folders there, and `glint`, which runs them all fused.
 #
 #   make            everything, into build/bin
-#   make check      unit tests and house checks; scripts/test runs all tests
+#   make test       unit tests; make check also the rules of the house; scripts/test runs all tests
 #   make SAN=1 ...  the same under address and undefined-behaviour sanitizers, in build-san/
 #   make CC=clang BUILD=build-clang
-#   make install    PREFIX=/usr/local DESTDIR=      make uninstall   with the same two
+#   make install    PREFIX=/usr/local LIBDIR=/usr/local/lib DESTDIR=   make uninstall   with the same
+#   make CPPFLAGS=-DPLAIN_POSIX   without the calls that Linux alone has; LDFLAGS=-static also works
 
 # No built-in rules: one of them would try to make a.d from a.d.o.
 MAKEFLAGS += -r
 
 PREFIX ?= /usr/local
+LIBDIR ?= $(PREFIX)/lib
 BUILD ?= build
 CFLAGS ?= -O2 -g
 
@@ -37,7 +39,7 @@ WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 # Contraction would let a compiler round a*b+c once instead of twice, and so change results.
 # gcc 12's vectorizer does it all the same where a subtraction and an addition stand side by side.
 EXACT = -ffp-contract=off -fno-fast-math -fno-tree-vectorize -fno-tree-slp-vectorize
-HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib -MMD -MP $(SANITIZE)
+HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib -MMD -MP $(SANITIZE) $(CPPFLAGS)
 LINK = $(CC) $(SANITIZE) $(LDFLAGS)
 LIBS = -ljansson -lcsv -lz -lm
 
@@ -225,7 +227,9 @@ soundness: $(soundness_tests)
 
 fuzz: $(harnesses)
 
-check: all unit
+test: all unit
+
+check: test
 	$(Q)BUILD=$(BUILD) scripts/check-house
 
 bench: all
@@ -275,14 +279,16 @@ install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
 # Sources of plug-ins lie beside the pages as examples.
 plugin_sources = $(foreach p,$(all_plugins),$(wildcard $(addprefix stages/$(p)/,Makefile *.[ch] *.def *.proto *.json)))
 headers = $(wildcard lib/*/*.h lib/*/*.def)
+# The prefix from the folder of glint.pc, so that an installation can be moved; absolute if LIBDIR lies elsewhere.
+pc_prefix = $(if $(filter $(PREFIX)/%,$(LIBDIR)),$${pcfiledir}/../$(shell echo $(LIBDIR:$(PREFIX)/%=%) | sed 's:[^/]\{1,\}:..:g'),$(PREFIX))
 version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
 install: all man
-	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig share/man/man1 share/glint)
+	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin share/man/man1 share/glint) $(DESTDIR)$(LIBDIR)/pkgconfig
 	$(call install_as_one,$(plain_programs))
 	$(call install_as_one,$(full_programs))
-	install -m 644 $(BUILD)/libglint.a $(DESTDIR)$(PREFIX)/lib
-	strip -g $(DESTDIR)$(PREFIX)/lib/libglint.a
-	sed 's/@version@/$(version)/' stages/glint.pc >$(DESTDIR)$(PREFIX)/lib/pkgconfig/glint.pc
+	install -m 644 $(BUILD)/libglint.a $(DESTDIR)$(LIBDIR)
+	strip -g $(DESTDIR)$(LIBDIR)/libglint.a
+	sed 's/@version@/$(version)/; s:@prefix@:$(pc_prefix):' stages/glint.pc >$(DESTDIR)$(LIBDIR)/pkgconfig/glint.pc
 	$(Q)for header in $(headers:lib/%=%); do \
 	    install -D -m 644 lib/$$header $(DESTDIR)$(PREFIX)/include/glint/$$header || exit 1; done
 	$(Q)for page in $(BUILD)/man/*.1; do \
@@ -315,14 +321,14 @@ install: all man
 uninstall:
 	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(programs)))
 	rm -f $(patsubst %,$(DESTDIR)$(PREFIX)/share/man/man1/%.1,$(notdir $(programs)))
-	rm -f $(addprefix $(DESTDIR)$(PREFIX)/lib/,libglint.a pkgconfig/glint.pc)
+	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,libglint.a pkgconfig/glint.pc)
 	rm -rf $(addprefix $(DESTDIR)$(PREFIX)/,include/glint share/glint share/doc/glint)
 
 clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit hard soundness fuzz check bench accuracy schemas format lint man install uninstall clean FORCE
+.PHONY: all unit hard soundness fuzz test check bench accuracy schemas format lint man install uninstall clean FORCE
 .PRECIOUS: $(BUILD)/tests/%.o $(tests) $(BUILD)/tests/hard/%
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)

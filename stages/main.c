@@ -1,17 +1,16 @@
 /* The main of every program. A file is what its name says: glint-NAME is that stage or tool, and
  * any other name is glint itself. */
 #include <stdio.h>
-#include <unistd.h>
 
 #include "run/chain.h"
 #include "run/pipeline_process.h"
+#include "text/path.h"
 
 /* The name of the file that runs, or else the name that it was called by: a file keeps its meaning
  * behind a link of another name. NULL: neither begins with glint-. */
 static const char *own_name(char *path, size_t size, const char *called)
 {
-    ssize_t length = readlink("/proc/self/exe", path, size - 1);
-    path[length > 0 ? length : 0] = '\0';
+    path_of_program(path, size);
     const char *name = stage_name_in_path(path);
     return name != NULL || called == NULL ? name : stage_name_in_path(called);
 }

@@ -26,10 +26,8 @@ const char *document_own_folder(struct arena *arena)
 {
     enum { ROOM = 4096 };
     char *path = arena_get(arena, ROOM);
-    ssize_t length = readlink("/proc/self/exe", path, ROOM - 1);
-    if (length <= 0)
+    if (path_of_program(path, ROOM) == 0)
         return "";
-    path[length] = '\0';
     char *slash = strrchr(path, '/');
     slash[1] = '\0';
     return path;

@@ -1,4 +1,6 @@
-#define _GNU_SOURCE /* NOLINT(bugprone-reserved-identifier): for O_TMPFILE, which is Linux's */
+#ifndef PLAIN_POSIX
+#define _GNU_SOURCE /* NOLINT(bugprone-reserved-identifier): for O_TMPFILE and statx of Linux */
+#endif
 #include "text/output.h"
 
 #include <dirent.h>
@@ -96,23 +98,43 @@ static int name_file(struct whole_file *file)
     return 0;
 }
 
+/* A file without a name in the folder, where the system has such files; -1 elsewhere. It gets its
+ * name through a folder of Linux. */
+static int open_unnamed(const char *folder)
+{
+#ifdef O_TMPFILE
+    if (access("/proc/self/fd", X_OK) == 0)
+        return open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+#endif
+    (void)folder;
+    return -1;
+}
+
+/* True if the system tells that a file is mounted by itself. */
+static bool is_mounted(const char *path)
+{
+#ifdef STATX_ATTR_MOUNT_ROOT
+    struct statx mount = {0};
+    statx(AT_FDCWD, path, 0, 0, &mount);
+    return (mount.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
+#else
+    (void)path;
+    return false;
+#endif
+}
+
 /* True if the path is free, or a file that may be written and replaced; errno has the reason if
  * not. In a sticky folder only the owners of file and folder may replace a file. */
 static bool may_take(const struct whole_file *file, struct stat *there)
 {
     struct stat folder;
-    struct statx mount = {0};
     if (stat(file->path, there) != 0 || stat(file->folder, &folder) != 0)
         return errno == ENOENT;
     if (!S_ISDIR(there->st_mode) && access(file->path, W_OK) != 0)
         return false;
-    statx(AT_FDCWD, file->path, 0, 0, &mount);
     bool kept = (folder.st_mode & S_ISVTX) != 0 && geteuid() != 0 && there->st_uid != geteuid() &&
                 folder.st_uid != geteuid();
-    errno = S_ISDIR(there->st_mode)                               ? EISDIR
-            : (mount.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 ? EBUSY
-            : kept                                                ? EPERM
-                                                                  : 0;
+    errno = S_ISDIR(there->st_mode) ? EISDIR : is_mounted(file->path) ? EBUSY : kept ? EPERM : 0;
     return errno == 0;
 }
 
@@ -123,8 +145,7 @@ static int open_file(struct whole_file *file)
     struct stat there = {0};
     if (!may_take(file, &there))
         return -1;
-    if (access("/proc/self/fd", X_OK) == 0) /* through which the file gets its name later */
-        file->fd = open(file->folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    file->fd = open_unnamed(file->folder);
     flock(file->fd, LOCK_EX | LOCK_NB);
     if (file->fd < 0) {
         remove_leftovers(file->folder);

@@ -23,6 +23,19 @@ int path_descriptor(const char *path)
     return -1;
 }
 
+size_t path_of_program(char *path, size_t size)
+{
+    size_t length = 0;
+#ifdef PLAIN_POSIX
+    (void)size;
+#else
+    ssize_t told = readlink("/proc/self/exe", path, size - 1);
+    length = told > 0 ? (size_t)told : 0;
+#endif
+    path[length] = '\0';
+    return length;
+}
+
 bool path_is_special(const char *path)
 {
     struct stat status;

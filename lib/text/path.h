@@ -4,10 +4,15 @@
 #pragma once
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* The descriptor that the path stands for, as for a shell's >: "-",
  * /dev/stdout, /dev/fd/N, /proc/self/fd/N; -1: none. */
 int path_descriptor(const char *path);
+
+/* Writes the path of the running executable; returns its length, or 0 and "" if the system does not
+ * tell it. */
+size_t path_of_program(char *path, size_t size);
 
 /* True if the path leads to something that is neither a regular file nor a folder. */
 bool path_is_special(const char *path);
