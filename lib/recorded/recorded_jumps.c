@@ -5,8 +5,8 @@
  * is a teleport (recorded_plausibility.h). The body goes on from where it is: its distance to the
  * recorded place falls to 0 along a cubic within RECORDED_JUMP_S, an ordinary time of a lane change
  * (4.0 s with a standard deviation of 2.3 s in NGSIM: Thiemann, Treiber and Kesting, TRR 2088,
- * 2008). A jump within one lane, where the source names lanes, is no change of lanes: SUMO parks a
- * vehicle beside its lane, or takes it back. That way is not the body's own.
+ * 2008). A jump of a standing vehicle within one lane, where the source names lanes, is no change
+ * of lanes: SUMO parks it beside its lane, or takes it back. That way is not the body's own.
  *
  * A body turns about the middle of its front bumper, which the recording places. Where that moves
  * at an angle to the body, and the body turns at 2 v / l times the sine of that angle, the centre
@@ -15,8 +15,9 @@
 #include "base/units.h"
 #include "recorded/recorded_steps.h"
 
-static const double JUMP_LEAST_M = 1, JUMP_LEAST_MPS = 2, JUMP_MOST_M = 5, TURN_SLACK = 0.5,
-                    CREEP_MPS = 1, COURSE_M = 1e-3; /* the least way that tells a direction */
+static const double JUMP_LEAST_M = 1, JUMP_LEAST_MPS = 2, JUMP_MOST_M = 5, STANDS_MPS = 0.1,
+                    TURN_SLACK = 0.5, CREEP_MPS = 1,
+                    COURSE_M = 1e-3; /* the least way that tells a direction */
 
 /* The part of the way that the speed does not explain; zero if it is no jump, or if the angle turns
  * so far in the step (a junction within a second) that the way may have any direction. */
@@ -44,7 +45,8 @@ enum recorded_way recorded_jumps_way(const struct recorded_state *state,
     if (jump_m.x == 0 && jump_m.y == 0)
         return RECORDED_WAY_PLAIN;
     bool within = now->lane != NULL && last->lane != NULL && strcmp(now->lane, last->lane) == 0;
-    return within ? RECORDED_WAY_LEFT : RECORDED_WAY_EXPLAINED;
+    bool stands = elementary_min(state->speed_mps, before->speed_mps) < STANDS_MPS;
+    return within && stands ? RECORDED_WAY_LEFT : RECORDED_WAY_EXPLAINED;
 }
 
 /* Sets what is still left, length_s later, of the jumps before. */

@@ -92,7 +92,7 @@ double recorded_steps_slope(double before, double before_s, double after, double
 const struct recorded_state *recorded_steps_find(const struct recorded_step *step, const char *id);
 
 /* Whether the way from the state before, length_s earlier, is a jump: to another lane, which is
- * spread, or within one, as SUMO parks vehicles. */
+ * spread, or of a standing vehicle within one, as SUMO parks vehicles. */
 enum recorded_way recorded_jumps_way(const struct recorded_state *state,
                                      const struct recorded_state *before, double length_s);
 
