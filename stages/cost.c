@@ -1,7 +1,8 @@
 /* What accuracy costs: chains of stages by time and error, measured on a sample of the frames, and
  * the pipeline that holds a bound on one of the two. */
 #include "run/cost.h"
-#include "run/plan.h"
+#include "run/cost_search.h"
+#include "run/suite_choice.h"
 #include "run/tool.h"
 #include "text/output.h"
 #include "text/record_write.h"
@@ -12,7 +13,6 @@ struct cost_state {
     int64_t sample; /* most frames */
     int reference;  /* enum cost_reference; -1: not given */
     bool brief, json;
-    struct plan plan; /* what the frames of the sample call for */
     struct cost cost;
     double bound;                     /* of the error, or in microseconds */
     const struct tried_chain *chosen; /* that holds it; NULL: no bound was given */
@@ -47,39 +47,16 @@ static int read_bounds(struct cost_state *own, struct diag *diag)
 static int begin(struct cost_state *own, struct runner *runner)
 {
     struct diag *diag = runner_diag(runner);
-    if (plan_begin(&own->plan, &own->choice, runner) != 0 || read_bounds(own, diag) != 0)
+    struct cost *cost = &own->cost;
+    if (read_bounds(own, diag) != 0)
         return -1;
-    own->cost = (struct cost){
-        .runner = runner,
-        .suite = own->choice.sensors,
-        .reference = own->reference == COST_ALL ? COST_ALL : COST_SIGNAL,
-        .brief = own->brief,
-        .bounded = own->error != NULL || own->within != NULL,
-        .whole = own->plan.request,
-        .allowed = own->plan.allowed,
-    };
-    if (cost_begin(&own->cost, own->sample) != 0)
+    cost->brief = own->brief;
+    if (cost_begin(cost, &own->choice, runner, own->reference == COST_ALL ? COST_ALL : COST_SIGNAL,
+                   own->sample) != 0)
         return -1;
-    if (own->reference == COST_SIGNAL && own->cost.no_signal != NULL)
-        return diag_fail(diag, DIAG_USAGE, "--reference: signal: %s", own->cost.no_signal);
+    if (own->reference == COST_SIGNAL && cost->no_signal != NULL)
+        return diag_fail(diag, DIAG_USAGE, "--reference: signal: %s", cost->no_signal);
     return 0;
-}
-
-/* Finds the effects that the frames of the sample call for. */
-static int plan_sample(struct cost_state *own, struct diag *diag)
-{
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
-    const struct frame_sample *sample = &own->cost.sample;
-    int result = 0;
-    for (size_t i = 0; result == 0 && i < sample->list.count; i++)
-        if (chain_trials_read(&sample->list.items[i], &frame, diag) != 0 ||
-            plan_try(&own->plan, &frame) != 0)
-            result = diag_prefix(diag, "scene \"%s\", frame %lld: ", frame.scene,
-                                 (long long)frame.frame);
-    arena_free(&arena);
-    own->cost.needed = plan_effects(&own->plan);
-    return result;
 }
 
 /* After the last frame: measures the chains, and finds the one that was asked for. */
@@ -88,12 +65,12 @@ static int measure(struct cost_state *own, struct diag *diag)
     struct cost *cost = &own->cost;
     if (cost->sample.list.count == 0)
         return diag_fail(diag, DIAG_DATA, "the stream has no frame; expected one to measure");
-    if (plan_sample(own, diag) != 0 || cost_measure(cost) != 0)
+    if (cost_measure(cost) != 0)
         return -1;
     if (own->error == NULL && own->within == NULL)
         return 0;
     own->chosen =
-        cost_find(cost, own->error != NULL ? COST_BOUND_ERROR : COST_BOUND_US, own->bound);
+        cost_search(cost, own->error != NULL ? COST_SEARCH_ERROR : COST_SEARCH_US, own->bound);
     return own->chosen != NULL ? 0 : -1;
 }
 
@@ -102,11 +79,9 @@ static int print(const struct cost_state *own, struct output *output, struct run
     const struct cost *cost = &own->cost;
     struct text *text = output_text(output);
     if (own->json || runner_output_ends(runner, ".json"))
-        record_write(&cost_record, cost, NULL, text);
-    else if (own->chosen != NULL)
-        cost_write_pipeline(cost, own->chosen, text);
+        record_write(&cost_table_record, &cost->table, NULL, text);
     else
-        cost_write_table(cost, text);
+        cost_write(cost, own->chosen, text);
     return output_send(output, runner_diag(runner));
 }
 
@@ -120,9 +95,14 @@ static int cost_run(void *state, struct runner *runner)
     struct frame *frame;
     int more;
     while ((more = runner_frame_ascending(runner, &frame)) > 0)
-        if (chain_trials_sample(&own->cost.sample, frame, diag) != 0)
+        if (frame_sample_add(&own->cost.sample, frame, diag) != 0)
             return -1;
     return more < 0 || measure(own, diag) != 0 ? -1 : print(own, output, runner);
+}
+
+static void cost_release(void *state)
+{
+    cost_free(&((struct cost_state *)state)->cost);
 }
 
 static const struct field cost_options[] = {
@@ -137,8 +117,9 @@ static const struct field cost_options[] = {
      .word = "TIME"},
     {OPTIONAL_INTEGER(
         struct cost_state, sample, 1, 1e6,
-        "measure at most this many frames; absent: 250, or fewer if the signal takes long")},
-    {OPTIONAL_CHOICE(struct cost_state, reference, cost_references,
+        "measure this many frames, if there are as many; absent: 250, or fewer if the signal "
+        "takes long")},
+    {OPTIONAL_CHOICE(struct cost_state, reference, cost_table_references,
                      "the chain that errors are measured from; absent: signal, if there is one"),
      .absent = -1},
     {OPTIONAL_FLAG(struct cost_state, brief, "measure no chains that leave out an effect")},
@@ -151,16 +132,17 @@ const struct stage stage_cost = {
     .name = "cost",
     .summary = "Print what accuracy costs on these scenes: chains by time and error.",
     .details =
-        "Measures the CPU time and the error of chains of stages on a sample of the frames. The "
-        "error is the distance of a chain's lists from those of a reference, the root of an energy "
-        "distance, in per cent of the distance of ideal echoes. At 0 %, both have the same "
-        "distribution of lists. The reference is the signal if the suite has a waveform and "
-        "glint-sensor-signal lies beside this program, and otherwise the chain with all effects "
-        "that the suite describes. The 95 % interval holds for the same frames under other seeds, "
-        "not for other scenes. Reflectors in the frames are used as they are. The table is printed "
-        "at the end of the stream; pipelines/README.md explains it.",
+        "Measures the CPU time and the error of chains of stages on a sample of the frames, and "
+        "for each effect how many lists of targets change without it, the time that this saves and "
+        "the squared error that it adds. The error is the distance of a chain's lists from those "
+        "of a reference, the root of an energy distance, in per cent of the distance of ideal "
+        "echoes. At 0 %, both have the same distribution of lists. The reference is the signal if "
+        "the suite has a waveform and glint-sensor-signal lies beside this program, and otherwise "
+        "the chain with all effects that the suite describes. Reflectors in the frames are used as "
+        "they are. The table is printed at the end of the stream; pipelines/README.md explains it.",
     .options = STAGE_OPTIONS(struct cost_state, cost_options),
     .reads = SECTION_OBJECTS,
     .draws = true,
     .run = cost_run,
+    .release = cost_release,
 };

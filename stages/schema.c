@@ -3,7 +3,7 @@
 #include "documents/vehicle.h"
 #include "export/record_schema.h"
 #include "frame/frame.h"
-#include "run/cost.h"
+#include "run/cost_table.h"
 #include "run/tool.h"
 #include "score/ensemble.h"
 #include "score/score.h"
@@ -19,7 +19,7 @@ static const struct {
     const char *name;
     const struct record *record;
 } schemas[] = {
-    {"cost", &cost_record},
+    {"cost", &cost_table_record},
     {"frame", &frame_record},
     {"scenario", &scenario_record},
     {"score", &score_line_record},

@@ -20,6 +20,7 @@ const struct effect effect_ambiguity = {
     .cause = "unambiguous_range_m and unambiguous_rate_mps of a sensor",
     .left_out_when = "the sensor has neither unambiguous_range_m nor unambiguous_rate_mps",
     .cost = "two remainders per echo",
+    .scene = "{object} is folded",
     .home = EFFECT_HOME_SENSOR,
     .members = {{EFFECT_SENSOR(unambiguous_range_m)}, {EFFECT_SENSOR(unambiguous_rate_mps)}},
     .receive = receive,

@@ -32,6 +32,7 @@ const struct effect effect_coherence = {
     .cause = "cell_phase of a sensor",
     .left_out_when = "the sensor's cell_phase is in_phase",
     .cost = "a sine and a cosine per echo",
+    .scene = "{object} shares a cell",
     .home = EFFECT_HOME_SENSOR,
     .members = {{EFFECT_SENSOR(cell_phase)}},
     .receive = receive,

@@ -7,5 +7,6 @@ const struct effect effect_curvature = {
     .left_out_when =
         "the sensor's curved_sides is false or no plane in sight has a profile_radius_m",
     .cost = "a square root per plane",
+    .scene = "{object} has curved sides",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -7,5 +7,6 @@ const struct effect effect_diffraction = {
     .left_out_when = "the sensor's diffraction is false or no object stands within a Fresnel "
                      "radius of a sight line",
     .cost = "four edges per sight line and object near it",
+    .scene = "{object} is seen around an edge",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -91,6 +91,9 @@ struct effect {
     const char *cause;         /* the members of documents that describe it */
     const char *left_out_when; /* a clause after "auto leaves it out when"; NULL: auto never does */
     const char *cost;          /* of simulating it, after "costs": "a draw per echo" */
+    /* What of a scene calls for it, with {object}, {mirror} and {by}, which blocks an echo:
+     * "{mirror} mirrors {object}"; NULL: what documents describe does so in every scene. */
+    const char *scene;
 
     enum effect_home home;
 

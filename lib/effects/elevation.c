@@ -7,5 +7,6 @@ const struct effect effect_elevation = {
     .cause = "mount_z_m of a sensor, z of a reflector",
     .left_out_when = "the sensor has no mount_z_m or all reflectors in sight are at its height",
     .cost = "two square roots and an angle per reflector",
+    .scene = "{object} is above or below the sensor",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -6,6 +6,7 @@ const struct effect effect_final_threshold = {
     .cause = "final_threshold of a sensor",
     .left_out_when = "the sensor's final_threshold is false",
     .cost = "a comparison per cell",
+    .scene = "{object} is too weak after noise",
     .home = EFFECT_HOME_NOISE,
     .members = {{EFFECT_SENSOR(final_threshold)}},
 };

@@ -8,5 +8,6 @@ const struct effect effect_ghosts = {
         "the sensor's bounces are less than 2, or no mirror in its range faces both the sensor and "
         "another object, or neither the object nor its mirror image is in the sensor's view",
     .cost = "a mirror image per reflector and mirror",
+    .scene = "{mirror} mirrors {object}",
     .home = EFFECT_HOME_IDEAL,
 };

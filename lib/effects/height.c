@@ -7,5 +7,6 @@ const struct effect effect_height = {
     .cause = "mount_z_m of a sensor, height_m and clearance_m of an object's class",
     .left_out_when = "the sensor has no mount_z_m or occlusion is left out",
     .cost = "a height of the sight line per object in the way",
+    .scene = "{object} is seen over or under others",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -6,5 +6,6 @@ const struct effect effect_latency = {
     .cause = "latency_s of a sensor",
     .left_out_when = "the sensor's latency_s is 0",
     .cost = "a step of motion per object",
+    .scene = "{object} moved since the measurement",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -51,6 +51,7 @@ const struct effect effect_limbs = {
     .left_out_when =
         "the sensor's micro_motion is false or nobody in sight walks along the sight line",
     .cost = "a draw per person and limb",
+    .scene = "limbs of {object} swing",
     .home = EFFECT_HOME_SENSOR,
     .described = described,
     .add_echoes = add_echoes,

@@ -6,6 +6,7 @@ const struct effect effect_list_limit = {
     .cause = "list_limit of a sensor",
     .left_out_when = "the sensor's list_limit is 0",
     .cost = "nothing",
+    .scene = "{object} comes behind the limit",
     .home = EFFECT_HOME_NOISE,
     .members = {{EFFECT_SENSOR(list_limit)}},
 };

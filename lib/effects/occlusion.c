@@ -6,5 +6,6 @@ const struct effect effect_occlusion = {
     .cause = "blocks of a vehicle",
     .left_out_when = "no object stands between the sensor and another object",
     .cost = "a test per reflector and object in the way",
+    .scene = "{by} hides {object}",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -6,5 +6,6 @@ const struct effect effect_plane_reflection = {
     .cause = "planes of a vehicle",
     .left_out_when = "no object has planes",
     .cost = "a perpendicular per plane",
+    .scene = "{object} has flat sides",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -44,6 +44,7 @@ const struct effect effect_range_migration = {
     .cause = "range_migration of a sensor",
     .left_out_when = "the sensor's range_migration names no window, or no echo moves in range",
     .cost = "two square roots per echo",
+    .scene = "{object} walks through range cells",
     .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,

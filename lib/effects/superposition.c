@@ -6,5 +6,6 @@ const struct effect effect_superposition = {
     .cause = "antenna_pattern of a sensor",
     .left_out_when = "every cell has one echo",
     .cost = "two pointers per echo",
+    .scene = "{object} shares a cell",
     .home = EFFECT_HOME_SENSOR,
 };

@@ -5,5 +5,6 @@ const struct effect effect_threshold = {
     .summary = "a cell whose summed amplitude is below the threshold is lost",
     .cause = "threshold_db of a sensor",
     .cost = "a comparison per cell",
+    .scene = "{object} is too weak",
     .home = EFFECT_HOME_SENSOR,
 };

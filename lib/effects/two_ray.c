@@ -59,6 +59,7 @@ const struct effect effect_two_ray = {
     .left_out_when =
         "the road is unknown, the sensor has no mount_z_m or no reflector in sight has a z",
     .cost = "a Fresnel coefficient per echo",
+    .scene = "the road mirrors {object}",
     .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,

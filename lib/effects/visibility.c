@@ -6,5 +6,6 @@ const struct effect effect_visibility = {
     .cause = "full_rad and zero_rad of a point or row",
     .left_out_when = "no object has points or rows",
     .cost = "an arctangent per point and post",
+    .scene = "{object} turns points away",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -38,6 +38,7 @@ const struct effect effect_wheels = {
     .left_out_when =
         "the sensor's micro_motion is false or no wheel in sight rolls along the sight line",
     .cost = "a draw per wheel and point on it",
+    .scene = "wheels of {object} roll",
     .home = EFFECT_HOME_SENSOR,
     .described = described,
     .add_echoes = add_echoes,

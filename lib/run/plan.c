@@ -2,256 +2,204 @@
 
 #include <inttypes.h>
 
+#include "base/elementary.h"
 #include "effects/effect.h"
-#include "frame/frame_text.h"
-#include "run/tool.h"
-#include "text/document.h"
-
-static const struct plan_position chain[PLAN_POSITIONS] = {
-    [PLAN_IDEAL] = {.program = "glint-ideal", .section = SECTION_ECHOES},
-    [PLAN_SENSOR] = {.program = "glint-sensor",
-                     .stand_in = "glint-sensor-perfect",
-                     .section = SECTION_CELLS},
-    [PLAN_NOISE] = {.program = "glint-noise",
-                    .stand_in = "glint-noise-none",
-                    .section = SECTION_TARGETS},
-};
-
-/* The names of the effects behind a first word, with these letters before each name. */
-static const char *list_names(const char *first, const char *before, uint64_t effects,
-                              struct arena *arena)
-{
-    for (int i = 0; i < EFFECT_COUNT; i++)
-        if ((effects & EFFECT_BIT(i)) != 0)
-            first = arena_format(arena, "%s%s%s", first, *first != '\0' ? before : "",
-                                 effects_names[i]);
-    return first;
-}
-
-const char *plan_request(uint64_t allowed, struct arena *arena)
-{
-    return list_names("auto", ",-", ~allowed, arena);
-}
-
-const char *plan_names(uint64_t effects, struct arena *arena)
-{
-    return effects == 0 ? "none" : list_names("", ",", effects, arena);
-}
-
-static struct runner *trial(const char *program, const struct suite_choice *choice,
-                            struct effect_log *log, struct runner *runner)
-{
-    return runner_trial(runner, stage_by_name(stage_name_in_path(program)), choice, log);
-}
 
 int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runner *runner)
 {
-    struct sensors request;
-    struct selection selection;
-    struct diag *diag = runner_diag(runner);
-    const struct suite *suite = suite_choice_load(runner, choice->sensors);
-    if (suite == NULL || suite_choice_request(choice, suite, &request, diag) != 0 ||
-        effects_read(request.effects, &selection, diag) != 0)
+    struct trial_bench *bench = &plan->bench;
+    if (trial_begin(bench, choice, runner) != 0)
         return -1;
-    suite_choice_doubt(runner, suite);
-    struct suite_choice planned = {choice->sensors,
-                                   plan_request(selection.allowed, runner_arena(runner))};
-    *plan = (struct plan){
-        .sensors = choice->sensors,
-        .request = strcmp(planned.effects, "auto") == 0 ? "auto" : request.effects,
-        .allowed = selection.allowed,
-        .runner = runner,
-        .extract = trial("glint-extract", NULL, NULL, runner),
-    };
-    for (int i = 0; i < PLAN_POSITIONS; i++) {
-        struct plan_position *position = &plan->positions[i];
-        *position = chain[i];
-        position->tried =
-            trial(position->program, i == PLAN_IDEAL ? &planned : NULL, &position->log, runner);
-        if (position->stand_in != NULL)
-            position->simpler = trial(position->stand_in, NULL, NULL, runner);
+    plan->runner = runner;
+    plan->sample = (struct frame_sample){.arena = runner_arena(runner), .most = INT64_MAX};
+    plan->table = (struct cost_table){.suite = choice->sensors, .reference = -1, .seeds = 1};
+    trial_begin_pass(bench, TRIAL_COMPARED | TRIAL_EFFECTS);
+    for (int i = 0; i < PLAN_STAGES; i++) {
+        plan->stand_ins[i] = bench->whole[TRIAL_SENSOR + i];
+        plan->stand_ins[i].programs[i] = i == 0 ? "glint-sensor-perfect" : "glint-noise-none";
+        trial_prepare(bench, &plan->stand_ins[i]);
+        trial_add(bench, &plan->stand_ins[i]);
     }
     return 0;
 }
 
-static bool same_bytes(const struct frame *a, const struct frame *b, unsigned section)
+int plan_try(struct plan *plan, const struct frame *frame)
 {
-    struct frame one = *a, other = *b;
-    struct text one_text = {0}, other_text = {0};
-    struct diag unused = {0};
-    frame_drop(&one, ~section);
-    frame_drop(&other, ~section);
-    bool same = frame_text_write(&one, &one_text, &unused) == 0 &&
-                frame_text_write(&other, &other_text, &unused) == 0 &&
-                one_text.length == other_text.length &&
-                memcmp(one_text.bytes, other_text.bytes, one_text.length) == 0;
-    text_free(&one_text);
-    text_free(&other_text);
-    return same;
+    struct diag *diag = runner_diag(plan->runner);
+    if (frame_sample_add(&plan->sample, frame, diag) != 0)
+        return -1;
+    const struct sampled_frame *kept = &plan->sample.list.items[plan->sample.list.count - 1];
+    return trial_run(&plan->bench, kept, kept->seed);
 }
 
-void plan_compare(struct plan_position *position, const struct frame *made,
-                  const struct frame *stand_in_made, struct arena *arena)
+/* The chain with stages replaced and effects left out, but for those of a replaced stage. */
+static void make_pipeline(struct plan *plan)
 {
-    if (same_bytes(made, stand_in_made, position->section))
-        return;
-    position->differs = true;
-    position->scene = arena_text(arena, made->scene, strlen(made->scene));
-    position->frame = made->frame;
+    struct trial *pipeline = &plan->pipeline;
+    uint64_t left_out = plan->left_out;
+    *pipeline = plan->bench.whole[TRIAL_IDEAL];
+    for (int i = 0; i < PLAN_STAGES; i++) {
+        if (!plan->replaced[i])
+            continue;
+        pipeline->programs[i] = plan->stand_ins[i].programs[i];
+        for (int at = 0; at < EFFECT_COUNT; at++)
+            if (effect_table[at]->home == EFFECT_HOME_SENSOR + (unsigned)i)
+                left_out &= ~EFFECT_BIT(at);
+    }
+    pipeline->effects = trial_request(plan->bench.allowed & ~left_out, runner_arena(plan->runner));
+    trial_prepare(&plan->bench, pipeline);
 }
 
-static int try_position(struct plan *plan, struct plan_position *position, struct frame *frame)
+/* Runs the pipeline: 1 if no list differs, 0 if one does, or -1 after a message. */
+static int is_exact(struct plan *plan)
 {
-    struct frame copy = *frame;
-    frame_drop(&copy, SECTION_LOST | SECTION_COUNTS);
-    if (runner_try(plan->runner, position->tried, frame) != 0)
-        return -1;
-    if (position->stand_in == NULL || position->differs)
-        return 0;
-    if (runner_try(plan->runner, position->simpler, &copy) != 0)
-        return -1;
-    plan_compare(position, frame, &copy, runner_arena(plan->runner));
-    return 0;
-}
-
-int plan_try(struct plan *plan, struct frame *frame)
-{
-    plan->frames++;
-    frame_drop(frame, SECTION_SENSORS | SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS |
-                          SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY);
-    frame->sections = CARRY_BY_DEFAULT;
-    if ((frame->present & SECTION_REFLECTORS) == 0 &&
-        runner_try(plan->runner, plan->extract, frame) != 0)
-        return -1;
-    for (int i = 0; i < PLAN_POSITIONS; i++)
-        if (try_position(plan, &plan->positions[i], frame) != 0)
+    make_pipeline(plan);
+    trial_begin_pass(&plan->bench, TRIAL_COMPARED);
+    trial_add(&plan->bench, &plan->pipeline);
+    for (size_t i = 0; i < plan->sample.list.count && plan->pipeline.changed == 0; i++) {
+        const struct sampled_frame *kept = &plan->sample.list.items[i];
+        if (trial_run(&plan->bench, kept, kept->seed) != 0)
             return -1;
+    }
+    return plan->pipeline.changed == 0;
+}
+
+/* Leaves out all that is idle. While a list differs, puts back what comes last: a stage, and then
+ * the last effect in the order of the chain. */
+static int prove(struct plan *plan)
+{
+    int exact = 0;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (trial_simulated(&plan->bench, i) && plan->bench.without[i].changed == 0)
+            plan->idle |= EFFECT_BIT(i);
+    plan->left_out = plan->idle;
+    for (int i = 0; i < PLAN_STAGES; i++)
+        plan->replaced[i] = plan->stand_ins[i].changed == 0;
+    for (int i = 0; i < EFFECT_COUNT + PLAN_STAGES && (exact = is_exact(plan)) == 0; i++) {
+        bool *replaced = &plan->replaced[plan->replaced[PLAN_STAGES - 1]];
+        int last = EFFECT_COUNT - 1;
+        while (last > 0 && (plan->left_out & EFFECT_BIT(last)) == 0)
+            last--;
+        if (!*replaced)
+            plan->left_out &= ~EFFECT_BIT(last);
+        *replaced = false;
+    }
+    return exact < 0 ? -1 : 0;
+}
+
+/* All trials in turns, on a part of the frames. */
+static int measure(struct plan *plan)
+{
+    struct trial_bench *bench = &plan->bench;
+    frame_sample_thin(&plan->sample, PLAN_TIMED_FRAMES);
+    trial_begin_pass(bench, TRIAL_TIMED | TRIAL_EFFECTS);
+    trial_add(bench, &plan->pipeline);
+    for (bench->round = 0; bench->round < TRIAL_ROUNDS; bench->round++)
+        for (size_t i = 0; i < plan->sample.list.count; i++)
+            if (trial_run(bench, &plan->sample.list.items[i], plan->sample.list.items[i].seed) != 0)
+                return -1;
     return 0;
 }
 
-/* Whether the stand-in may take the stage's place: it wrote the same bytes in all frames. */
-static bool stands_in(const struct plan_position *position)
+static void fill_table(struct plan *plan, double targets_per_scan)
 {
-    return position->stand_in != NULL && !position->differs;
-}
-
-uint64_t plan_effects(const struct plan *plan)
-{
-    uint64_t effects = 0;
-    for (int at = 0; at < PLAN_POSITIONS; at++) {
-        const struct plan_position *position = &plan->positions[at];
-        for (int i = 0; i < EFFECT_COUNT && !stands_in(position); i++)
-            if (position->log.scans_simulated[i] > 0)
-                effects |= EFFECT_BIT(i);
+    const struct trial_bench *bench = &plan->bench;
+    struct arena *arena = runner_arena(plan->runner);
+    const struct trial *trials[] = {&bench->whole[TRIAL_IDEAL], &plan->pipeline};
+    struct trial_time whole = trial_time_of(bench, trials[0]);
+    for (int i = 0; i < 2; i++) {
+        struct cost_chain *chain = list_add(&plan->table.chains, arena);
+        chain->chain = i == 0 ? bench->asked : "planned";
+        chain->targets_per_scan = targets_per_scan;
+        chain->present = i == 0 ? 0 : COST_ENERGY | COST_ERROR;
+        cost_table_chain(chain, trials[i], whole, trial_saved(bench, trials[i]), i > 0, arena);
     }
-    return effects;
+    plan->table.chains.items[0].us_least = whole.least_us;
+    plan->table.chains.items[0].us_most = whole.most_us;
+    plan->table.chosen = plan->table.chains.items[1].chain;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (trial_simulated(bench, i))
+            *list_add(&plan->table.effects, arena) = cost_table_effect(bench, i);
 }
 
-/* The log of the stage where the effect is at home: the others do not note it. */
-static const struct effect_log *log_of(const struct plan *plan, int effect)
+int plan_end(struct plan *plan)
 {
-    static const int position[] = {[EFFECT_HOME_IDEAL] = PLAN_IDEAL,
-                                   [EFFECT_HOME_SENSOR] = PLAN_SENSOR,
-                                   [EFFECT_HOME_NOISE] = PLAN_NOISE};
-    return &plan->positions[position[effect_table[effect]->home]].log;
+    struct cost_table *table = &plan->table;
+    table->frames = table->seen_frames = plan->sample.seen;
+    table->scenes = (int64_t)plan->sample.names.list.count;
+    table->lists = plan->bench.lists;
+    if (plan->sample.seen == 0)
+        return 0;
+    double targets_per_scan = (double)plan->bench.targets / elementary_max((double)table->lists, 1);
+    memcpy(plan->log, plan->bench.log, sizeof plan->log);
+    if (prove(plan) != 0 || measure(plan) != 0)
+        return -1;
+    table->timed_frames = (int64_t)plan->sample.list.count;
+    fill_table(plan, targets_per_scan);
+    return 0;
 }
 
-static void write_effect(const struct plan *plan, int effect, bool all, struct text *text)
+void plan_free(struct plan *plan)
+{
+    trial_end(&plan->bench);
+}
+
+static void write_reason(const struct plan *plan, int effect, struct text *text)
 {
     const struct effect *entry = effect_table[effect];
-    const struct effect_log *log = log_of(plan, effect);
+    const struct effect_log *log = &plan->log[entry->home];
     const char *left_out = log->scans_left_out[effect] > 0 ? entry->left_out_when : NULL;
     text_format(text, "# %-17s ", effects_names[effect]);
-    if ((plan->allowed & EFFECT_BIT(effect)) == 0)
+    if ((plan->bench.allowed & EFFECT_BIT(effect)) == 0)
         text_add_word(text, "off: not asked for\n");
     else if (log->scans_simulated[effect] > 0)
         text_format(text, "on in %" PRId64 " of %" PRId64 " scans: %s%s%s\n",
                     log->scans_simulated[effect], log->scans, entry->cause,
-                    all && left_out != NULL ? "; in the others " : "",
-                    all && left_out != NULL ? left_out : "");
+                    left_out != NULL ? "; in the others " : "", left_out != NULL ? left_out : "");
     else if (left_out != NULL)
         text_format(text, "off: %s\n", left_out);
     else
         text_format(text, "off: nothing describes it (%s)\n", entry->cause);
 }
 
-static void write_stage(const struct plan_position *position, struct text *text)
+/* Effects that are simulated, and change no list. */
+static void write_idle(const struct plan *plan, struct text *text)
 {
-    text_format(text, "# %s ", position->program);
-    if (position->stand_in == NULL) {
-        text_add_word(text, "stays: no simpler stage stands in for it\n");
+    struct arena *arena = runner_arena(plan->runner);
+    uint64_t back = plan->idle & ~plan->left_out;
+    if (plan->idle != 0)
+        text_format(text, "# Idle, as no list changes without one of them: %s\n",
+                    trial_names(plan->idle, arena));
+    if (back != 0)
+        text_format(text, "# Put back, as lists change without all of them: %s\n",
+                    trial_names(back, arena));
+}
+
+static void write_stage(const struct plan *plan, int at, struct text *text)
+{
+    const struct trial *trial = &plan->stand_ins[at];
+    bool replaced = plan->replaced[at];
+    text_format(text, "# %s %s: with %s, %" PRId64 " of %" PRId64 " lists change%s\n",
+                plan->bench.whole[TRIAL_IDEAL].programs[at], replaced ? "goes" : "stays",
+                trial->programs[at], trial->changed, plan->table.lists,
+                trial->changed == 0 && !replaced ? ", but not without what is left out" : "");
+}
+
+void plan_write(const struct plan *plan, bool all, struct text *text)
+{
+    const struct cost_table *table = &plan->table;
+    if (table->frames == 0)
         return;
-    }
-    bool replaced = stands_in(position);
-    text_format(text, "%s: %s writes ", replaced ? "goes" : "stays", position->stand_in);
-    if (position->differs) {
-        text_format(text, "other %s, first in frame %" PRId64 " of scene ",
-                    frame_section_name(position->section), position->frame);
-        text_add_json(text, position->scene, strlen(position->scene));
-    } else {
-        text_format(text, "the same %s", frame_section_name(position->section));
-    }
-    text_add_word(text, "\n");
-}
-
-/* Writes the word so that bash and glint read it back as it is, in quotes if need be. */
-static void write_word(const char *word, struct text *text)
-{
-    static const char plain[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-";
-    if (word[strspn(word, plain)] == '\0') {
-        text_add_word(text, word);
-        return;
-    }
-    text_add_word(text, "'");
-    for (; *word != '\0'; word++)
-        text_add(text, *word == '\'' ? "'\\''" : word, *word == '\'' ? 4 : 1);
-    text_add_word(text, "'");
-}
-
-void plan_write_pipeline(const char *sensors, const char *effects, const char *const *programs,
-                         size_t count, struct text *text)
-{
-    text_add_word(text, "set -o pipefail\nglint-extract \\\n  | glint-ideal --sensors ");
-    write_word(sensors, text);
-    text_format(text, " --effects %s", effects);
-    for (size_t i = 0; i < count; i++) {
-        text_format(text, " \\\n  | %s", programs[i]);
-        if (!document_is_plain(sensors)) {
-            text_add_word(text, " --sensors ");
-            write_word(sensors, text);
-        }
-    }
-    text_add_word(text, "\n");
-}
-
-static void write_effects(const struct plan *plan, bool all, struct text *text)
-{
-    int off = 0;
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        bool on = log_of(plan, i)->scans_simulated[i] > 0;
-        off += !on;
-        if (on || all)
-            write_effect(plan, i, all, text);
-    }
-    if (off > 0 && !all)
-        text_format(text, "# %d others are off; --all says why\n", off);
-}
-
-void plan_write(const struct plan *plan, bool all, struct arena *arena, struct text *text)
-{
-    if (plan->frames == 0)
-        return;
-    text_format(text, "# What these %" PRId64 " frames need, and why.\n", plan->frames);
-    write_effects(plan, all, text);
-    text_add_word(text, "# glint-extract stays: no simpler stage stands in for it\n");
-    for (int i = 0; i < PLAN_POSITIONS; i++)
-        write_stage(&plan->positions[i], text);
-    const char *programs[PLAN_POSITIONS];
-    for (int i = 0; i < PLAN_POSITIONS; i++) {
-        const struct plan_position *position = &plan->positions[i];
-        programs[i] = stands_in(position) ? position->stand_in : position->program;
-    }
-    plan_write_pipeline(plan->sensors, plan_names(plan_effects(plan), arena),
-                        programs + PLAN_SENSOR, PLAN_POSITIONS - PLAN_SENSOR, text);
+    text_format(text,
+                "# %" PRId64 " frame%s of %" PRId64 " scene%s, seen by %s: %" PRId64
+                " lists of targets.\n",
+                table->frames, table->frames == 1 ? "" : "s", table->scenes,
+                table->scenes == 1 ? "" : "s", table->suite, table->lists);
+    cost_table_write(table, "# ", all ? UINT64_MAX : ~plan->idle, text);
+    write_idle(plan, text);
+    for (int i = 0; i < EFFECT_COUNT && all; i++)
+        write_reason(plan, i, text);
+    for (int i = 0; i < PLAN_STAGES; i++)
+        write_stage(plan, i, text);
+    cost_table_write_pipeline(table->suite, &table->chains.items[1], &table->chains.items[0], text);
 }

@@ -22,9 +22,10 @@ static const struct suite *load_suite(struct runner *runner, const char *name, s
 
 const struct suite *suite_choice_load(struct runner *runner, const char *name)
 {
-    for (size_t i = 0; i < runner->suites.count; i++)
-        if (strcmp(runner->suites.items[i]->given, name) == 0)
-            return runner->suites.items[i];
+    for (const struct runner *at = runner; at != NULL; at = at->before)
+        for (size_t i = 0; i < at->suites.count; i++)
+            if (strcmp(at->suites.items[i]->given, name) == 0)
+                return at->suites.items[i];
     return load_suite(runner, name, &runner->diag);
 }
 
@@ -184,8 +185,13 @@ int suite_choice_effects(const struct suite_choice *choice, const struct frame *
                          "sensors.effects: the frame was seen with \"%s\", not with \"%s\"; give "
                          "the effects to glint-ideal",
                          asked, choice->effects);
-    if (effects_read(asked, selection, diag) != 0)
-        return diag_prefix(diag, "sensors.");
+    if (strcmp(asked, runner->effects) != 0) {
+        runner->effects[0] = '\0';
+        if (effects_read(asked, &runner->selection, diag) != 0)
+            return diag_prefix(diag, "sensors.");
+        memcpy(runner->effects, asked, strlen(asked) + 1);
+    }
+    *selection = runner->selection;
     selection->log = runner_log(runner);
     return 0;
 }

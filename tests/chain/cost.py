@@ -68,9 +68,36 @@ class Bench:
 
 
 def without_times(cost):
-    for chain in cost["chains"]:
-        del chain["us_per_frame"]
+    for row in cost["chains"] + cost["effects"]:
+        for name in {"us_per_frame", "saved"} & row.keys():
+            del row[name]
     return cost
+
+
+def lists_changed(whole, other):
+    """How many lists of both, with labels, are not the same bytes; and how many there are."""
+    count = changed = 0
+    for one, two in zip(whole.splitlines(), other.splitlines()):
+        one, two = json.loads(one), json.loads(two)
+        for sensor in one["sensors"]["list"]:
+            of = [[target for target in frame["targets"] if target["sensor"] == sensor["name"]] for frame in (one, two)]
+            count += sensor["measured"]
+            changed += json.dumps(of[0]) != json.dumps(of[1])
+    return changed, count
+
+
+def effects_are_those_of_chains(bench, cost, frames, suite, truth):
+    """What the rows of effects say, from lists that glint makes without each of them."""
+    whole = next(chain for chain in cost["chains"] if chain["chain"].split(",")[0] == "auto")
+    listed = bench.lists(frames, suite, whole["effects"], whole["programs"], CHAIN)
+    ideal = cost["chains"][0]["energy"]["value"]
+    for row in cost["effects"]:
+        without = bench.lists(frames, suite, whole["effects"] + ",-" + row["effect"], whole["programs"], CHAIN)
+        if lists_changed(listed, without) != (row["lists_changed"], cost["lists"]):
+            sys.exit(f"cost: {suite}: {lists_changed(listed, without)} lists change without {row['effect']}, not {row['lists_changed']}")
+        added = (bench.energy(truth, without) - whole["energy"]["value"]) / ideal
+        if abs(added - row["squared_error_added"]["value"]) > 1e-9:
+            sys.exit(f"cost: {suite}: {row['effect']} adds {added}, not {row['squared_error_added']['value']}")
 
 
 def same_as_the_score(bench, frames, suite, *options):
@@ -87,6 +114,7 @@ def same_as_the_score(bench, frames, suite, *options):
         error = max(0, chain["energy"]["value"] / cost["chains"][0]["energy"]["value"]) ** 0.5
         if "relative_distance" in chain and abs(error - chain["relative_distance"]["value"]) > 1e-9:
             sys.exit(f"cost: {suite}: {chain['chain']}: error {chain['relative_distance']['value']}, root of D over D of ideal {error}")
+    effects_are_those_of_chains(bench, cost, frames, suite, truth)
     return cost
 
 
@@ -104,7 +132,7 @@ def printed_chain(plan):
     _, ideal, *programs = [stage.split() for stage in text.split("|")]
     options = dict(zip(ideal[1::2], ideal[2::2]))
     error = re.search(r"with an error of (<?)(\S+) % \((\S+) to (\S+)\)", plan)
-    return options, [" ".join(words) for words in programs], error.groups(), re.findall(r"^# (\w+) +off: ", plan, re.M)
+    return options, [" ".join(words) for words in programs], error.groups(), re.findall(r"^# (\w+) +\d+ of \d+ ", plan, re.M)
 
 
 def pipeline_is_the_chain(bench, frames, suite, option):
@@ -170,11 +198,12 @@ def same_effects(bench, frames, suite, bound, *options):
     calls = []
     for seed in range(1, 5):
         cost = bench.cost(seeded(frames, seed), suite, "--error", bound, *options)
-        calls.append(({chain["chain"]: chain for chain in cost["chains"]}, cost["chosen"]))
-    left_out = [chains[chosen]["effects"].split(",-")[1:] for chains, chosen in calls]
+        calls.append(({chain["chain"]: chain for chain in cost["chains"]}, cost["chosen"],
+                      {row["effect"]: row["saved"]["us"] for row in cost["effects"]}))
+    left_out = [chains[chosen]["effects"].split(",-")[1:] for chains, chosen, _ in calls]
     differ = []
     for name in sorted(set().union(*left_out)):
-        share = sum(1 - chains["auto, no " + name]["us_per_frame"] / chains["auto"]["us_per_frame"] for chains, _ in calls) / 4
+        share = sum(saved[name] / chains["auto"]["us_per_frame"] for chains, _, saved in calls) / 4
         count = sum(name in names for names in left_out)
         print(f"cost: {suite}, --error {bound}: {name} is left out by {count} of 4 calls and saves {100 * share:.1f} %")
         differ += [name] if count < 4 and share >= 0.02 else []
@@ -232,6 +261,9 @@ def main(bin_dir, long):
                 sys.exit("cost: the suite has a waveform, but the signal is not the reference")
         else:
             print("skipped  costs with the signal as reference: there is no glint-sensor-signal")
+        for size in 1, 7, 19:
+            if bench.cost(some, "srr24-pair", "--brief", "--sample", str(size))["frames"] != size:
+                sys.exit(f"cost: --sample {size} measures another number of frames")
         for effects, name in ("none", "none"), ("merging,occlusion", "merging,occlusion"), ("all", "auto"):
             chains = bench.cost(some, "srr24-pair", "--effects", effects, "--brief")["chains"]
             if [chain["chain"] for chain in chains] != ["perfect", "paper", name, "smear"]:

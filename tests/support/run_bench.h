@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "run/chain_trials.h"
+#include "run/frame_sample.h"
 #include "run/runner.h"
 #include "run/stage.h"
 
@@ -22,6 +22,14 @@ static inline void begin_stage(struct runner *runner, const char *name, const ch
 #define WORDS(...) ((const char *[]){__VA_ARGS__, NULL})
 #define NO_WORDS ((const char *[]){NULL})
 
+/* A tool that tries stages. */
+static inline void begin_tool(struct runner *runner, const char *suite)
+{
+    assert_int_equal(runner_prepare(runner, stage_by_name("plan"), 2,
+                                    (const char *[]){"--sensors", suite}),
+                     0);
+}
+
 /* So many snapshots of dense traffic. The sample's arena is the caller's. */
 static inline struct frame_sample sample_of_traffic(const char *frames, struct arena *arena)
 {
@@ -32,7 +40,7 @@ static inline struct frame_sample sample_of_traffic(const char *frames, struct a
     struct diag diag = {0};
     begin_stage(&source, "traffic-random", WORDS("--density", "dense", "--frames", frames));
     while (runner_next(&source, &frame) == 1)
-        assert_int_equal(chain_trials_sample(&sample, &frame, &diag), 0);
+        assert_int_equal(frame_sample_add(&sample, &frame, &diag), 0);
     runner_free(&source);
     arena_free(&scratch);
     return sample;
