@@ -75,13 +75,20 @@ static struct tried_chain *whole(const struct cost *cost)
     return cost->chains.list.items[COST_WHOLE];
 }
 
-/* What a table calls the whole chain but for these effects. */
+/* What a table calls the whole chain but for these effects: "auto", "auto, no ghosts", "auto, 14
+ * left out". */
 static const char *name_without(const struct cost *cost, uint64_t left_out)
 {
     struct arena *arena = runner_arena(cost->runner);
-    return left_out == 0
-               ? cost->bench.asked
-               : arena_format(arena, "%s, no %s", cost->bench.asked, trial_names(left_out, arena));
+    const char *asked = cost->bench.asked;
+    int count = 0;
+    for (uint64_t rest = left_out; rest != 0; rest &= rest - 1)
+        count++;
+    if (count == 0)
+        return asked;
+    if (count == 1)
+        return arena_format(arena, "%s, no %s", asked, trial_names(left_out, arena));
+    return arena_format(arena, "%s, %d left out", asked, count);
 }
 
 bool cost_has_errors(const struct cost *cost)
