@@ -103,8 +103,10 @@ def picture_echoes(bench, path):
     draw_bodies(listed, frame | {"objects": [view.ego]}, view, {})
     draw_names(there, frame, view, {"cutter": ("cuts in", 3), "overtaker": ("overtakes", 3), "slow_1": ("truck", -4.4), "ego": ("ego", 3)})
     draw_list(listed, frame, view, size=8)
-    for echo, *_ in lost.values():
-        known.cross(*known.at(view.polar(echo["sensor"], echo["range_m"], echo["azimuth_rad"])))
+    crosses = [known.at(view.polar(echo["sensor"], echo["range_m"], echo["azimuth_rad"])) for echo, *_ in lost.values()]
+    crosses = [place for place in crosses if 0 <= place[1] <= known.size[1]]
+    for place in crosses:
+        known.cross(*place)
     draw_list(known, frame, view, 0, 8)
     draw_labels(known, frame, view)
     draw_notes(known, frame, view, lost)
@@ -114,7 +116,7 @@ def picture_echoes(bench, path):
     for number, (panel, x, head, below) in enumerate((
             (there, 12, "What is there", f"{len(told)} vehicles between two guardrails"),
             (listed, 264, "What a tracker gets", f"{len(frame['targets'])} targets without names"),
-            (known, 516, "What only a simulation knows", f"the echoes of each target, and why {len(lost)} others are in none")), 1):
+            (known, 516, "What only a simulation knows", f"the echoes of each target, and why {len(crosses)} others are in none")), 1):
         drawing.word(f"{number}  {head}", x, 60, "strong")
         drawing.word(below, x, 79, "quiet")
         drawing.put(panel, x, 88)
