@@ -118,7 +118,7 @@ void cost_table_chain(struct cost_chain *chain, const struct trial *trial, struc
     chain->us_per_frame = whole.us - saved.us;
     chain->us_least = whole.us - saved.most_us;
     chain->us_most = whole.us - saved.least_us;
-    chain->close = part && saved.least_us <= 0 && saved.most_us >= 0;
+    chain->close = part && saved.least_us <= 0 && saved.most_us >= whole.least_us - whole.most_us;
     if (chain->close)
         chain->us_per_frame = elementary_min(chain->us_per_frame, whole.us);
 }
@@ -214,7 +214,7 @@ void cost_table_write(const struct cost_table *table, const char *mark, uint64_t
     const struct cost_chain *whole = &table->chains.items[table->whole];
     text_format(text,
                 "%sTimes are medians of %d rounds over %" PRId64 " frames; those of %s lie %.1f %% "
-                "apart. < and ~: not faster, nor slower, in all rounds.\n",
+                "apart. < and ~: not faster in all rounds, nor surely slower.\n",
                 mark, TRIAL_ROUNDS, table->timed_frames, whole->chain,
                 100 * (whole->us_most - whole->us_least) / whole->us_per_frame);
     int width = 28;

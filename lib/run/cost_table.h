@@ -21,7 +21,7 @@ struct cost_chain {
     double targets_per_scan;
     struct relative_error energy, relative_distance;
     unsigned present;
-    bool close; /* a part of the whole chain that is not faster in all rounds, nor slower */
+    bool close; /* a part of the whole chain, not faster in all rounds, nor surely slower */
 };
 
 struct cost_effect {
@@ -56,7 +56,8 @@ struct cost_table {
 extern const struct record cost_table_record;
 
 /* Completes the row of a chain, which has its name, but for its error: its time is that of the
- * whole chain less what it saves. A part of the whole chain is never dearer by noise alone. */
+ * whole chain less what it saves. A part of the whole chain is surely slower if it is so in all
+ * rounds by more than the whole chain's rounds lie apart; else it has at most the whole time. */
 void cost_table_chain(struct cost_chain *chain, const struct trial *trial, struct trial_time whole,
                       struct trial_time saved, bool part, struct arena *arena);
 

@@ -146,6 +146,32 @@ static void no_frames_make_no_plan(void **state)
     end(&bench);
 }
 
+/* The rounds of the whole chain lie 3 us apart. */
+static void a_part_is_dearer_only_by_more_than_rounds_lie_apart(void **state)
+{
+    (void)state;
+    static const struct {
+        struct trial_time saved;
+        bool part;
+        double us;
+        bool close;
+    } cases[] = {
+        {{2, 1, 3}, true, 28, false},      {{1, -1, 2}, true, 29, true},
+        {{-1, -2, 1}, true, 30, true},     {{-2, -4, -1}, true, 30, true},
+        {{-5, -6, -3.5}, true, 35, false}, {{-2, -4, -1}, false, 32, false},
+    };
+    struct arena arena = {0};
+    const struct trial trial = {.effects = "auto", .programs = {"glint-sensor", "glint-noise"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct cost_chain chain = {0};
+        cost_table_chain(&chain, &trial, (struct trial_time){30, 28, 31}, cases[i].saved,
+                         cases[i].part, &arena);
+        assert_true(chain.us_per_frame == cases[i].us);
+        assert_int_equal(chain.close, cases[i].close);
+    }
+    arena_free(&arena);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -155,6 +181,7 @@ int main(void)
         cmocka_unit_test(a_stage_goes_where_another_gives_the_same_lists),
         cmocka_unit_test(what_is_put_back_is_named),
         cmocka_unit_test(no_frames_make_no_plan),
+        cmocka_unit_test(a_part_is_dearer_only_by_more_than_rounds_lie_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
