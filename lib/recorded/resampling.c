@@ -1,5 +1,7 @@
 #include "recorded/resampling.h"
 
+#include <math.h>
+
 #include "base/elementary.h"
 #include "base/units.h"
 #include "geometry/motion.h"
@@ -38,13 +40,14 @@ static double travelled_between(const struct object *a, const struct object *b, 
 }
 
 /* Lessens the velocities along the heading if the body would roll back on it, although it moves
- * forward and both velocities lead forward; or the reverse. */
+ * forward and both velocities lead forward; or the reverse. A yaw that is not stated (NAN) lessens
+ * nothing. */
 static void roll_on(struct vec2 heading, struct vec2 way_mps, struct vec2 *from_mps,
                     struct vec2 *to_mps)
 {
     double from = vec2_dot(*from_mps, heading), to = vec2_dot(*to_mps, heading);
     double mean = vec2_dot(way_mps, heading);
-    if (from * to < 0 || from * mean < 0 || to * mean < 0)
+    if (isnan(heading.x) || from * to < 0 || from * mean < 0 || to * mean < 0)
         return;
     double less = 1 - motion_monotone_share(fabs(from), fabs(to), fabs(mean));
     if (less == 0)

@@ -69,7 +69,7 @@ static int is_exact(struct plan *plan)
 static int prove(struct plan *plan)
 {
     int exact = 0;
-    for (int i = 0; i < EFFECT_COUNT; i++)
+    for (enum effect_id i = 0; i < EFFECT_COUNT; i++)
         if (trial_simulated(&plan->bench, i) && plan->bench.without[i].changed == 0)
             plan->idle |= EFFECT_BIT(i);
     plan->left_out = plan->idle;
@@ -117,7 +117,7 @@ static void fill_table(struct plan *plan, double targets_per_scan)
     plan->table.chains.items[0].us_least = whole.least_us;
     plan->table.chains.items[0].us_most = whole.most_us;
     plan->table.chosen = plan->table.chains.items[1].chain;
-    for (int i = 0; i < EFFECT_COUNT; i++)
+    for (enum effect_id i = 0; i < EFFECT_COUNT; i++)
         if (trial_simulated(bench, i))
             *list_add(&plan->table.effects, arena) = cost_table_effect(bench, i);
 }

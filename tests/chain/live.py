@@ -260,7 +260,7 @@ def loops(folder):
                                        ("a stage that writes frames twice", "sed -u p", glint.ChainError, ""),
                                        ("a stage that hangs at its end", "bash -c 'sed -u 5q; exec >&-; sleep 60'", glint.ChainError, "exit status")):
         with glint.Loop(OWN.format(stage), timeout_s=0.5 if kind is TimeoutError else PATIENCE_S) as loop:
-            yield name, fails(loop, kind, message)
+            yield name, fails(loop, kind, message, within_s=6 if "hangs" in name else 1)
     for name, last, message in (("garbage", "sed -u s/targets/targats/", "no targets"), ("noise", "sed -u s/{/x/", "no targets: Expecting value"),
                                 ("an old answer", "sed -u 's/\"frame\":[1-9][0-9]*/\"frame\":0/'", "another frame than live, frame 1"),
                                 ("an array", "sed -u 's/.*/[]/'", "no targets"), ("half a line", "head -c 99", "exit status"), ("a number", "sed -u 's/.*/5/'", "no targets"),
