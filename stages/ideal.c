@@ -52,13 +52,14 @@ static double latency_s(const struct sensor *sensor, const struct selection *sel
     return late ? sensor->latency_s : 0;
 }
 
-/* Tells at which rate of frames all sensors measure in their cycles, if this one is too low. */
-static void note_long_frame(const struct suite *suite, const struct frame *frame, struct diag *diag)
+/* Tells at which rate of frames all sensors measure in their cycles, as this one is too low for a
+ * sensor; the fastest one is told. */
+static void note_long_frame(const struct suite *suite, const struct sensor *fastest,
+                            const struct frame *frame, struct diag *diag)
 {
-    const struct sensor *fastest = NULL;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
-        if (sensor->cycle_s > 0 && (fastest == NULL || sensor->cycle_s < fastest->cycle_s))
+        if (sensor->cycle_s > 0 && sensor->cycle_s < fastest->cycle_s)
             fastest = sensor;
     }
     double rate_hz = ceil(10 / fastest->cycle_s - 1e-6) / 10;
@@ -76,7 +77,7 @@ static int add_sensor(struct frame *frame, const struct suite *suite, const stru
     enum scan_timing_answer answer =
         scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
     if (answer == SCAN_TIMING_LONG_FRAME)
-        note_long_frame(suite, frame, diag);
+        note_long_frame(suite, sensor, frame, diag);
     struct sensor_view *view = list_add(&frame->sensors.list, frame->arena);
     *view = view_of(sensor, answer != SCAN_TIMING_NONE);
     if (answer == SCAN_TIMING_NONE)

@@ -251,7 +251,7 @@ static int64_t read_digits(const char *begin, const char *end, struct whole *who
 
 double decimal_nearest(const char *begin, const char *end, int64_t exponent)
 {
-    struct whole whole;
+    struct whole whole = {0};
     set(&whole, 0);
     const int64_t count = read_digits(begin, end, &whole);
     if (count == 0 || count + exponent < LOWEST)

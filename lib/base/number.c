@@ -268,7 +268,7 @@ size_t number_write_whole(uint64_t value, char *text)
         return count;
     }
     uint64_t unit = 1;
-    while (value / unit >= EIGHT_DIGITS)
+    for (int i = 0; i < 2 && value / unit >= EIGHT_DIGITS; i++)
         unit *= EIGHT_DIGITS;
     char *at = put_whole((uint32_t)(value / unit), text);
     for (; unit > 1; at += 8) {
@@ -478,10 +478,9 @@ bool number_read(const char *begin, const char *end, double *value)
         return false;
     if (at < end && (*at == 'e' || *at == 'E') ? !add_exponent(at + 1, end, &exponent) : at != end)
         return false;
-    const bool long_text = last - whole > NUMBER_DIGITS;
-    if (long_text && digits_that_count(whole, last) > NUMBER_DIGITS)
-        *value = decimal_nearest(whole, last, exponent);
-    else if (!nearest_at_once(digits, exponent, value))
+    const bool long_text =
+        last - whole > NUMBER_DIGITS && digits_that_count(whole, last) > NUMBER_DIGITS;
+    if (long_text || !nearest_at_once(digits, exponent, value))
         *value = decimal_nearest(whole, last, exponent);
     if (*begin == '-')
         *value = -*value;

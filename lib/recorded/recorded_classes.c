@@ -82,7 +82,7 @@ static const char *class_of(const struct recorded_classes *classes,
 static const struct recorded_word *first_of_class(const struct recorded_word *words,
                                                   const char *class)
 {
-    while (words->word != NULL && strcmp(words->class, class) != 0)
+    while (words->word != NULL && (words->class == NULL || strcmp(words->class, class) != 0))
         words++;
     return words->word != NULL ? words : NULL;
 }

@@ -160,7 +160,7 @@ static void compare_scan(const struct chain_trials *trials, const struct tried_c
         }
         if (!shared)
             add_scan(trials, at, list, i == 0 ? of_first : distances[i]);
-        for (size_t k = 0; (shared || i == 0) && k < ALL * ALL; k++)
+        for (size_t k = 0; (shared || i == 0) && k < (size_t)ALL * ALL; k++)
             distances[i][k] += of_first[k];
     }
 }

@@ -5,6 +5,21 @@
 #include "base/elementary.h"
 #include "effects/effect.h"
 
+/* The whole chain without its choice of effects in each scan: "all,-rows" for "auto,-rows". */
+static void try_without_choice(struct plan *plan)
+{
+    static const char chosen[] = "auto";
+    struct trial_bench *bench = &plan->bench;
+    const char *asked = bench->asked;
+    if (strncmp(asked, chosen, strlen(chosen)) != 0)
+        return;
+    plan->everywhere = bench->whole[TRIAL_IDEAL];
+    plan->everywhere.effects =
+        arena_format(runner_arena(plan->runner), "all%s", asked + strlen(chosen));
+    trial_prepare(bench, &plan->everywhere);
+    trial_add(bench, &plan->everywhere);
+}
+
 int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runner *runner)
 {
     struct trial_bench *bench = &plan->bench;
@@ -20,6 +35,7 @@ int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runn
         trial_prepare(bench, &plan->stand_ins[i]);
         trial_add(bench, &plan->stand_ins[i]);
     }
+    try_without_choice(plan);
     return 0;
 }
 
@@ -94,6 +110,8 @@ static int measure(struct plan *plan)
     frame_sample_thin(&plan->sample, PLAN_TIMED_FRAMES);
     trial_begin_pass(bench, TRIAL_TIMED | TRIAL_EFFECTS);
     trial_add(bench, &plan->pipeline);
+    if (plan->everywhere.effects != NULL)
+        trial_add(bench, &plan->everywhere);
     for (bench->round = 0; bench->round < TRIAL_ROUNDS; bench->round++)
         for (size_t i = 0; i < plan->sample.list.count; i++)
             if (trial_run(bench, &plan->sample.list.items[i], plan->sample.list.items[i].seed) != 0)
@@ -101,25 +119,37 @@ static int measure(struct plan *plan)
     return 0;
 }
 
-static void fill_table(struct plan *plan, double targets_per_scan)
+/* Adds the row of a chain that has the whole chain's lists, or of which no error is said. */
+static void add_row(struct plan *plan, const char *name, const struct trial *trial, bool part,
+                    double targets_per_scan)
 {
     const struct trial_bench *bench = &plan->bench;
     struct arena *arena = runner_arena(plan->runner);
-    const struct trial *trials[] = {&bench->whole[TRIAL_IDEAL], &plan->pipeline};
-    struct trial_time whole = trial_time_of(bench, trials[0]);
-    for (int i = 0; i < 2; i++) {
-        struct cost_chain *chain = list_add(&plan->table.chains, arena);
-        chain->chain = i == 0 ? bench->asked : "planned";
-        chain->targets_per_scan = targets_per_scan;
-        chain->present = i == 0 ? 0 : COST_ENERGY | COST_ERROR;
-        cost_table_chain(chain, trials[i], whole, trial_saved(bench, trials[i]), i > 0, arena);
-    }
-    plan->table.chains.items[0].us_least = whole.least_us;
-    plan->table.chains.items[0].us_most = whole.most_us;
+    struct trial_time whole = trial_time_of(bench, &bench->whole[TRIAL_IDEAL]);
+    struct cost_chain *chain = list_add(&plan->table.chains, arena);
+    chain->chain = name;
+    chain->targets_per_scan = targets_per_scan;
+    chain->present = COST_ENERGY | (trial->changed == 0 ? COST_ERROR : 0);
+    cost_table_chain(chain, trial, whole, trial_saved(bench, trial), part, arena);
+}
+
+static void fill_table(struct plan *plan, double targets_per_scan)
+{
+    const struct trial_bench *bench = &plan->bench;
+    const struct trial *whole = &bench->whole[TRIAL_IDEAL];
+    struct trial_time time = trial_time_of(bench, whole);
+    add_row(plan, bench->asked, whole, false, targets_per_scan);
+    add_row(plan, "planned", &plan->pipeline, true, targets_per_scan);
+    if (plan->everywhere.effects != NULL)
+        add_row(plan, plan->everywhere.effects, &plan->everywhere, false, targets_per_scan);
+    plan->table.chains.items[0].present = 0;
+    plan->table.chains.items[0].us_least = time.least_us;
+    plan->table.chains.items[0].us_most = time.most_us;
     plan->table.chosen = plan->table.chains.items[1].chain;
     for (enum effect_id i = 0; i < EFFECT_COUNT; i++)
         if (trial_simulated(bench, i))
-            *list_add(&plan->table.effects, arena) = cost_table_effect(bench, i);
+            *list_add(&plan->table.effects, runner_arena(plan->runner)) =
+                cost_table_effect(bench, i);
 }
 
 int plan_end(struct plan *plan)

@@ -2,7 +2,8 @@
  *
  * Effects that alone change no list are idle, and so is a stage if a simpler one gives the same
  * lists. The pipeline without all of them runs over all frames, as effects may stand in for each
- * other. While a list differs, they are put back one by one. */
+ * other. While a list differs, they are put back one by one. Beside it runs the chain with all
+ * effects in all scans, which shows what the choice of "auto" saves. */
 #pragma once
 
 #include "run/cost_table.h"
@@ -16,6 +17,7 @@ struct plan {
     struct frame_sample sample;             /* all frames */
     struct effect_log log[TRIAL_POSITIONS]; /* of the whole chain, once over all frames */
     struct trial stand_ins[PLAN_STAGES];
+    struct trial everywhere;    /* all effects in all scans; effects are NULL without "auto" */
     bool replaced[PLAN_STAGES]; /* in the pipeline */
     uint64_t idle, left_out;    /* EFFECT_BITs: alone, and all together in the pipeline */
     struct trial pipeline;

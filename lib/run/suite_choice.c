@@ -22,10 +22,13 @@ static const struct suite *load_suite(struct runner *runner, const char *name, s
 
 const struct suite *suite_choice_load(struct runner *runner, const char *name)
 {
-    for (const struct runner *at = runner; at != NULL; at = at->before)
+    const struct runner *at = runner;
+    do {
         for (size_t i = 0; i < at->suites.count; i++)
             if (strcmp(at->suites.items[i]->given, name) == 0)
                 return at->suites.items[i];
+        at = at->before;
+    } while (at != NULL);
     return load_suite(runner, name, &runner->diag);
 }
 

@@ -25,9 +25,8 @@ static inline void begin_stage(struct runner *runner, const char *name, const ch
 /* A tool that tries stages. */
 static inline void begin_tool(struct runner *runner, const char *suite)
 {
-    assert_int_equal(runner_prepare(runner, stage_by_name("plan"), 2,
-                                    (const char *[]){"--sensors", suite}),
-                     0);
+    assert_int_equal(
+        runner_prepare(runner, stage_by_name("plan"), 2, (const char *[]){"--sensors", suite}), 0);
 }
 
 /* So many snapshots of dense traffic. The sample's arena is the caller's. */

@@ -65,7 +65,7 @@ static void what_changes_no_list_leaves_the_pipeline(void **state)
     assert_int_equal(plan->pipeline.changed, 0);
     assert_int_equal(plan->table.lists, 24); /* of two sensors */
     assert_int_equal(plan->table.frames, 12);
-    assert_int_equal(plan->table.chains.count, 2);
+    assert_int_equal(plan->table.chains.count, 3);
     assert_string_equal(plan->table.chains.items[1].effects,
                         trial_request(~plan->idle & plan->bench.allowed, &bench.arena));
     for (size_t i = 0; i < plan->table.effects.count; i++) {
@@ -77,6 +77,22 @@ static void what_changes_no_list_leaves_the_pipeline(void **state)
     }
     assert_true((plan->idle & EFFECT_BIT(EFFECT_ANGLE_NOISE)) == 0);
     assert_true((plan->idle & EFFECT_BIT(EFFECT_LIST_LIMIT)) != 0);
+    end(&bench);
+}
+
+/* All effects in all scans have the lists of those that auto chooses. */
+static void the_choice_in_each_scan_stands_beside_all_effects(void **state)
+{
+    (void)state;
+    struct bench bench;
+    plan_traffic(&bench, "auto,-rows");
+    const struct cost_chain *row = &bench.plan.table.chains.items[2];
+    assert_string_equal(row->chain, "all,-rows");
+    assert_int_equal(row->present, COST_ENERGY | COST_ERROR);
+    assert_true(row->us_per_frame > 0 && row->relative_distance.high == 0);
+    end(&bench);
+    plan_traffic(&bench, "rows,merging");
+    assert_int_equal(bench.plan.table.chains.count, 2);
     end(&bench);
 }
 
@@ -176,6 +192,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_changes_no_list_leaves_the_pipeline),
+        cmocka_unit_test(the_choice_in_each_scan_stands_beside_all_effects),
         cmocka_unit_test(idle_effects_are_rows_only_with_all),
         cmocka_unit_test(what_was_not_asked_for_says_so),
         cmocka_unit_test(a_stage_goes_where_another_gives_the_same_lists),
