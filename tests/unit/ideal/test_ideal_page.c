@@ -1,4 +1,5 @@
 /* The numbers that lib/ideal/MODEL.md prints. */
+#include "support/knife_edge.h"
 #include "support/printed.h"
 
 #include "base/elementary.h"
@@ -99,38 +100,20 @@ static void heights(void **state)
             under_db(22), under_db(24), under_db(26));
 }
 
-/* J in dB, one way. */
-static double knife_db(double parameter)
-{
-    return -units_amplitude_db(obstruction_edge_amplitude_factor(parameter)) / 2;
-}
-
-/* The loss behind an edge by Fresnel's integrals, 6.020600 dB at the edge. */
-static double fresnel_db(double parameter)
-{
-    enum { STEPS = 20000 };
-    double c = 0, s = 0;
-    for (int k = 0; k <= STEPS; k++) {
-        double t = parameter * k / STEPS;
-        double weight = (k == 0 || k == STEPS ? 1 : k % 2 ? 4 : 2) * parameter / STEPS / 3;
-        c += weight * cos(PI / 2 * t * t);
-        s += weight * sin(PI / 2 * t * t);
-    }
-    return -20 * log10(hypot(1 - c - s, c - s) / 2);
-}
-
 static double shadow_db(double carrier_hz)
 {
-    return 2 * knife_db(obstruction_edge_parameter(0.3, 15, 15, units_wavelength_m(carrier_hz)));
+    return 2 *
+           knife_edge_db(obstruction_edge_parameter(0.3, 15, 15, units_wavelength_m(carrier_hz)));
 }
 
 static void edges(void **state)
 {
     (void)state;
     PRINTED("14.4", "J is #, #, # dB at nu = 0, 1, 2, where Fresnel's integral has #, #, #.",
-            knife_db(0), knife_db(1), knife_db(2), fresnel_db(0), fresnel_db(1), fresnel_db(2));
+            knife_edge_db(0), knife_edge_db(1), knife_edge_db(2), knife_edge_exact_db(0),
+            knife_edge_exact_db(1), knife_edge_exact_db(2));
     PRINTED("14.4", "loses # dB at the edge itself, nothing from # Fresnel radii outside on",
-            2 * knife_db(0), 0.78 / sqrt(2));
+            2 * knife_edge_db(0), 0.78 / sqrt(2));
     PRINTED("14.4", "over 30 m it loses # dB at 24.125 GHz, # dB at 76.5 GHz", shadow_db(24.125e9),
             shadow_db(76.5e9));
 }
