@@ -162,13 +162,11 @@ static void set_row(struct cost *cost, struct tried_chain *chain)
     bool paper = chain == cost->chains.list.items[COST_PAPER] && (PAPER & ~bench->allowed) == 0;
     chain->saved = trial_saved(bench, chain->trial);
     struct trial_time time = trial_time_of(bench, &bench->whole[TRIAL_IDEAL]);
-    cost_table_chain(&chain->row, chain->trial, time, chain->saved,
-                     paper || (chain->automatic && chain != whole(cost)),
-                     runner_arena(cost->runner));
-    if (chain == whole(cost)) {
-        chain->row.us_least = time.least_us;
-        chain->row.us_most = time.most_us;
-    }
+    if (chain == whole(cost))
+        cost_table_whole(&chain->row, chain->trial, time, runner_arena(cost->runner));
+    else
+        cost_table_chain(&chain->row, chain->trial, time, chain->saved, paper || chain->automatic,
+                         runner_arena(cost->runner));
     set_errors(cost, chain);
 }
 

@@ -123,6 +123,14 @@ void cost_table_chain(struct cost_chain *chain, const struct trial *trial, struc
         chain->us_per_frame = elementary_min(chain->us_per_frame, whole.us);
 }
 
+void cost_table_whole(struct cost_chain *chain, const struct trial *trial, struct trial_time time,
+                      struct arena *arena)
+{
+    cost_table_chain(chain, trial, time, (struct trial_time){0}, false, arena);
+    chain->us_least = time.least_us;
+    chain->us_most = time.most_us;
+}
+
 struct cost_effect cost_table_effect(const struct trial_bench *bench, enum effect_id effect)
 {
     const struct trial *trial = &bench->without[effect];

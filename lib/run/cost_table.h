@@ -61,6 +61,10 @@ extern const struct record cost_table_record;
 void cost_table_chain(struct cost_chain *chain, const struct trial *trial, struct trial_time whole,
                       struct trial_time saved, bool part, struct arena *arena);
 
+/* The same of the whole chain, which takes this time. */
+void cost_table_whole(struct cost_chain *chain, const struct trial *trial, struct trial_time time,
+                      struct arena *arena);
+
 /* The row of the trial without an effect, without its error. */
 struct cost_effect cost_table_effect(const struct trial_bench *bench, enum effect_id effect);
 

@@ -119,37 +119,36 @@ static int measure(struct plan *plan)
     return 0;
 }
 
-/* Adds the row of a chain that has the whole chain's lists, or of which no error is said. */
+/* Adds the row of a chain beside the whole one: it has the same lists, or no error is said of it.
+ */
 static void add_row(struct plan *plan, const char *name, const struct trial *trial, bool part,
-                    double targets_per_scan)
+                    struct trial_time whole)
 {
-    const struct trial_bench *bench = &plan->bench;
     struct arena *arena = runner_arena(plan->runner);
-    struct trial_time whole = trial_time_of(bench, &bench->whole[TRIAL_IDEAL]);
     struct cost_chain *chain = list_add(&plan->table.chains, arena);
     chain->chain = name;
-    chain->targets_per_scan = targets_per_scan;
+    chain->targets_per_scan = plan->table.chains.items[0].targets_per_scan;
     chain->present = COST_ENERGY | (trial->changed == 0 ? COST_ERROR : 0);
-    cost_table_chain(chain, trial, whole, trial_saved(bench, trial), part, arena);
+    cost_table_chain(chain, trial, whole, trial_saved(&plan->bench, trial), part, arena);
 }
 
 static void fill_table(struct plan *plan, double targets_per_scan)
 {
     const struct trial_bench *bench = &plan->bench;
     const struct trial *whole = &bench->whole[TRIAL_IDEAL];
+    struct arena *arena = runner_arena(plan->runner);
     struct trial_time time = trial_time_of(bench, whole);
-    add_row(plan, bench->asked, whole, false, targets_per_scan);
-    add_row(plan, "planned", &plan->pipeline, true, targets_per_scan);
+    struct cost_chain *chain = list_add(&plan->table.chains, arena);
+    chain->chain = bench->asked;
+    chain->targets_per_scan = targets_per_scan;
+    cost_table_whole(chain, whole, time, arena);
+    add_row(plan, "planned", &plan->pipeline, true, time);
     if (plan->everywhere.effects != NULL)
-        add_row(plan, plan->everywhere.effects, &plan->everywhere, false, targets_per_scan);
-    plan->table.chains.items[0].present = 0;
-    plan->table.chains.items[0].us_least = time.least_us;
-    plan->table.chains.items[0].us_most = time.most_us;
+        add_row(plan, plan->everywhere.effects, &plan->everywhere, false, time);
     plan->table.chosen = plan->table.chains.items[1].chain;
     for (enum effect_id i = 0; i < EFFECT_COUNT; i++)
         if (trial_simulated(bench, i))
-            *list_add(&plan->table.effects, runner_arena(plan->runner)) =
-                cost_table_effect(bench, i);
+            *list_add(&plan->table.effects, arena) = cost_table_effect(bench, i);
 }
 
 int plan_end(struct plan *plan)
