@@ -41,11 +41,11 @@ static bool remake(struct check *own, const struct frame *frame, struct frame *a
 {
     struct diag *diag = runner_diag(own->runner);
     *again = *frame;
-    frame_drop(again, ~(unsigned)(SECTION_OBJECTS | SECTION_REFLECTORS | SECTION_VEHICLES));
+    frame_drop(again, ~(unsigned)(PART_OBJECTS | PART_REFLECTORS | PART_VEHICLES));
     again->sections = CARRY_BY_DEFAULT | (frame->sections & (CARRY_ACCOUNT | CARRY_VISIBILITY));
     begin_ideal(own, frame);
     bool made = own->ideal != NULL &&
-                ((frame->present & SECTION_REFLECTORS) != 0 ||
+                ((frame->present & PART_REFLECTORS) != 0 ||
                  runner_try(own->runner, own->extraction, again) == 0) &&
                 runner_try(own->runner, own->ideal, again) == 0;
     if (own->unknown.code == DIAG_OK)
@@ -129,6 +129,6 @@ const struct stage stage_check = {
         "counts and the visibility with them, to a relative 1e-9. The first fault ends the check "
         "with status 65. scripts/check-set checks tables and sets.",
     .options = STAGE_OPTIONS(struct check, check_options),
-    .reads = SECTION_SENSORS | SECTION_TARGETS,
+    .reads = PART_SENSORS | PART_TARGETS,
     .run = check_run,
 };

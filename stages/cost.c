@@ -141,7 +141,7 @@ const struct stage stage_cost = {
         "the chain with all effects that the suite describes. Reflectors in the frames are used as "
         "they are. The table is printed at the end of the stream; pipelines/README.md explains it.",
     .options = STAGE_OPTIONS(struct cost_state, cost_options),
-    .reads = SECTION_OBJECTS,
+    .reads = PART_OBJECTS,
     .draws = true,
     .run = cost_run,
     .release = cost_release,

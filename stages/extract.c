@@ -13,8 +13,8 @@ const struct stage stage_extract = {
     .details = "The class of an object names a document in data/vehicles/. An object of size zero\n"
                "takes the default size of its class. The ego does not reflect.",
     .options = &extraction_record,
-    .reads = SECTION_OBJECTS,
-    .writes = SECTION_REFLECTORS | SECTION_VEHICLES,
+    .reads = PART_OBJECTS,
+    .writes = PART_REFLECTORS | PART_VEHICLES,
     .start = extraction_start,
     .step = extract_step,
 };

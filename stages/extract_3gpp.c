@@ -28,8 +28,8 @@ const struct stage stage_extract_3gpp = {
         "report's fluctuation is a property of the sensor: fluctuation log_normal, 3.41 dB for "
         "vehicles.",
     .options = &extraction_record,
-    .reads = SECTION_OBJECTS,
-    .writes = SECTION_REFLECTORS | SECTION_VEHICLES,
+    .reads = PART_OBJECTS,
+    .writes = PART_REFLECTORS | PART_VEHICLES,
     .start = extraction_start,
     .step = extract_3gpp_step,
 };

@@ -45,8 +45,8 @@ const struct stage stage_extract_contour = {
         "scatterers are, the stronger the contour gets, without end. If the effect rows is "
         "switched off, no scatterer is seen.",
     .options = STAGE_OPTIONS(struct extract_contour, extract_contour_options),
-    .reads = SECTION_OBJECTS,
-    .writes = SECTION_REFLECTORS | SECTION_VEHICLES,
+    .reads = PART_OBJECTS,
+    .writes = PART_REFLECTORS | PART_VEHICLES,
     .start = extraction_start,
     .step = extract_contour_step,
 };

@@ -124,8 +124,8 @@ const struct stage stage_ideal = {
         "stands in the way. A sensor whose document describes ghosts also gets the echoes that "
         "walls, guardrails and flat sides mirror.",
     .options = STAGE_OPTIONS(struct ideal, ideal_options),
-    .reads = SECTION_OBJECTS | SECTION_REFLECTORS,
-    .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,
+    .reads = PART_OBJECTS | PART_REFLECTORS,
+    .writes = PART_SENSORS | PART_ECHOES | PART_LOST | PART_COUNTS | PART_VISIBILITY,
     .start = ideal_start,
     .step = ideal_step,
     .locate_fault = suite_choice_locate_fault,

@@ -58,8 +58,8 @@ const struct stage stage_noise = {
         "the final threshold and adds false alarms. Lists the targets in the sensor's order, up to "
         "its limit and rounded to its steps, each with a label of the reflectors that made it.",
     .options = &suite_choice_record,
-    .reads = SECTION_SENSORS | SECTION_CELLS,
-    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,
+    .reads = PART_SENSORS | PART_CELLS,
+    .writes = PART_TARGETS | PART_LOST | PART_COUNTS | PART_VISIBILITY,
     .step = suite_choice_step,
     .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,

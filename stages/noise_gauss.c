@@ -50,8 +50,8 @@ const struct stage stage_noise_gauss = {
         "applied, nothing is rounded or misaligned, and there are no false alarms. A cell of\n"
         "zero amplitude is lost. A range below zero is reported as zero.",
     .options = &suite_choice_record,
-    .reads = SECTION_SENSORS | SECTION_CELLS,
-    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_VISIBILITY,
+    .reads = PART_SENSORS | PART_CELLS,
+    .writes = PART_TARGETS | PART_LOST | PART_VISIBILITY,
     .step = suite_choice_step,
     .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,

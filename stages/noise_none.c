@@ -24,8 +24,8 @@ const struct stage stage_noise_none = {
                "rounded or misaligned, and there are no false alarms. A cell of zero amplitude\n"
                "is lost.",
     .options = &suite_choice_record,
-    .reads = SECTION_SENSORS | SECTION_CELLS,
-    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_VISIBILITY,
+    .reads = PART_SENSORS | PART_CELLS,
+    .writes = PART_TARGETS | PART_LOST | PART_VISIBILITY,
     .step = suite_choice_step,
     .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,

@@ -64,7 +64,7 @@ const struct stage stage_plan = {
         "objects stay in memory, and the plan comes at the end of the stream. "
         "pipelines/README.md explains it; glint-cost measures pipelines with an error.",
     .options = STAGE_OPTIONS(struct plan_state, plan_options),
-    .reads = SECTION_OBJECTS,
+    .reads = PART_OBJECTS,
     .draws = true,
     .run = plan_run,
     .release = plan_release,

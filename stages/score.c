@@ -155,7 +155,7 @@ const struct stage stage_score = {
         "law. Cells are those above; amplitudes count in steps of 3 dB.",
     .options = STAGE_OPTIONS(struct score_state, score_options),
     .sink = true,
-    .reads = SECTION_SENSORS | SECTION_TARGETS,
+    .reads = PART_SENSORS | PART_TARGETS,
     .start = score_start,
     .step = score_step,
     .stop = score_stop,

@@ -190,7 +190,7 @@ const struct stage stage_score_tracks = {
         "Student's 95 % interval over scenes; the stream needs at least 5 scenes.",
     .options = STAGE_OPTIONS(struct score_tracks, score_tracks_options),
     .sink = true,
-    .reads = SECTION_OBJECTS,
+    .reads = PART_OBJECTS,
     .start = score_tracks_start,
     .step = score_tracks_step,
     .stop = score_tracks_stop,

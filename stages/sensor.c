@@ -56,8 +56,8 @@ const struct stage stage_sensor = {
         "below the detection threshold, and writes the pointers of the other cells in the sum\n"
         "and delta channels, without noise.",
     .options = &suite_choice_record,
-    .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
+    .reads = PART_SENSORS | PART_ECHOES,
+    .writes = PART_CELLS | PART_LOST | PART_COUNTS,
     .step = suite_choice_step,
     .visit = sense,
     .locate_fault = suite_choice_locate_fault,

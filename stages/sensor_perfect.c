@@ -35,8 +35,8 @@ const struct stage stage_sensor_perfect = {
         "and range rate are exact. An echo of zero amplitude is lost. The sensor's other\n"
         "effects are left out too: wheels, limbs, clutter, road, weather, fluctuation.",
     .options = &suite_choice_record,
-    .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_CELLS | SECTION_LOST,
+    .reads = PART_SENSORS | PART_ECHOES,
+    .writes = PART_CELLS | PART_LOST,
     .step = suite_choice_step,
     .visit = sense,
     .locate_fault = suite_choice_locate_fault,

@@ -52,8 +52,8 @@ const struct stage stage_sensor_smear = {
         "they are out of phase; cell_phase sets their phases. Merging and superposition are one "
         "effect here: with --effects=-merging every echo is a cell of its own.",
     .options = &suite_choice_record,
-    .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
+    .reads = PART_SENSORS | PART_ECHOES,
+    .writes = PART_CELLS | PART_LOST | PART_COUNTS,
     .step = suite_choice_step,
     .visit = sense,
     .locate_fault = suite_choice_locate_fault,

@@ -63,7 +63,7 @@ const struct stage stage_summary = {
         "counted twice. The output comes at the end of the stream. With "
         "--copy one run both counts the frames and stores them in a file.",
     .options = STAGE_OPTIONS(struct summary, summary_options),
-    .reads = SECTION_OBJECTS,
+    .reads = PART_OBJECTS,
     .run = summary_run,
     .release = summary_release,
 };

@@ -74,7 +74,7 @@ static int copy_frame(struct tables_state *own, struct frame *frame, struct diag
 {
     if (own->without_objects) {
         frame->sections &= ~(unsigned)CARRY_OBJECTS;
-        frame_drop(frame, SECTION_OBJECTS);
+        frame_drop(frame, PART_OBJECTS);
     }
     return frame_text_write(frame, output_text(own->copied), diag) == 0
                ? output_send(own->copied, diag)
@@ -147,7 +147,7 @@ const struct stage stage_tables = {
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,
-    .reads = SECTION_SENSORS | SECTION_TARGETS,
+    .reads = PART_SENSORS | PART_TARGETS,
     .run = tables_run,
     .release = tables_release,
 };

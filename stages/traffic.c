@@ -161,7 +161,7 @@ const struct stage stage_traffic = {
     ,
     .options = STAGE_OPTIONS(struct traffic, traffic_options),
     .operand = "SOURCE",
-    .writes = SECTION_OBJECTS,
+    .writes = PART_OBJECTS,
     .start = traffic_start,
     .next = traffic_next,
     .locate_fault = traffic_locate_fault,

@@ -168,7 +168,7 @@ const struct stage stage_traffic_random = {
         "scene\n"
         "has the objects within 250 m of the ego, and ends early if the ego leaves its road.",
     .options = STAGE_OPTIONS(struct traffic_random, traffic_random_options),
-    .writes = SECTION_OBJECTS,
+    .writes = PART_OBJECTS,
     .start = traffic_random_start,
     .next = traffic_random_next,
     .locate_fault = traffic_random_locate_fault,

@@ -4,8 +4,7 @@
 #include "base/units.h"
 #include "radar/radar_equation.h"
 
-#define DBSM(bit, member, help)                                                                    \
-    FIELD_REAL_IN(struct contour, member, -60, 80, help), .section = (bit)
+#define DBSM(bit, member, help) FIELD_REAL_IN(struct contour, member, -60, 80, help), .group = (bit)
 
 static const struct field contour_fields[] = {
     {DBSM(1 << 0, front_dbsm, "cross section seen from ahead")},
@@ -26,7 +25,7 @@ int reflector_models_check_contour(const struct contour *contour, struct diag *d
     if (contour->given == 0)
         return 0;
     for (const struct field *field = contour_fields; field->name != NULL; field++)
-        if ((contour->given & field->section) == 0)
+        if ((contour->given & field->group) == 0)
             return diag_fail(
                 diag, DIAG_CONFIG,
                 "%s: missing; expected front_dbsm, rear_dbsm, side_dbsm and oblique_dbsm",

@@ -81,8 +81,8 @@ static void count_objects(struct stream_counts *counts, const struct frame *fram
 int stream_counts_add(struct stream_counts *counts, const struct frame *frame, struct diag *diag)
 {
     struct arena *arena = counts->arena;
-    unsigned seen = frame->present & (SECTION_SENSORS | SECTION_TARGETS);
-    if (seen == SECTION_SENSORS)
+    unsigned seen = frame->present & (PART_SENSORS | PART_TARGETS);
+    if (seen == PART_SENSORS)
         return diag_fail(diag, DIAG_DATA,
                          "targets: missing; expected glint-noise, or a stage in its place, before "
                          "this one");

@@ -39,10 +39,10 @@ void frame_clear(struct frame *frame)
     frame->list_cache = before.list_cache;
 }
 
-const char *frame_section_name(enum section section)
+const char *frame_part_name(enum frame_part part)
 {
     for (const struct field *field = frame_record.fields; field->name != NULL; field++)
-        if (field->section == section)
+        if (field->group == part)
             return field->name;
     return "?";
 }
@@ -84,10 +84,10 @@ const struct contributor *frame_strongest(const struct target *target)
     return strongest;
 }
 
-void frame_drop(struct frame *frame, unsigned sections)
+void frame_drop(struct frame *frame, unsigned parts)
 {
     for (const struct field *field = frame_record.fields; field->name != NULL; field++) {
-        if ((field->section & sections) == 0)
+        if ((field->group & parts) == 0)
             continue;
         size_t size =
             field->kind == FIELD_RECORD ? field->record->size : sizeof(LIST_OF(struct object));
@@ -95,7 +95,7 @@ void frame_drop(struct frame *frame, unsigned sections)
     }
     frame->ordered.lost *= frame->lost.count > 0;
     frame->ordered.counts *= frame->counts.count > 0;
-    frame->present &= ~sections;
+    frame->present &= ~parts;
 }
 
 static int has_id(const void *id, const void *object)
@@ -253,7 +253,7 @@ static void lose(struct frame *frame, struct lost_group kind, const struct lost_
     if (group == NULL) {
         group = list_add(&frame->lost, frame->arena);
         *group = kind;
-        frame->present |= SECTION_LOST;
+        frame->present |= PART_LOST;
     }
     struct lost_echo *added = list_add(&group->echoes, frame->arena);
     *added = *echo;

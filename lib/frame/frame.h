@@ -1,8 +1,8 @@
 /* The one record that every stage reads and writes.
  *
  * A frame is one scene in one interval of time. In a stream it is one line, complete by itself.
- * Each stage fills sections: traffic objects, extract reflectors, ideal sensors and echoes, sensor
- * cells, noise targets. The sections lost and counts account for all other echoes. All memory of a
+ * Each stage fills parts: traffic objects, extract reflectors, ideal sensors and echoes, sensor
+ * cells, noise targets. The parts lost and counts account for all other echoes. All memory of a
  * frame is in its arena.
  *
  * Conventions in all modules: SI units and radians, with the unit in the name; a name without a
@@ -26,25 +26,25 @@
 
 enum { FRAME_VERSION = 0 };
 
-enum section {
-    SECTION_OBJECTS = 1 << 0,
-    SECTION_REFLECTORS = 1 << 1,
-    SECTION_SENSORS = 1 << 2,
-    SECTION_ECHOES = 1 << 3,
-    SECTION_CELLS = 1 << 4,
-    SECTION_TARGETS = 1 << 5,
-    SECTION_LOST = 1 << 6,
-    SECTION_COUNTS = 1 << 7,
-    SECTION_VEHICLES = 1 << 8,
-    SECTION_VISIBILITY = 1 << 9,
+enum frame_part {
+    PART_OBJECTS = 1 << 0,
+    PART_REFLECTORS = 1 << 1,
+    PART_SENSORS = 1 << 2,
+    PART_ECHOES = 1 << 3,
+    PART_CELLS = 1 << 4,
+    PART_TARGETS = 1 << 5,
+    PART_LOST = 1 << 6,
+    PART_COUNTS = 1 << 7,
+    PART_VEHICLES = 1 << 8,
+    PART_VISIBILITY = 1 << 9,
 };
 
-_Static_assert(SECTION_VISIBILITY < 1U << 31, "a set of sections is an unsigned");
+_Static_assert(PART_VISIBILITY < 1U << 31, "a set of parts is an unsigned");
 
-/* The part of a frame that one stage may have written. */
-struct frame_part {
-    unsigned sections; /* enum section */
-    const char *stage; /* of SECTION_LOST only the groups of this stage; NULL: all groups */
+/* Parts of a frame, as one stage may have written them. */
+struct frame_parts {
+    unsigned parts;    /* set of enum frame_part */
+    const char *stage; /* of PART_LOST only the groups of this stage; NULL: all groups */
 };
 
 /* A road user or thing: truth. A length, width or height of 0 means the size of the class, which
@@ -272,7 +272,7 @@ struct frame {
     LIST_OF(struct sighting) visibility;
     const char *extra;
     const struct frame *document; /* NULL: no frame is copied from a document */
-    unsigned present;             /* enum section: the sections that the frame has, even if empty */
+    unsigned present;             /* enum frame_part: the parts that the frame has, even if empty */
     struct arena *arena;
     struct list_cache *list_cache;  /* lists that many lines repeat; NULL: none are kept */
     LIST_OF(struct object *) by_id; /* the cache of frame_order_objects; empty: not sorted yet */
@@ -308,8 +308,8 @@ static inline bool frame_carries(const struct frame *frame, enum carried what)
     return (frame->sections & what) != 0;
 }
 
-/* The key of a section on the wire. */
-const char *frame_section_name(enum section section);
+/* The key of a part on the wire. */
+const char *frame_part_name(enum frame_part part);
 
 /* Names on the wire; NULL follows the last. */
 extern const char *const frame_paths[], *const frame_losses[];
@@ -327,8 +327,8 @@ static inline enum loss frame_loss_of(const char *reason)
  * own. */
 const char *frame_loss_words(const struct lost_group *group, struct arena *arena);
 
-/* Removes sections from the frame. */
-void frame_drop(struct frame *frame, unsigned sections);
+/* Removes parts of the frame. */
+void frame_drop(struct frame *frame, unsigned parts);
 
 /* The object with this id, or NULL: by bisection once frame_order_objects has sorted them. */
 struct object *frame_object(const struct frame *frame, const char *id);
@@ -368,7 +368,7 @@ struct object frame_object_in(struct object object, struct motion motion);
 double frame_rear_axle_x_m(const struct frame *frame, const struct object *object);
 
 /* The sensor with this name in the frame's suite, or NULL. This and the functions below need the
- * sections in canonical order. */
+ * parts in canonical order. */
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);
 
 /* The echoes and the cells of one sensor, which are neighbours in canonical order. */

@@ -73,17 +73,16 @@ static int check_views(const struct frame *frame, struct diag *diag)
     return 0;
 }
 
-/* The sensors that a section names must be in the suite. Each struct begins with the sensor's name.
- */
-static int check_listed(const struct frame *frame, const char *section, const void *items,
+/* The sensors that a part names must be in the suite. Each struct begins with a sensor's name. */
+static int check_listed(const struct frame *frame, const char *part, const void *items,
                         size_t count, size_t size, struct diag *diag)
 {
     for (size_t i = 0; i < count; i++) {
         const void *item = (const char *)items + i * size;
         const char *sensor = *(const char *const *)item;
         if (frame_view(frame, sensor) == NULL)
-            return diag_fail(diag, DIAG_DATA, "%s[%zu].sensor: \"%s\" is not in sensors.list",
-                             section, i, sensor);
+            return diag_fail(diag, DIAG_DATA, "%s[%zu].sensor: \"%s\" is not in sensors.list", part,
+                             i, sensor);
     }
     return 0;
 }
@@ -140,30 +139,29 @@ static int check_lost(const struct frame *frame, struct diag *diag)
     return 0;
 }
 
-/* Echoes, cells and targets name sensors, so that new sensors need a check of these sections too.
- */
-static int check_sections(struct frame *frame, unsigned sections, struct diag *diag)
+/* Echoes, cells and targets name sensors, so that new sensors need a check of these parts too. */
+static int check_parts(struct frame *frame, unsigned parts, struct diag *diag)
 {
-    if ((sections & SECTION_SENSORS) != 0)
-        sections |= SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS | SECTION_VISIBILITY;
-    if ((sections & frame->present & SECTION_OBJECTS) != 0 &&
+    if ((parts & PART_SENSORS) != 0)
+        parts |= PART_ECHOES | PART_CELLS | PART_TARGETS | PART_VISIBILITY;
+    if ((parts & frame->present & PART_OBJECTS) != 0 &&
         (check_objects(frame, diag) != 0 || check_roadside(frame, diag) != 0))
         return -1;
-    bool good = ((sections & SECTION_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
-                ((sections & SECTION_SENSORS) == 0 || check_views(frame, diag) == 0) &&
-                ((sections & SECTION_VISIBILITY) == 0 ||
+    bool good = ((parts & PART_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
+                ((parts & PART_SENSORS) == 0 || check_views(frame, diag) == 0) &&
+                ((parts & PART_VISIBILITY) == 0 ||
                  check_listed(frame, "visibility", frame->visibility.items, frame->visibility.count,
                               sizeof *frame->visibility.items, diag) == 0) &&
-                ((sections & SECTION_LOST) == 0 || check_lost(frame, diag) == 0) &&
-                ((sections & SECTION_ECHOES) == 0 || check_echoes(frame, diag) == 0) &&
-                ((sections & SECTION_CELLS) == 0 || check_cells(frame, diag) == 0) &&
-                ((sections & SECTION_TARGETS) == 0 || check_targets(frame, diag) == 0);
+                ((parts & PART_LOST) == 0 || check_lost(frame, diag) == 0) &&
+                ((parts & PART_ECHOES) == 0 || check_echoes(frame, diag) == 0) &&
+                ((parts & PART_CELLS) == 0 || check_cells(frame, diag) == 0) &&
+                ((parts & PART_TARGETS) == 0 || check_targets(frame, diag) == 0);
     return good ? 0 : -1;
 }
 
 int frame_check(struct frame *frame, struct diag *diag)
 {
-    return check_sections(frame, ~0U, diag);
+    return check_parts(frame, ~0U, diag);
 }
 
 static int check_lost_members(const struct frame *frame, const char *stage, struct diag *diag)
@@ -177,13 +175,13 @@ static int check_lost_members(const struct frame *frame, const char *stage, stru
     return 0;
 }
 
-int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag)
+int frame_check_parts(struct frame *frame, struct frame_parts written, struct diag *diag)
 {
-    unsigned whole = part.sections & ~(unsigned)SECTION_LOST;
+    unsigned whole = written.parts & ~(unsigned)PART_LOST;
     if (record_write_check(&frame_record, frame, whole, diag) != 0 ||
-        ((part.sections & SECTION_LOST) != 0 && check_lost_members(frame, part.stage, diag) != 0))
+        ((written.parts & PART_LOST) != 0 && check_lost_members(frame, written.stage, diag) != 0))
         return -1;
-    return check_sections(frame, part.sections, diag);
+    return check_parts(frame, written.parts, diag);
 }
 
 /* An entry's own values. An amplitude beyond the doubles is told before the angle it spoils. */
@@ -226,7 +224,7 @@ int frame_check_extremes(const struct frame *frame, struct diag *diag)
             result = check_entry(&target_record, target, target->cell_amplitude, target->sensor,
                                  target->contributors.items[0].id.object, diag);
     }
-    return result != 0 ? -1 : record_write_check(&frame_record, frame, SECTION_COUNTS, diag);
+    return result != 0 ? -1 : record_write_check(&frame_record, frame, PART_COUNTS, diag);
 }
 
 /* The place of an echo that is in no target. */
@@ -257,11 +255,11 @@ static struct account account_of(const struct frame *frame)
     const struct target *target = frame->targets.items;
     const struct cell *cell = frame->cells.items;
     const struct echo *echo = frame->echoes.items;
-    if ((frame->present & SECTION_TARGETS) != 0)
+    if ((frame->present & PART_TARGETS) != 0)
         for (size_t i = 0; i < frame->targets.count; i++)
             add_members(&account, target[i].sensor, i, target[i].contributors.items,
                         target[i].contributors.count, frame->arena);
-    else if ((frame->present & SECTION_CELLS) != 0)
+    else if ((frame->present & PART_CELLS) != 0)
         for (size_t i = 0; i < frame->cells.count; i++)
             add_members(&account, cell[i].sensor, i, cell[i].members.items, cell[i].members.count,
                         frame->arena);

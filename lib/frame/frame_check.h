@@ -1,4 +1,4 @@
-/* Consistency of a frame's sections, and its account.
+/* Consistency of a frame's parts, and its account.
  *
  * The tables of fields check each member; this module checks members against each other. */
 #pragma once
@@ -12,14 +12,14 @@
  * contributors. Fails with DIAG_DATA. */
 int frame_check(struct frame *frame, struct diag *diag);
 
-/* Checks a part of a frame: its members against their bounds, then as frame_check. */
-int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag);
+/* Checks only parts that a stage wrote: members against their bounds, then as frame_check. */
+int frame_check_parts(struct frame *frame, struct frame_parts written, struct diag *diag);
 
 /* Checks the members of an object against their bounds, and that its class is no path. Fails with
  * DIAG_DATA. */
 int frame_check_object(const struct object *object, struct diag *diag);
 
-/* For a frame that fails frame_check_part after a stage because of extreme input: names the object
+/* For a frame that fails frame_check_parts after a stage because of extreme input: names the object
  * of the first entry with a value out of bounds (DIAG_DATA); 0 if there is none. */
 int frame_check_extremes(const struct frame *frame, struct diag *diag);
 

@@ -139,33 +139,33 @@ static void order_counts(struct frame *frame)
     frame->ordered.counts = frame->counts.count;
 }
 
-void frame_order_part(struct frame *frame, struct frame_part part)
+void frame_order_parts(struct frame *frame, struct frame_parts written)
 {
-    if ((part.sections & SECTION_OBJECTS) != 0)
+    if ((written.parts & PART_OBJECTS) != 0)
         frame->by_id.count = 0;
-    if ((part.sections & SECTION_VEHICLES) != 0)
+    if ((written.parts & PART_VEHICLES) != 0)
         sort_list(&frame->vehicles, frame_order_names, frame->arena);
-    if ((part.sections & SECTION_REFLECTORS) != 0)
+    if ((written.parts & PART_REFLECTORS) != 0)
         order_sets(frame);
-    if ((part.sections & SECTION_SENSORS) != 0)
+    if ((written.parts & PART_SENSORS) != 0)
         sort_list(&frame->sensors.list, frame_order_names, frame->arena);
-    if ((part.sections & SECTION_ECHOES) != 0)
+    if ((written.parts & PART_ECHOES) != 0)
         sort_list(&frame->echoes, frame_order_echoes, frame->arena);
-    if ((part.sections & SECTION_CELLS) != 0)
+    if ((written.parts & PART_CELLS) != 0)
         order_cells(frame);
-    if ((part.sections & SECTION_TARGETS) != 0)
+    if ((written.parts & PART_TARGETS) != 0)
         sort_list(&frame->targets, frame_order_names, frame->arena); /* stable: lists stay */
-    if ((part.sections & SECTION_LOST) != 0)
-        order_lost(frame, part.stage);
-    if ((part.sections & SECTION_COUNTS) != 0)
+    if ((written.parts & PART_LOST) != 0)
+        order_lost(frame, written.stage);
+    if ((written.parts & PART_COUNTS) != 0)
         order_counts(frame);
-    if ((part.sections & SECTION_VISIBILITY) != 0)
+    if ((written.parts & PART_VISIBILITY) != 0)
         sort_list(&frame->visibility, frame_order_sightings, frame->arena);
 }
 
 void frame_order(struct frame *frame)
 {
-    frame_order_part(frame, (struct frame_part){~0U, NULL});
+    frame_order_parts(frame, (struct frame_parts){~0U, NULL});
 }
 
 int frame_order_tied(const struct contributor *a, const struct contributor *b)

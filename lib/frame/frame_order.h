@@ -1,20 +1,20 @@
-/* Canonical order of a frame's sections, and its total orders.
+/* Canonical order of a frame's parts, and its total orders.
  *
- * Every section that a stage reads is in canonical order, so that no result depends on the order in
+ * Every part that a stage reads is in canonical order, so that no result depends on the order in
  * a source. */
 #pragma once
 
 #include "frame/frame.h"
 
-/* Brings all sections into canonical order, ascending by ids, names and paths, with a cell's leader
+/* Brings all parts into canonical order, ascending by ids, names and paths, with a cell's leader
  * before its other members. Objects stay as they are. Targets are sorted by sensor alone. */
 void frame_order(struct frame *frame);
 
-/* The same for a part of the frame. */
-void frame_order_part(struct frame *frame, struct frame_part part);
+/* The same for parts that a stage wrote. */
+void frame_order_parts(struct frame *frame, struct frame_parts written);
 
 /* The frame's objects by ascending id. They are sorted at the first call, and again if their number
- * has changed or after frame_order_part with SECTION_OBJECTS. */
+ * has changed or after frame_order_parts with PART_OBJECTS. */
 struct object *const *frame_order_objects(struct frame *frame);
 
 /* The total order of echoes of equal amplitude: by range, range rate, azimuth, then as

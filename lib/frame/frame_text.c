@@ -206,7 +206,7 @@ static const struct field cell_fields[] = {
 const struct record cell_record = {
     FIELD_TABLE(struct cell, cell_fields, "cell", "A resolution cell before noise.")};
 
-#define QUALITY_GROUP(group) FIELD_OPTIONAL, .section = QUALITY_##group
+#define QUALITY_GROUP(name) FIELD_OPTIONAL, .group = QUALITY_##name
 #define QUALITY_REAL(member, group, low, high, help)                                               \
     FIELD_REAL_IN(struct quality, member, low, high, help), QUALITY_GROUP(group)
 #define QUALITY_PLACE(member, group, help) QUALITY_REAL(member, group, -1e8, 1e8, help)
@@ -321,7 +321,7 @@ static const struct field count_fields[] = {
 static const struct record count_record = {
     FIELD_TABLE(struct count, count_fields, "count", "What one sensor has to account for.")};
 
-#define SECTION(bit) FIELD_OPTIONAL, .section = (bit)
+#define PART(bit) FIELD_OPTIONAL, .group = (bit)
 
 static const struct field frame_fields[] = {
     {FIELD_INTEGER_IN(struct frame, version, FRAME_VERSION, FRAME_VERSION,
@@ -348,29 +348,29 @@ static const struct field frame_fields[] = {
                    "what stands still beside the road and is no object"),
      FIELD_STEADY},
     {FIELD_LIST_OF(struct frame, objects, &object_record, "objects, the ego among them: truth"),
-     SECTION(SECTION_OBJECTS)},
+     PART(PART_OBJECTS)},
     {FIELD_LIST_OF(struct frame, vehicles, &class_document_record,
                    "documents that described the classes of the objects, by class"),
-     SECTION(SECTION_VEHICLES), FIELD_STEADY},
+     PART(PART_VEHICLES), FIELD_STEADY},
     {FIELD_LIST_OF(struct frame, reflectors, &reflector_set_record, "reflector sets by model"),
-     SECTION(SECTION_REFLECTORS)},
+     PART(PART_REFLECTORS)},
     {FIELD_RECORD_OF(struct frame, sensors, &sensors_record, "suite of sensors"),
-     SECTION(SECTION_SENSORS)},
+     PART(PART_SENSORS)},
     {FIELD_LIST_OF(struct frame, echoes, &echo_record,
                    "ideal echoes by sensor, object, reflector, path"),
-     SECTION(SECTION_ECHOES)},
+     PART(PART_ECHOES)},
     {FIELD_LIST_OF(struct frame, cells, &cell_record, "resolution cells by sensor and leader"),
-     SECTION(SECTION_CELLS)},
+     PART(PART_CELLS)},
     {FIELD_LIST_OF(struct frame, targets, &target_record,
                    "target lists by sensor, each in its sensor's order"),
-     SECTION(SECTION_TARGETS)},
+     PART(PART_TARGETS)},
     {FIELD_LIST_OF(struct frame, lost, &lost_group_record, "lost echoes by sensor, stage, reason"),
-     SECTION(SECTION_LOST)},
+     PART(PART_LOST)},
     {FIELD_LIST_OF(struct frame, counts, &count_record, "what there is to account for, by sensor"),
-     SECTION(SECTION_COUNTS)},
+     PART(PART_COUNTS)},
     {FIELD_LIST_OF(struct frame, visibility, &sighting_record,
                    "how much a sensor sees of each object, by sensor and object"),
-     SECTION(SECTION_VISIBILITY)},
+     PART(PART_VISIBILITY)},
     {EXTRA(struct frame)},
     {0},
 };

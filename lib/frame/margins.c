@@ -4,7 +4,7 @@
 #include "base/units.h"
 
 #define MARGIN(member, bit, high, help)                                                            \
-    FIELD_REAL_IN(struct margins, member, 0, high, help), FIELD_OPTIONAL, .section = (bit)
+    FIELD_REAL_IN(struct margins, member, 0, high, help), FIELD_OPTIONAL, .group = (bit)
 
 static const struct field margin_fields[] = {
     {MARGIN(sight_m, MARGIN_SIGHT, 1e8,
@@ -27,7 +27,7 @@ const struct record margins_record = {
 static double *member(struct margins *margins, enum margin which)
 {
     const struct field *field = margin_fields;
-    while (field->section != (unsigned)which)
+    while (field->group != (unsigned)which)
         field++;
     return (double *)(void *)((char *)margins + field->offset);
 }

@@ -8,20 +8,20 @@ const char *const sections_names[] = {"objects", "reflectors", "echoes",     "ce
 
 enum { CARRY_ALL = (CARRY_VISIBILITY << 1) - 1 };
 
-/* For each word, in the order of enum carried: the section of that name, the last stage that takes
- * the word, and sections that are present once this stage has run. */
+/* For each section, in the order of enum carried: the part of the frame with that name, the last
+ * stage that takes the word, and parts that are present once this stage has run. */
 static const struct {
     unsigned own, after;
     const char *stage;
 } places[] = {
-    {SECTION_OBJECTS, SECTION_TARGETS, "glint-noise"},
-    {SECTION_REFLECTORS, SECTION_SENSORS, "glint-ideal"},
-    {SECTION_ECHOES, SECTION_CELLS | SECTION_TARGETS, "glint-sensor"},
-    {SECTION_CELLS, SECTION_TARGETS, "glint-noise"},
-    {SECTION_LOST, SECTION_SENSORS, "glint-ideal"},
-    {0, SECTION_SENSORS, "glint-ideal"},
-    {0, SECTION_TARGETS, "glint-noise"},
-    {SECTION_VISIBILITY, SECTION_SENSORS, "glint-ideal"},
+    {PART_OBJECTS, PART_TARGETS, "glint-noise"},
+    {PART_REFLECTORS, PART_SENSORS, "glint-ideal"},
+    {PART_ECHOES, PART_CELLS | PART_TARGETS, "glint-sensor"},
+    {PART_CELLS, PART_TARGETS, "glint-noise"},
+    {PART_LOST, PART_SENSORS, "glint-ideal"},
+    {0, PART_SENSORS, "glint-ideal"},
+    {0, PART_TARGETS, "glint-noise"},
+    {PART_VISIBILITY, PART_SENSORS, "glint-ideal"},
 };
 
 _Static_assert(CARRY_ALL + 1 == 1 << sizeof places / sizeof *places &&
@@ -124,8 +124,8 @@ int sections_apply(const struct sections_change *change, struct frame *frame, st
 
 unsigned sections_left_out(const struct frame *frame)
 {
-    return (frame_carries(frame, CARRY_ACCOUNT) ? 0U : SECTION_LOST) |
-           (frame_carries(frame, CARRY_VISIBILITY) ? 0U : SECTION_VISIBILITY);
+    return (frame_carries(frame, CARRY_ACCOUNT) ? 0U : PART_LOST) |
+           (frame_carries(frame, CARRY_VISIBILITY) ? 0U : PART_VISIBILITY);
 }
 
 void sections_drop(struct frame *frame)

@@ -38,8 +38,8 @@ int sections_read(const char *text, struct sections_change *change, struct diag 
  * with DIAG_CONFIG if the frame lacks an added section and the stage that writes it has run. */
 int sections_apply(const struct sections_change *change, struct frame *frame, struct diag *diag);
 
-/* The set of enum section that stages need not write, as this frame does not carry them. */
+/* The parts of the frame that stages need not write, as this frame does not carry them. */
 unsigned sections_left_out(const struct frame *frame);
 
-/* Drops the sections that the frame does not carry and that no later stage reads. */
+/* Drops the parts that the frame does not carry and that no later stage reads. */
 void sections_drop(struct frame *frame);

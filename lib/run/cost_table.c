@@ -29,11 +29,11 @@ static const struct field chain_fields[] = {
     {FIELD_REAL_IN(struct cost_chain, targets_per_scan, 0, 1e300, "mean number in a list")},
     {OPTIONAL_RECORD(struct cost_chain, energy, &interval_record,
                      "energy distance from the reference, absent for itself"),
-     .section = COST_ENERGY},
+     .group = COST_ENERGY},
     {OPTIONAL_RECORD(struct cost_chain, relative_distance, &interval_record,
                      "the error: root of energy over that of ideal echoes, 0 if energy is not "
                      "above 0; absent if ideal echoes cannot be told from the reference"),
-     .section = COST_ERROR},
+     .group = COST_ERROR},
     {0},
 };
 
@@ -58,7 +58,7 @@ static const struct field effect_fields[] = {
     {FIELD_RECORD_OF(struct cost_effect, saved, &time_record, "of a frame's CPU time")},
     {OPTIONAL_RECORD(struct cost_effect, squared_error_added, &interval_record,
                      "squared error of the chain without it less that of the whole chain"),
-     .section = COST_ERROR},
+     .group = COST_ERROR},
     {FIELD_NAME_OF(struct cost_effect, called_for_by,
                    "what of the scene calls for it in most lists, or the members of documents")},
     {OPTIONAL_INTEGER(struct cost_effect, lists_called, 0, 0x1p53,

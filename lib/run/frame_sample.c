@@ -54,7 +54,7 @@ int frame_sample_add(struct frame_sample *sample, const struct frame *frame, str
         return 0;
     struct frame bare = *frame;
     struct text line = {0};
-    frame_drop(&bare, ~(unsigned)(SECTION_OBJECTS | SECTION_VEHICLES | SECTION_REFLECTORS));
+    frame_drop(&bare, ~(unsigned)(PART_OBJECTS | PART_VEHICLES | PART_REFLECTORS));
     bare.sections = CARRY_BY_DEFAULT;
     int result = frame_text_write(&bare, &line, diag);
     if (result == 0)

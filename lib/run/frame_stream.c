@@ -19,7 +19,7 @@ static int open_next(struct frame_stream *stream, struct diag *diag)
     return 1;
 }
 
-/* Lines of other programs may have sections in any order; stages rely on the canonical one. */
+/* Lines of other programs may have their parts in any order; stages rely on the canonical one. */
 int frame_stream_parse(const char *line, size_t length, struct frame *frame, struct diag *diag)
 {
     if (frame_text_read(line, length, frame, diag) != 0)

@@ -355,15 +355,15 @@ static void help_option(const struct field *field, struct text *text)
     add_entry(left, words, text);
 }
 
-/* A sentence that ends with the names of sections. */
-static void help_sections(const char *words, unsigned sections, struct text *text)
+/* A sentence that ends with the names of parts of the frame. */
+static void help_parts(const char *words, unsigned parts, struct text *text)
 {
     struct text sentence = {0};
     text_add_word(&sentence, words);
     const char *separator = " ";
-    for (unsigned bit = 1; bit <= SECTION_VISIBILITY; bit <<= 1)
-        if ((sections & bit) != 0) {
-            text_format(&sentence, "%s%s", separator, frame_section_name(bit));
+    for (unsigned bit = 1; bit <= PART_VISIBILITY; bit <<= 1)
+        if ((parts & bit) != 0) {
+            text_format(&sentence, "%s%s", separator, frame_part_name(bit));
             separator = ", ";
         }
     text_add(&sentence, ".", 2);
@@ -396,14 +396,13 @@ static void help_frames(const struct stage *stage, struct text *text)
     if (stage_takes_files(stage) || stage->reads != 0 || stage->writes != 0)
         text_add_word(text, "\n");
     if (stage->reads != 0)
-        help_sections("Reads frames (JSON lines) from the files or standard input; sections:",
-                      stage->reads, text);
+        help_parts("Reads frames (JSON lines) from the files or standard input; parts:",
+                   stage->reads, text);
     else if (stage_takes_files(stage))
-        add_sentence("Reads frames (JSON lines) from the files or standard input; all sections.",
+        add_sentence("Reads frames (JSON lines) from the files or standard input; all parts.",
                      text);
     if (stage->writes != 0)
-        help_sections("Writes frames (JSON lines) to standard output; sections:", stage->writes,
-                      text);
+        help_parts("Writes frames (JSON lines) to standard output; parts:", stage->writes, text);
     if (stage_kind(stage) == STAGE_FILTER)
         add_sentence("Each frame is written before the program waits for the next.", text);
     if (stage_takes_files(stage) && stage->writes == 0)

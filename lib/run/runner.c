@@ -128,31 +128,31 @@ void runner_free(struct runner *runner)
     arena_free(&runner->arena);
 }
 
-/* The stage that writes a section, unless another one stands in its place. */
-static const char *writer_of(unsigned section)
+/* The stage that writes a part of the frame, unless another one stands in its place. */
+static const char *writer_of(unsigned part)
 {
-    return section == SECTION_OBJECTS                            ? "traffic"
-           : section == SECTION_REFLECTORS                       ? "extract"
-           : (section & (SECTION_SENSORS | SECTION_ECHOES)) != 0 ? "ideal"
-           : section == SECTION_CELLS                            ? "sensor"
-                                                                 : "noise";
+    return part == PART_OBJECTS                         ? "traffic"
+           : part == PART_REFLECTORS                    ? "extract"
+           : (part & (PART_SENSORS | PART_ECHOES)) != 0 ? "ideal"
+           : part == PART_CELLS                         ? "sensor"
+                                                        : "noise";
 }
 
-static int check_sections(struct runner *runner, const struct frame *frame)
+static int check_parts(struct runner *runner, const struct frame *frame)
 {
     unsigned missing = runner->stage->reads & ~frame->present;
-    if ((missing & SECTION_OBJECTS) != 0 && !frame_carries(frame, CARRY_OBJECTS))
+    if ((missing & PART_OBJECTS) != 0 && !frame_carries(frame, CARRY_OBJECTS))
         return diag_fail(&runner->diag, DIAG_DATA,
                          "objects: missing; --sections left them out of the stream");
     if (missing != 0)
         return diag_fail(&runner->diag, DIAG_DATA,
                          "%s: missing; expected glint-%s, or a stage in its place, before this one",
-                         frame_section_name(missing & -missing), writer_of(missing & -missing));
-    unsigned added = SECTION_LOST | SECTION_COUNTS | SECTION_VEHICLES | SECTION_VISIBILITY;
+                         frame_part_name(missing & -missing), writer_of(missing & -missing));
+    unsigned added = PART_LOST | PART_COUNTS | PART_VEHICLES | PART_VISIBILITY;
     unsigned doubled = runner->stage->writes & ~runner->stage->reads & frame->present & ~added;
     if (doubled != 0)
         return diag_fail(&runner->diag, DIAG_DATA, "%s: already there; this stage would write it",
-                         frame_section_name(doubled & -doubled));
+                         frame_part_name(doubled & -doubled));
     return 0;
 }
 
@@ -177,21 +177,21 @@ static int apply_sections(struct runner *runner, struct frame *frame)
                : sections_apply(&runner->sections, frame, &runner->diag);
 }
 
-/* After every step: drops the sections that nobody needs any more; orders and checks those that the
+/* After every step: drops the parts that nobody needs any more; orders and checks those that the
  * stage wrote, so that a stage that writes an invalid frame fails itself and not its neighbour. The
- * other sections were checked when they were read or written. */
+ * other parts were checked when they were read or written. */
 static int finish_step(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
-    const struct frame_part written = {stage->writes, stage->name};
+    const struct frame_parts written = {stage->writes, stage->name};
     frame->present |= stage->writes & ~sections_left_out(frame);
     sections_drop(frame);
-    if ((stage->writes & SECTION_TARGETS) != 0)
+    if ((stage->writes & PART_TARGETS) != 0)
         sightings_count_targets(frame);
-    frame_order_part(frame, written);
-    if (frame_check_part(frame, written, &runner->diag) != 0)
+    frame_order_parts(frame, written);
+    if (frame_check_parts(frame, written, &runner->diag) != 0)
         return refuse(runner, frame);
-    if (frame_carries(frame, CARRY_ACCOUNT) && (stage->writes & SECTION_TARGETS) != 0)
+    if (frame_carries(frame, CARRY_ACCOUNT) && (stage->writes & PART_TARGETS) != 0)
         return frame_check_account(frame, &runner->diag);
     return 0;
 }
@@ -226,20 +226,20 @@ int runner_next(struct runner *runner, struct frame *frame)
 static int check_account(const struct runner *runner, const struct frame *frame, struct diag *diag)
 {
     bool ends = runner->stage->sink || runner->stage->run != NULL;
-    bool whole = (frame->present & (SECTION_TARGETS | SECTION_CELLS | SECTION_ECHOES)) != 0;
+    bool whole = (frame->present & (PART_TARGETS | PART_CELLS | PART_ECHOES)) != 0;
     if (!ends || !whole || !frame_carries(frame, CARRY_ACCOUNT) || runner->before != NULL ||
         runner->input == NULL)
         return 0;
     return frame_check_account(frame, diag);
 }
 
-/* Before every step: the frame takes the seed of the command line, must have the sections that the
+/* Before every step: the frame takes the seed of the command line, must have the parts that the
  * program reads, and must follow the frames before it (--complete). */
 static int take_frame(struct runner *runner, struct frame *frame)
 {
     if (runner->common.seed_given)
         frame->seed = runner->common.seed;
-    if (check_sections(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0 ||
+    if (check_parts(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0 ||
         apply_sections(runner, frame) != 0)
         return -1;
     return runner->common.complete

@@ -38,10 +38,10 @@ struct stage {
     bool sink;
     bool into_folder; /* a tool's outputs are files in the folder that the operand names */
     bool draws; /* a tool that draws random numbers by the frames' seed, and so takes --seed */
-    /* Sets of enum section. A frame must have the sections that the stage reads. It must not yet
+    /* Sets of enum frame_part. A frame must have the parts that the stage reads. It must not yet
      * have those that the stage writes, except lost, counts and vehicles, which it adds to, and
-     * sections that it reads as well, which it changes in place. The runner orders and checks only
-     * the sections in writes after a step, so a stage must change no other (test_runner). A tool
+     * parts that it reads as well, which it changes in place. The runner orders and checks only
+     * the parts in writes after a step, so a stage must change no other (test_runner). A tool
      * with an empty set reads no frames. */
     unsigned reads, writes;
     int (*start)(void *state, struct runner *runner);

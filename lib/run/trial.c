@@ -158,7 +158,7 @@ static int open_frame(struct trial_bench *bench, const struct sampled_frame *sam
     if (frame_stream_parse(sampled->line, sampled->length, frame, runner_diag(bench->runner)) != 0)
         return -1;
     frame->seed = seed;
-    if ((frame->present & SECTION_REFLECTORS) == 0 &&
+    if ((frame->present & PART_REFLECTORS) == 0 &&
         runner_try(bench->runner, bench->extract, frame) != 0)
         return -1;
     bench->head_ns[bench->round] += chain_cpu_ns() - begin_ns;
@@ -177,7 +177,7 @@ static void resume(struct trial_bench *bench, const struct trial *trial)
     made->arena = &bench->made_arena;
     made->sections = CARRY_BY_DEFAULT;
     made->sensors.effects = trial->effects;
-    frame_drop(made, SECTION_LOST | SECTION_VISIBILITY);
+    frame_drop(made, PART_LOST | PART_VISIBILITY);
     struct count *counts = arena_get(made->arena, made->counts.count * sizeof *counts);
     for (size_t i = 0; i < made->counts.count; i++) {
         counts[i] = made->counts.items[i];

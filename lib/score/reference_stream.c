@@ -252,10 +252,10 @@ static int take_frame(struct reference_stream *reference, const struct frame **o
 {
     struct frame *own = &reference->frame;
     frame_order(own);
-    unsigned missing = (SECTION_SENSORS | SECTION_TARGETS) & ~own->present;
+    unsigned missing = (PART_SENSORS | PART_TARGETS) & ~own->present;
     if (missing != 0)
-        return diag_fail(diag, DIAG_DATA, "%s: missing; expected the section, to compare with",
-                         frame_section_name(missing & -missing));
+        return diag_fail(diag, DIAG_DATA, "%s: missing; expected in both streams",
+                         frame_part_name(missing & -missing));
     *other = own;
     return frame_check(own, diag);
 }

@@ -11,10 +11,10 @@
 
 #define COUNT(owner, member, help) FIELD_INTEGER_IN(owner, member, 0, 0x1p53, help)
 #define MEASURE(member, help) OPTIONAL_REAL(struct score, member, 0, 1e300, help)
-#define MEAN(member, help) MEASURE(member, help), .section = SCORE_SCANS
+#define MEAN(member, help) MEASURE(member, help), .group = SCORE_SCANS
 #define DIFFERENCE(member, low, bit, help)                                                         \
     FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), FIELD_OPTIONAL,             \
-        .section = (bit)
+        .group = (bit)
 
 static const struct field differences_fields[] = {
     {DIFFERENCE(mean, -1e300, SCORE_PAIRS, "mean of the pairs' differences, listed less true")},
@@ -145,7 +145,7 @@ static const struct field track_summary_fields[] = {
     {FIELD_RECORD_OF(struct score_summary, all, &score_record, "score over all frames")},
     {OPTIONAL_RECORD(struct score_summary, difference, &tracker_difference_record,
                      "scores of --tracks less those of --against"),
-     .section = SCORE_DIFFERENCE},
+     .group = SCORE_DIFFERENCE},
     {0},
 };
 

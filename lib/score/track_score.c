@@ -14,7 +14,7 @@ const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
 /* The least variance is (10 um)^2, so that squares of normalised distances are finite. */
 #define COVARIANCE(member, low, help)                                                              \
     OPTIONAL_REAL(struct track, member, low, 1e14, help "; the matrix is positive definite"),      \
-        .section = TRACK_COVARIANCE
+        .group = TRACK_COVARIANCE
 
 static const struct field track_fields[] = {
     {FIELD_NAME_OF(struct track, id,
@@ -42,7 +42,7 @@ static const struct field list_fields[] = {
     {FIELD_NAME_OF(struct track_list, scene, "scene of the frame")},
     {FIELD_INTEGER_IN(struct track_list, frame, 0, 0x1p53, "number of the frame in its scene")},
     {OPTIONAL_REAL(struct track_list, time_s, -1e10, 1e10, "time of the frame; compared if given"),
-     .section = TRACK_TIME},
+     .group = TRACK_TIME},
     {FIELD_LIST_OF(struct track_list, tracks, &track_record,
                    "the tracks, in any order; may be empty")},
     {FIELD_RAW_OF(struct track_list, extra, "any value, for your own use; not read")},
@@ -102,13 +102,13 @@ struct object_list {
 
 int track_score_check(const struct frame *frame, enum track_truth truth, struct diag *diag)
 {
-    unsigned needed = truth == TRACK_TRUTH_IN_VIEW    ? SECTION_SENSORS
-                      : truth == TRACK_TRUTH_DETECTED ? SECTION_TARGETS
+    unsigned needed = truth == TRACK_TRUTH_IN_VIEW    ? PART_SENSORS
+                      : truth == TRACK_TRUTH_DETECTED ? PART_TARGETS
                                                       : 0;
     if ((needed & ~frame->present) == 0)
         return 0;
-    return diag_fail(diag, DIAG_DATA, "%s: missing; --objects=%s needs it",
-                     frame_section_name(needed), track_score_truths[truth]);
+    return diag_fail(diag, DIAG_DATA, "%s: missing; --objects=%s needs it", frame_part_name(needed),
+                     track_score_truths[truth]);
 }
 
 static bool is_named(const char *names, const char *name)

@@ -46,7 +46,7 @@ enum track_truth {
 };
 extern const char *const track_score_truths[];
 
-/* Refuses a frame without the section that decides which objects count (DIAG_DATA). */
+/* Refuses a frame without the part that decides which objects count (DIAG_DATA). */
 int track_score_check(const struct frame *frame, enum track_truth truth, struct diag *diag);
 
 /* True if the tracker is expected to have the object. classes is a list of names separated by

@@ -226,8 +226,8 @@ static uint64_t bits_of(double value)
 
 bool field_present(const struct record *record, const struct field *field, const void *base)
 {
-    if (field->section != 0)
-        return (field_sections(record, base) & field->section) != 0;
+    if (field->group != 0)
+        return (field_groups(record, base) & field->group) != 0;
     if (!field->optional)
         return true;
     switch (field->kind) {
@@ -256,12 +256,12 @@ bool field_present(const struct record *record, const struct field *field, const
     return true;
 }
 
-/* True if any member is present. Members are all sections, whose bits tell it at once, or none
+/* True if any member is present. Members are all in groups, whose bits tell it at once, or none
  * is. */
 static bool any_present(const struct record *record, const void *base)
 {
-    if (record->fields[0].section != 0)
-        return field_sections(record, base) != 0;
+    if (record->fields[0].group != 0)
+        return field_groups(record, base) != 0;
     for (const struct field *field = record->fields; field->name != NULL; field++)
         if (field_present(record, field, base))
             return true;
@@ -270,9 +270,9 @@ static bool any_present(const struct record *record, const void *base)
 
 void field_mark_present(const struct record *record, const struct field *field, void *base)
 {
-    if (field->section == 0)
+    if (field->group == 0)
         return;
-    unsigned present = field_sections(record, base) | field->section;
+    unsigned present = field_groups(record, base) | field->group;
     memcpy((char *)base + record->present_offset, &present, sizeof present);
 }
 

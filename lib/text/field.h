@@ -25,7 +25,7 @@ enum field_kind {
     FIELD_SET, /* uint64_t: bit i stands for choices[i], of at most 64; in text an array of names */
     FIELD_NAMES,  /* LIST_OF(const char *) */
     FIELD_RECORD, /* an embedded struct. An optional one is absent while all its members are; all or
-                   * none of its members are then sections */
+                   * none of its members are then in groups */
     FIELD_LIST,   /* LIST_OF(a struct) */
     FIELD_RAW,    /* const char *: any JSON value, byte for byte, at most FIELD_RAW_SIZE */
     FIELD_NOTES,  /* no member: an object of strings, for people; documents only */
@@ -48,15 +48,16 @@ struct field {
     double absent;    /* number or choice that an absent member has */
     const struct record *record;
     const char *const *choices; /* NULL-terminated */
-    unsigned section;           /* bit of the member in `present`, or 0 */
+    unsigned group;             /* its bit in `present`, or 0 */
     const char *help;
     const char *word; /* name of the value in --help, if not NUMBER, NAME, ... */
 };
 
-/* Tables end with a field without a name. A record with sections has their bits in an unsigned
- * member at present_offset: a section is absent unless its bit is set. Members for which 0 is a
- * value like any other are sections too. A record with steady lists has, at document_offset, a
- * pointer to the struct of the document that it was copied from, or NULL. */
+/* Tables end with a field without a name. Members that are present or absent together are a group.
+ * A record with groups has their bits in an unsigned member at present_offset: the members of a
+ * group are absent unless its bit is set. A member for which 0 is a value like any other needs a
+ * group. A record with steady lists has, at document_offset, a pointer to the struct of the
+ * document that it was copied from, or NULL. */
 struct record {
     const char *name;
     const char *help;
@@ -130,8 +131,8 @@ extern const struct field field_none[];
 #define FIELD_STORE(type, field, base, value)                                                      \
     memcpy((char *)(base) + (field)->offset, &(type){(value)}, sizeof(type))
 
-/* The sections that are present in the struct at base. */
-static inline unsigned field_sections(const struct record *record, const void *base)
+/* The groups that are present in the struct at base. */
+static inline unsigned field_groups(const struct record *record, const void *base)
 {
     unsigned present;
     memcpy(&present, (const char *)base + record->present_offset, sizeof present);

@@ -343,7 +343,7 @@ static int read_members(struct reader *reader, const struct record *record, void
         next = field + 1;
         if (read_member(reader, field, base) != 0)
             return -1;
-        if (field->section != 0)
+        if (field->group != 0)
             field_mark_present(record, field, base);
     } while (json_scan_take(scan, ','));
     return json_scan_take(scan, '}') ? 0 : unexpected(scan, "',' or '}'");
@@ -365,7 +365,7 @@ static int read_record(struct reader *reader, const struct record *record, void 
                 return 0;
             if (field->optional)
                 field_set_absent(field, base);
-            else if (field->section == 0)
+            else if (field->group == 0)
                 return field_refuse(field, "missing", scan->diag);
         }
     return 0;

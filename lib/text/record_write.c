@@ -10,7 +10,7 @@ struct items {
     size_t at;
 };
 
-static int check_records(const struct record *record, struct items *items, unsigned sections,
+static int check_records(const struct record *record, struct items *items, unsigned groups,
                          struct diag *diag);
 
 /* True if all values of a member are in bounds, as nearly always. */
@@ -99,16 +99,16 @@ static int check_lists(const struct record *record, const struct field *field, s
     return 0;
 }
 
-/* Checks an embedded struct of all items at once. If it is a section, it is checked item by item,
+/* Checks an embedded struct of all items at once. If it is in a group, it is checked item by item,
  * because some items may lack it. */
 static int check_embedded(const struct record *record, const struct field *field,
                           struct items *items, struct diag *diag)
 {
-    size_t step = field->section == 0 ? items->count : 1;
+    size_t step = field->group == 0 ? items->count : 1;
     for (size_t i = 0; i < items->count; i += step) {
         const char *item = items->first + i * items->size;
         struct items embedded = {item + field->offset, items->size, step, 0};
-        if ((field->section != 0 && !field_present(record, field, item)) ||
+        if ((field->group != 0 && !field_present(record, field, item)) ||
             check_records(field->record, &embedded, ~0U, diag) == 0)
             continue;
         items->at = i + embedded.at;
@@ -137,33 +137,33 @@ static int check_member(const struct record *record, const struct field *field, 
     }
 }
 
-/* The sections that at least one of the items has. */
-static unsigned sections_among(const struct record *record, const struct items *items)
+/* The groups that at least one of the items has. */
+static unsigned groups_among(const struct record *record, const struct items *items)
 {
-    unsigned sections = 0;
+    unsigned groups = 0;
     for (size_t i = 0; i < items->count; i++)
-        sections |= field_sections(record, items->first + i * items->size);
-    return sections;
+        groups |= field_groups(record, items->first + i * items->size);
+    return groups;
 }
 
-static int check_records(const struct record *record, struct items *items, unsigned sections,
+static int check_records(const struct record *record, struct items *items, unsigned groups,
                          struct diag *diag)
 {
-    bool sectioned = record->fields[0].section != 0;
-    if (items->count == 0 || (sectioned && sections_among(record, items) == 0))
+    bool grouped = record->fields[0].group != 0;
+    if (items->count == 0 || (grouped && groups_among(record, items) == 0))
         return 0;
     for (const struct field *field = record->fields; field->name != NULL; field++) {
-        bool wanted = field->section == 0 || (field->section & sections) != 0;
+        bool wanted = field->group == 0 || (field->group & groups) != 0;
         if (wanted && check_member(record, field, items, diag) != 0)
             return -1;
     }
     return 0;
 }
 
-int record_write_check(const struct record *record, const void *base, unsigned sections,
+int record_write_check(const struct record *record, const void *base, unsigned groups,
                        struct diag *diag)
 {
-    return check_records(record, &(struct items){base, record->size, 1, 0}, sections, diag);
+    return check_records(record, &(struct items){base, record->size, 1, 0}, groups, diag);
 }
 
 /* The writer's place in a text; the text's length is set at the end. */

@@ -8,10 +8,10 @@
 
 /* Refuses a struct out of the bounds of its fields with "echoes[3].range_m: -1 is outside [0,
  * 1e+06] m", "name: missing" and the like. Covers embedded structs and lists, and accepts whatever
- * the reader of a line would. Of the record's own sections it checks only these; ~0U: all. A list
+ * the reader of a line would. Of the record's own groups it checks only these; ~0U: all. A list
  * is checked member by member: one member of all items, then the next member. Of several faults,
  * the message names the first in this order. */
-int record_write_check(const struct record *record, const void *base, unsigned sections,
+int record_write_check(const struct record *record, const void *base, unsigned groups,
                        struct diag *diag);
 
 /* Appends the line with its newline to text. The struct must have passed record_write_check. The

@@ -69,7 +69,7 @@ static uint32_t scene_of(struct view_data *data, const struct frame *frame)
     uint32_t number = intern_number(&data->scene_keys, key, sizeof key, data->arena);
     if (number == data->scenes.count) {
         struct vec2 ego = view_frame_ego(frame, 0).position_m;
-        bool has_sensors = (frame->present & SECTION_SENSORS) != 0;
+        bool has_sensors = (frame->present & PART_SENSORS) != 0;
         *list_add(&data->scenes, data->arena) = (struct view_scene){
             .name = (int64_t)key[0],
             .seed = frame->seed,
@@ -149,7 +149,7 @@ static void add_quality(struct view_data *data, const struct quality *quality)
          field++, column++) {
         if (quality->present == 0)
             continue;
-        bool known = (quality->present & field->section) != 0;
+        bool known = (quality->present & field->group) != 0;
         put_real(data, column, known ? field_number(field, quality) : (double)NAN);
     }
 }

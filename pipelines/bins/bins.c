@@ -124,7 +124,7 @@ const struct stage stage_bins = {
     .name = "bins",
     .summary = "Add up the echoes in the bins of a fixed grid.",
     .options = STAGE_OPTIONS(struct bins, bins_options),
-    .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_CELLS | SECTION_LOST,
+    .reads = PART_SENSORS | PART_ECHOES,
+    .writes = PART_CELLS | PART_LOST,
     .step = bins_step,
 };

@@ -225,8 +225,8 @@ def count_along_chain(bench):
                        " | glint-sensor | glint-noise")
     frame = min(frames, key=lambda f: abs(f["time_s"] - 2.36))
 
-    def of_left(section):
-        return len([item for item in frame[section] if item["sensor"] == "left"])
+    def of_left(part):
+        return len([item for item in frame[part] if item["sensor"] == "left"])
     pairs = next(c["pairs"] for c in frame["counts"] if c["sensor"] == "left")
     return (len(frame["objects"]), pairs, of_left("echoes"), of_left("cells"), of_left("targets"))
 

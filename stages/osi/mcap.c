@@ -142,7 +142,7 @@ const struct stage stage_mcap = {
         "file. It holds one scene; frames need --sections quality.",
     .options = STAGE_OPTIONS(struct mcap_stage, mcap_fields),
     .sink = true,
-    .reads = SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS,
+    .reads = PART_OBJECTS | PART_SENSORS | PART_TARGETS,
     .start = mcap_start,
     .step = mcap_step,
     .stop = mcap_stop,

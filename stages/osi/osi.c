@@ -38,7 +38,7 @@ const struct stage stage_osi = {
                "no place for. A trace holds one scene; frames need --sections quality.",
     .options = STAGE_OPTIONS(struct osi_trace, osi_fields),
     .sink = true,
-    .reads = SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS,
+    .reads = PART_OBJECTS | PART_SENSORS | PART_TARGETS,
     .start = osi_start,
     .step = osi_step,
 };

@@ -52,7 +52,7 @@ const struct stage stage_traffic_osi = {
     ,
     .options = STAGE_OPTIONS(struct traffic_osi, traffic_osi_fields),
     .operand = "SOURCE",
-    .writes = SECTION_OBJECTS,
+    .writes = PART_OBJECTS,
     .start = traffic_osi_start,
     .next = recording_source_next,
     .locate_fault = recording_source_locate_fault,

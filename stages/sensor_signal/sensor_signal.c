@@ -150,8 +150,8 @@ const struct stage stage_sensor_signal = {
         "machine, fused or piped. Another version or another kind of CPU may change the last "
         "digits, which happens in no other stage.",
     .options = STAGE_OPTIONS(struct sensor_signal, sensor_signal_fields),
-    .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,
+    .reads = PART_SENSORS | PART_ECHOES,
+    .writes = PART_TARGETS | PART_LOST | PART_COUNTS | PART_VISIBILITY,
     .step = sensor_signal_step,
     .locate_fault = suite_choice_locate_fault,
     .release = sensor_signal_release,

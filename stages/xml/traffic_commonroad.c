@@ -38,7 +38,7 @@ const struct stage stage_traffic_commonroad = {
     ,
     .options = STAGE_OPTIONS(struct recording, traffic_commonroad_fields),
     .operand = "SOURCE",
-    .writes = SECTION_OBJECTS,
+    .writes = PART_OBJECTS,
     .start = traffic_commonroad_start,
     .next = recording_source_next,
     .locate_fault = recording_source_locate_fault,

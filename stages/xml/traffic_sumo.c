@@ -39,7 +39,7 @@ const struct stage stage_traffic_sumo = {
     ,
     .options = STAGE_OPTIONS(struct recording, traffic_sumo_fields),
     .operand = "SOURCE",
-    .writes = SECTION_OBJECTS,
+    .writes = PART_OBJECTS,
     .start = traffic_sumo_start,
     .next = recording_source_next,
     .locate_fault = recording_source_locate_fault,

@@ -25,7 +25,7 @@ BIN = os.path.abspath(sys.argv[1]) if len(sys.argv) == 2 else sys.exit(__doc__)
 ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 PIPELINES = sorted(glob.glob(ROOT + "/pipelines/*.sh"))
 SCHEMA = json.load(open(ROOT + "/schemas/frame.json"))
-SECTIONS = list(SCHEMA["properties"])
+PARTS = list(SCHEMA["properties"])
 PATHS = SCHEMA["properties"]["echoes"]["items"]["properties"]["path"]["enum"]
 REASONS = SCHEMA["properties"]["lost"]["items"]["properties"]["reason"]["examples"]
 SCENARIOS = sorted(name[:-5] for name in os.listdir(ROOT + "/data/scenarios"))
@@ -114,10 +114,10 @@ def place(frame):
 def same_frames(left, right, without, what):
     check(len(left) == len(right), f"{what}: {len(left)} and {len(right)} frames")
     for one, other in zip(left, right):
-        for section in SECTIONS:
-            if section not in without:
-                check(one.get(section) == other.get(section),
-                      f"{what}: {place(one)}: {section} differs")
+        for part in PARTS:
+            if part not in without:
+                check(one.get(part) == other.get(part),
+                      f"{what}: {place(one)}: {part} differs")
 
 
 def finite(text):
@@ -609,7 +609,7 @@ def seeds(folder):
               f"--seed at {stages[index]} differs from --seed at the source")
     cells = " | ".join(stages[:3])
     one, other = (exact(piped(f"glint-traffic cut-in --seed {seed} | {cells}")) for seed in (1, 7))
-    same_frames(one, other, ("seed",), "noise-free sections under another seed")
+    same_frames(one, other, ("seed",), "noise-free parts under another seed")
     mine, theirs = parse(piped("glint-traffic cut-in | " + " | ".join(stages))), parse(expected)
     pairs = 0
     for frame, twin in zip(mine, theirs):
@@ -801,7 +801,7 @@ def echo_key(one):
 
 def check_order(frame):
     where = place(frame)
-    keys = [SECTIONS.index(key) for key in frame]
+    keys = [PARTS.index(key) for key in frame]
     ascending(keys, f"{where}: the frame's members")
     ascending([text_key(one["model"]) for one in frame.get("reflectors", [])],
               f"{where}: reflectors")
@@ -809,10 +809,10 @@ def check_order(frame):
         ascending([text_key(name) for name in one["objects"]], f"{where}: objects")
     ascending([text_key(one["name"]) for one in frame.get("sensors", {"list": []})["list"]],
               f"{where}: sensors")
-    for section in ("echoes", "counts", "targets"):
-        key = echo_key if section == "echoes" else lambda one: ()
-        ascending([text_key(one["sensor"]) + key(one) for one in frame.get(section, [])],
-                  f"{where}: {section}")
+    for part in ("echoes", "counts", "targets"):
+        key = echo_key if part == "echoes" else lambda one: ()
+        ascending([text_key(one["sensor"]) + key(one) for one in frame.get(part, [])],
+                  f"{where}: {part}")
     ascending([text_key(one["sensor"]) + echo_key(one["members"][0])
                for one in frame.get("cells", [])], f"{where}: cells")
     for parts in [one["members"] for one in frame.get("cells", [])] + \
@@ -924,7 +924,7 @@ PROPERTIES = [
     ("--sections keeps sections and changes nothing else", keep),
     ("-o FILE.gz holds the bytes of standard output", compressed_output),
     ("extra members pass byte for byte", extras),
-    ("all numbers are finite, all sections in canonical order", well_formed),
+    ("all numbers are finite, all parts in canonical order", well_formed),
     ("frames are as the schema says", schema),
     ("frames are small", sizes),
     ("a recording goes through with every vehicle as ego", recording),

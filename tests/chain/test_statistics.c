@@ -62,7 +62,7 @@ static void bench_begin(struct bench *bench, int64_t number)
             (struct sensor_view){.name = name, .measured = true};
         *list_add(&frame->counts, frame->arena) = (struct count){.sensor = name};
     }
-    frame->present = SECTION_SENSORS | SECTION_COUNTS | bench->runner.stage->reads;
+    frame->present = PART_SENSORS | PART_COUNTS | bench->runner.stage->reads;
 }
 
 static void bench_step(struct bench *bench)

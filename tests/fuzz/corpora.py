@@ -28,7 +28,7 @@ def first_lines(pipeline, count=1):
 
 
 def frames():
-    """Frames with every section: of objects, of reflectors, of echoes, of cells, of targets."""
+    """Frames with every part: of objects, of reflectors, of echoes, of cells, of targets."""
     chain = ["traffic cut-in", "extract", "ideal --sensors lrr77-full --sections account,margins", "sensor", "noise"]
     made = [first_lines(" | ".join("glint-" + stage for stage in chain[:count + 1]), 2) for count in range(len(chain))]
     whole = "glint-traffic two-vehicles | glint-extract | glint-ideal --sensors corner77"\

@@ -85,7 +85,7 @@ void fuzz_chain(struct frame *frame, const char *suite)
     static const size_t word_counts[] = {0, 4, 2, 2};
     enum { STEPS = sizeof steps / sizeof steps[0] };
     struct runner runners[STEPS];
-    size_t first = (frame->present & SECTION_REFLECTORS) != 0, after = first;
+    size_t first = (frame->present & PART_REFLECTORS) != 0, after = first;
     bool good = true;
     for (; good && after < STEPS; after++)
         good = step(&runners[after], steps[after], frame, word_counts[after], words);

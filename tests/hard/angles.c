@@ -304,7 +304,7 @@ static void the_angle_survives_the_pipe(void **state)
         frame.scene = "pipe";
         frame.interval_s = 1;
         frame.ego = "ego";
-        frame.present = SECTION_CELLS;
+        frame.present = PART_CELLS;
         for (int i = 0; i < CELLS; i++)
             add_cell(&frame, antenna_pointers(&ELEMENT, azimuth_at(begin + i, count, 1e-140)));
         send_cells(&frame, &received, &line);

@@ -153,7 +153,7 @@ static inline void begin(struct chain *chain, int64_t number)
     chain->frame.seed = 1;
     chain->frame.interval_s = 1;
     chain->frame.sections |= CARRY_ACCOUNT;
-    chain->frame.present = SECTION_OBJECTS;
+    chain->frame.present = PART_OBJECTS;
 }
 
 static inline void step(struct runner *runner, struct frame *frame)
@@ -180,7 +180,7 @@ static inline void see(struct frame *frame, const struct suite *suite)
         direct_echoes_add(&look);
         roadside_echoes_add(&look);
     }
-    frame->present |= SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS;
+    frame->present |= PART_SENSORS | PART_ECHOES | PART_LOST | PART_COUNTS;
     frame_order(frame);
 }
 

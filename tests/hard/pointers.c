@@ -84,7 +84,7 @@ static void bench_begin(struct bench *bench)
     frame->sensors.digest = bench->suite.digest;
     *list_add(&frame->sensors.list, frame->arena) =
         (struct sensor_view){.name = "s", .measured = true};
-    frame->present = SECTION_SENSORS | SECTION_ECHOES | SECTION_COUNTS;
+    frame->present = PART_SENSORS | PART_ECHOES | PART_COUNTS;
 }
 
 static void count_echoes(struct frame *frame)
@@ -150,7 +150,7 @@ static struct look look_at_pole(struct bench *bench, struct vec2 ego, struct vec
     *list_add(&set->objects, frame->arena) = "pole";
     *list_add(&set->points, frame->arena) = (struct point_reflector){
         .name = "r", .full_rad = PI, .zero_rad = PI, .shape = VISIBILITY_HARD, .ercs = 1};
-    frame->present |= SECTION_OBJECTS | SECTION_REFLECTORS;
+    frame->present |= PART_OBJECTS | PART_REFLECTORS;
     struct look look;
     struct diag diag = {0};
     static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
@@ -526,7 +526,7 @@ static void the_order_of_echoes_does_not_change_a_byte(void **state)
         count_echoes(&bench.frame);
         assert_int_equal(runner_step(&bench.sense, &bench.frame), 0);
         assert_int_equal(bench.frame.cells.count, 1);
-        frame_drop(&bench.frame, SECTION_ECHOES); /* their order is another each time */
+        frame_drop(&bench.frame, PART_ECHOES); /* their order is another each time */
         struct diag diag = {0};
         line.length = 0;
         assert_int_equal(frame_text_write(&bench.frame, &line, &diag), 0);

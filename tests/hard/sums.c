@@ -291,7 +291,7 @@ static void an_amplitude_beyond_the_doubles_is_refused(void **state)
                           .scene = "s",
                           .ego = "e",
                           .interval_s = 1,
-                          .present = SECTION_OBJECTS | SECTION_CELLS};
+                          .present = PART_OBJECTS | PART_CELLS};
     const struct received_echo received_echoes[] = {ray_of("a", 10, 0, 1.2e308),
                                                     ray_of("b", 10, 0, 1.2e308)};
     struct diag alone = {0}, both = {0};

@@ -227,7 +227,7 @@ static void minus_zero_keeps_its_sign(void **state)
 static bool refuses(const struct field *field, double value)
 {
     struct field alone[] = {*field, {0}};
-    alone->section = 0; /* A record of one member has no mask of the members that are present. */
+    alone->group = 0; /* A record of one member has no mask of the members that are present. */
     const struct record record = {.size = field->offset + sizeof value, .fields = alone};
     size_t length = strlen(field->name);
     struct diag diag = {0};

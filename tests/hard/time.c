@@ -474,8 +474,7 @@ static void shuffle_echoes(uint64_t *random, struct frame *frame)
 static void find_targets(struct hard_chain *chain, size_t from, struct text *text)
 {
     hard_chain_step(chain, from, CHAIN_STAGES - 1);
-    frame_drop(&chain->frame,
-               SECTION_OBJECTS | SECTION_REFLECTORS | (from > 2 ? SECTION_ECHOES : 0));
+    frame_drop(&chain->frame, PART_OBJECTS | PART_REFLECTORS | (from > 2 ? PART_ECHOES : 0));
     text->length = 0;
     hard_chain_write(chain, text);
 }

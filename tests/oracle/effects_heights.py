@@ -340,8 +340,8 @@ def auto_is_all_and_each_can_be_left_out(bench):
         text = bench.stage(["glint-traffic-random", "--density", density, "--frames", str(frames)], "")
         auto, everything = (whole_chain(bench, text, effects) for effects in ("auto", "all"))
         for one, other in zip(auto, everything):
-            for section in "targets", "lost", "counts":
-                bench.check(one.get(section) == other.get(section), f"{density}, frame {one['frame']}: {section}")
+            for part in "targets", "lost", "counts":
+                bench.check(one.get(part) == other.get(part), f"{density}, frame {one['frame']}: {part}")
         labels = [effect for one in auto for target in one["targets"] for effect in target["effects"]]
         for effect in OURS[:3]:
             bench.check(labels.count(effect) >= 5, f"{density}: only {labels.count(effect)} times {effect}")

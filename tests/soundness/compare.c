@@ -79,8 +79,7 @@ static int compare_records(const struct record *record, const void *a, const voi
                            struct diag *diag)
 {
     for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (field->section != 0 &&
-            field_present(record, field, a) != field_present(record, field, b))
+        if (field->group != 0 && field_present(record, field, a) != field_present(record, field, b))
             return diag_fail(diag, DIAG_DATA, "%s: only one has it", field->name);
         if (compare_members(field, a, b, diag) != 0)
             return -1;
@@ -88,7 +87,7 @@ static int compare_records(const struct record *record, const void *a, const voi
     return 0;
 }
 
-static const struct field *section(const char *name)
+static const struct field *part(const char *name)
 {
     return field_find(&frame_record, name, strlen(name));
 }
@@ -96,11 +95,11 @@ static const struct field *section(const char *name)
 int compare_bits(const struct frame *all, const struct frame *chosen, bool account,
                  struct diag *diag)
 {
-    unsigned both = account ? SECTION_TARGETS | SECTION_LOST : SECTION_TARGETS;
+    unsigned both = account ? PART_TARGETS | PART_LOST : PART_TARGETS;
     if ((all->present & chosen->present & both) != both)
         return diag_fail(diag, DIAG_DATA, "targets or lost: missing");
-    int result = compare_members(section("targets"), all, chosen, diag);
+    int result = compare_members(part("targets"), all, chosen, diag);
     if (result == 0 && account)
-        result = compare_members(section("lost"), all, chosen, diag);
+        result = compare_members(part("lost"), all, chosen, diag);
     return result;
 }

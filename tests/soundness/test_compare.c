@@ -17,7 +17,7 @@ struct sample {
 static void make_sample(struct sample *sample)
 {
     *sample = (struct sample){
-        .frame = {.present = SECTION_TARGETS | SECTION_LOST},
+        .frame = {.present = PART_TARGETS | PART_LOST},
         .target = {.sensor = "front", .range_m = 21, .amplitude_db = 20},
         .members = {{.id.object = "a", .id.reflector = "rear", .weight = 0.75},
                     {.id.object = "b", .id.reflector = "rear", .weight = 0.25}},
@@ -78,7 +78,7 @@ static void change(struct sample *sample, enum change change)
         sample->group.echoes.count = 0;
         break;
     case ABSENT:
-        sample->frame.present &= ~(unsigned)SECTION_LOST;
+        sample->frame.present &= ~(unsigned)PART_LOST;
         break;
     }
 }

@@ -102,7 +102,7 @@ const struct stage stage_traffic_adversarial = {
         "corners, borders of the view. A frame depends on seed, suite and its number alone, so\n"
         "--first and --frames may cut a set anywhere.",
     .options = STAGE_OPTIONS(struct traffic_adversarial, traffic_adversarial_options),
-    .writes = SECTION_OBJECTS,
+    .writes = PART_OBJECTS,
     .start = traffic_adversarial_start,
     .next = traffic_adversarial_next,
     .locate_fault = traffic_adversarial_locate_fault,

@@ -49,7 +49,6 @@ static inline struct frame accounted_frame(struct arena *arena)
     accounted_sensor(&frame, "left");
     frame.sensors.suite = "pair";
     frame.sensors.digest = "0";
-    frame.present =
-        SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS;
+    frame.present = PART_OBJECTS | PART_SENSORS | PART_TARGETS | PART_LOST | PART_COUNTS;
     return frame;
 }

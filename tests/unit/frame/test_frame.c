@@ -20,7 +20,7 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
     assert_int_equal(frame.lost.count, 8);
     for (size_t i = 0; i < 8; i++)
         assert_int_equal(frame.lost.items[i].echoes.count, 3);
-    assert_int_equal(frame.present, SECTION_LOST);
+    assert_int_equal(frame.present, PART_LOST);
     frame_order(&frame);
     frame_lose(&frame, "noise", "s", LOSS_BLOCKED,
                &(struct lost_echo){.id.object = "p", .id.reflector = "r"});
@@ -48,7 +48,7 @@ static void a_stage_may_have_reasons_of_its_own(void **state)
     frame_lose(&frame, "mud", "s", LOSS_MASKED, &echo);
     frame_lose(&frame, "mud", "s", LOSS_BLOCKED, &echo);
     frame_lose_own(&frame, "mud", "s", known, &echo);
-    frame_order_part(&frame, (struct frame_part){SECTION_LOST, NULL});
+    frame_order_parts(&frame, (struct frame_parts){PART_LOST, NULL});
     static const struct {
         const char *words;
         size_t echoes;
@@ -101,18 +101,18 @@ static void spans_are_the_sensors_own(void **state)
     arena_free(&arena);
 }
 
-static void dropped_sections_are_as_if_they_had_never_been(void **state)
+static void dropped_parts_are_as_if_they_had_never_been(void **state)
 {
     (void)state;
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
-    frame_drop(&frame, SECTION_SENSORS | SECTION_TARGETS | SECTION_LOST);
-    assert_int_equal(frame.present, SECTION_OBJECTS | SECTION_COUNTS);
+    frame_drop(&frame, PART_SENSORS | PART_TARGETS | PART_LOST);
+    assert_int_equal(frame.present, PART_OBJECTS | PART_COUNTS);
     assert_int_equal(frame.targets.count + frame.lost.count + frame.sensors.list.count, 0);
     assert_null(frame.sensors.suite);
     assert_int_equal(frame.objects.count, 3);
     assert_int_equal(frame.counts.count, 2);
-    assert_string_equal(frame_section_name(SECTION_TARGETS), "targets");
+    assert_string_equal(frame_part_name(PART_TARGETS), "targets");
     arena_free(&arena);
 }
 
@@ -145,7 +145,7 @@ int main(void)
         cmocka_unit_test(a_stage_may_have_reasons_of_its_own),
         cmocka_unit_test(a_frame_without_account_forgets_its_losses),
         cmocka_unit_test(spans_are_the_sensors_own),
-        cmocka_unit_test(dropped_sections_are_as_if_they_had_never_been),
+        cmocka_unit_test(dropped_parts_are_as_if_they_had_never_been),
         cmocka_unit_test(clutter_and_noise_are_of_no_object),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,7 +14,7 @@ static void a_frame_without_contradictions_passes(void **state)
     struct diag diag = {0};
     frame_order(&frame);
     assert_int_equal(frame_check(&frame, &diag), 0);
-    assert_int_equal(frame_check_part(&frame, (struct frame_part){~0U, NULL}, &diag), 0);
+    assert_int_equal(frame_check_parts(&frame, (struct frame_parts){~0U, NULL}, &diag), 0);
     arena_free(&arena);
 }
 
@@ -72,7 +72,7 @@ static struct reflector_set *add_set(struct frame *frame)
 {
     struct reflector_set *set = list_add(&frame->reflectors, frame->arena);
     *set = (struct reflector_set){.model = "car"};
-    frame->present |= SECTION_REFLECTORS;
+    frame->present |= PART_REFLECTORS;
     return set;
 }
 
@@ -145,14 +145,14 @@ static void sight_with_no_sensor(struct frame *frame)
 }
 
 /* What a frame says of one part, in canonical order, after a fault was planted anywhere. */
-static int check_part(void (*plant)(struct frame *frame), unsigned sections, const char *stage,
-                      struct diag *diag)
+static int check_parts(void (*plant)(struct frame *frame), unsigned parts, const char *stage,
+                       struct diag *diag)
 {
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     plant(&frame);
     frame_order(&frame);
-    int result = frame_check_part(&frame, (struct frame_part){sections, stage}, diag);
+    int result = frame_check_parts(&frame, (struct frame_parts){parts, stage}, diag);
     arena_free(&arena);
     return result;
 }
@@ -162,18 +162,18 @@ static void a_part_is_refused_for_its_own_faults_alone(void **state)
     (void)state;
     static const struct {
         void (*plant)(struct frame *frame);
-        unsigned section, another;
-    } cases[] = {{name_one_twice, SECTION_OBJECTS, SECTION_ECHOES},
-                 {list_an_object_twice, SECTION_REFLECTORS, SECTION_OBJECTS},
-                 {name_a_sensor_twice, SECTION_SENSORS, SECTION_OBJECTS},
-                 {open_an_empty_cell, SECTION_CELLS, SECTION_TARGETS},
-                 {report_a_target_without_label, SECTION_TARGETS, SECTION_CELLS},
-                 {sight_with_no_sensor, SECTION_VISIBILITY, SECTION_TARGETS}};
+        unsigned part, another;
+    } cases[] = {{name_one_twice, PART_OBJECTS, PART_ECHOES},
+                 {list_an_object_twice, PART_REFLECTORS, PART_OBJECTS},
+                 {name_a_sensor_twice, PART_SENSORS, PART_OBJECTS},
+                 {open_an_empty_cell, PART_CELLS, PART_TARGETS},
+                 {report_a_target_without_label, PART_TARGETS, PART_CELLS},
+                 {sight_with_no_sensor, PART_VISIBILITY, PART_TARGETS}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct diag diag = {0};
-        assert_int_equal(check_part(cases[i].plant, cases[i].section, NULL, &diag), -1);
+        assert_int_equal(check_parts(cases[i].plant, cases[i].part, NULL, &diag), -1);
         assert_int_equal(diag.code, DIAG_DATA);
-        assert_int_equal(check_part(cases[i].plant, cases[i].another, NULL, &diag), 0);
+        assert_int_equal(check_parts(cases[i].plant, cases[i].another, NULL, &diag), 0);
     }
 }
 
@@ -182,11 +182,11 @@ static void new_sensors_are_held_against_all_that_names_one(void **state)
 {
     (void)state;
     struct diag target = {0}, echo = {0}, sighting = {0};
-    assert_int_equal(check_part(report_with_no_sensor, SECTION_SENSORS, NULL, &target), -1);
+    assert_int_equal(check_parts(report_with_no_sensor, PART_SENSORS, NULL, &target), -1);
     assert_string_equal(target.text, "targets[1].sensor: \"top\" is not in sensors.list");
-    assert_int_equal(check_part(see_with_no_sensor, SECTION_SENSORS, NULL, &echo), -1);
+    assert_int_equal(check_parts(see_with_no_sensor, PART_SENSORS, NULL, &echo), -1);
     assert_string_equal(echo.text, "echoes[0].sensor: \"top\" is not in sensors.list");
-    assert_int_equal(check_part(sight_with_no_sensor, SECTION_SENSORS, NULL, &sighting), -1);
+    assert_int_equal(check_parts(sight_with_no_sensor, PART_SENSORS, NULL, &sighting), -1);
     assert_string_equal(sighting.text, "visibility[0].sensor: \"top\" is not in sensors.list");
 }
 
@@ -199,9 +199,9 @@ static void members_out_of_bounds_are_refused_by_their_path(void **state)
 {
     (void)state;
     struct diag diag = {0};
-    assert_int_equal(check_part(report_beyond_bounds, SECTION_TARGETS, NULL, &diag), -1);
+    assert_int_equal(check_parts(report_beyond_bounds, PART_TARGETS, NULL, &diag), -1);
     assert_string_equal(diag.text, "targets[0].amplitude_db: 1e+05 is outside [-10000, 10000] dB");
-    assert_int_equal(check_part(report_beyond_bounds, SECTION_LOST, NULL, &diag), 0);
+    assert_int_equal(check_parts(report_beyond_bounds, PART_LOST, NULL, &diag), 0);
 }
 
 static void lose_by_too_much(struct frame *frame)
@@ -215,10 +215,10 @@ static void losses_are_looked_at_where_their_own_stage_wrote_them(void **state)
 {
     (void)state;
     struct diag diag = {0};
-    assert_int_equal(check_part(lose_by_too_much, SECTION_LOST, "ideal", &diag), 0);
-    assert_int_equal(check_part(lose_by_too_much, SECTION_LOST, "noise", &diag), -1);
+    assert_int_equal(check_parts(lose_by_too_much, PART_LOST, "ideal", &diag), 0);
+    assert_int_equal(check_parts(lose_by_too_much, PART_LOST, "noise", &diag), -1);
     assert_string_equal(diag.text, "lost[1].echoes[0].shortfall_db: -1 is outside [0, 100000] dB");
-    assert_int_equal(check_part(lose_by_too_much, SECTION_LOST, NULL, &diag), -1);
+    assert_int_equal(check_parts(lose_by_too_much, PART_LOST, NULL, &diag), -1);
 }
 
 /* A document was checked when it was read: no set that has its lists is searched again. */

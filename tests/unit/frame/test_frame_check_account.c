@@ -49,8 +49,8 @@ static void before_there_are_targets_cells_or_echoes_stand_for_them(void **state
                 *list_add(&frame.echoes, &arena) =
                     (struct echo){.sensor = cell.sensor, .id = cell.members.items[j].id};
         }
-        frame_drop(&frame, SECTION_TARGETS);
-        frame.present |= early ? SECTION_ECHOES : SECTION_CELLS | SECTION_ECHOES;
+        frame_drop(&frame, PART_TARGETS);
+        frame.present |= early ? PART_ECHOES : PART_CELLS | PART_ECHOES;
         assert_int_equal(frame_check_account(&frame, &diag), 0);
         if (early)
             frame.echoes.count--;

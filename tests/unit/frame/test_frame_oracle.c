@@ -276,7 +276,7 @@ static bool check_line(const char *line, size_t length)
     "\"azimuth_rad\":-0.014320000000000001,\"range_rate_mps\":-1e-07,\"ercs\":2,\"time_s\":0.27"
 
 /* Of every record and every kind of member; together with its head each is a line. */
-static const char *const sections[] = {
+static const char *const parts[] = {
     ",\"origin_x_m\":500000.25,\"objects\":[{\"id\":\"e\",\"class\":\"car\",\"x_m\":-0.0,"
     "\"y_m\":1e-7,\"yaw_rad\":0.1,\"vx_mps\":5e-324,\"vy_mps\":-2.5,\"yaw_rate_radps\":0,"
     "\"length_m\":4.5,\"width_m\":1.8,\"height_m\":1.5,\"travelled_m\":123456.789,\"extra\":"
@@ -438,9 +438,9 @@ static void every_category_is_judged_as_jansson_judges_it(void **state)
 static void the_lines_to_be_mutated_are_frames(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < COUNT(sections); i++) {
+    for (size_t i = 0; i < COUNT(parts); i++) {
         char line[LINE_SIZE];
-        int length = snprintf(line, sizeof line, "%s%s", HEAD, sections[i]);
+        int length = snprintf(line, sizeof line, "%s%s", HEAD, parts[i]);
         assert_in_range(length, 0, LINE_SIZE - 1);
         if (!check_line(line, (size_t)length))
             fail_msg("%s was refused", line);
@@ -575,8 +575,8 @@ static void mutated_lines_are_judged_as_jansson_judges_them(void **state)
     uint64_t random = 5;
     for (int64_t i = 0; i < lines; i++) {
         char line[LINE_SIZE + 1] = "";
-        size_t length = (size_t)snprintf(line, sizeof line, "%s%s", HEAD,
-                                         sections[pick(&random, COUNT(sections))]);
+        size_t length =
+            (size_t)snprintf(line, sizeof line, "%s%s", HEAD, parts[pick(&random, COUNT(parts))]);
         assert_in_range(length, 0, LINE_SIZE);
         for (size_t changes = 1 + pick(&random, 2); changes > 0 && length > 0; changes--)
             length = change(line, length, &random);

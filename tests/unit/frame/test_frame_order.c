@@ -53,7 +53,7 @@ static void every_order_of_a_frame_becomes_the_canonical_one(void **state)
         for (size_t j = 0; j < 5; j++)
             *list_add(&set->objects, &arena) = names[j];
     }
-    frame.present |= SECTION_ECHOES | SECTION_CELLS | SECTION_REFLECTORS;
+    frame.present |= PART_ECHOES | PART_CELLS | PART_REFLECTORS;
     frame_order(&frame);
     struct diag diag = {0};
     assert_int_equal(frame_check(&frame, &diag), 0);
@@ -132,7 +132,7 @@ static void objects_are_found_by_id_in_order(void **state)
     *list_add(&frame.objects, &arena) = (struct object){.id = "c"};
     assert_string_equal(frame_order_objects(&frame)[3]->id, "c");
     frame.objects.items[4].id = "e";
-    frame_order_part(&frame, (struct frame_part){SECTION_OBJECTS, NULL});
+    frame_order_parts(&frame, (struct frame_parts){PART_OBJECTS, NULL});
     assert_string_equal(frame_order_objects(&frame)[4]->id, "e");
     arena_free(&arena);
 }
@@ -211,7 +211,7 @@ static void lose_two(struct frame *frame, const char *stage)
 }
 
 /* Only what a stage may have written is sorted after it. */
-static void other_sections_and_other_stages_losses_stay_as_they_are(void **state)
+static void other_parts_and_other_stages_losses_stay_as_they_are(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -221,12 +221,12 @@ static void other_sections_and_other_stages_losses_stay_as_they_are(void **state
     for (int i = 0; i < 2; i++)
         *list_add(&frame.echoes, &arena) =
             (struct echo){.sensor = "s", .id.object = i == 0 ? "b" : "a", .id.reflector = "p"};
-    frame_order_part(&frame, (struct frame_part){SECTION_LOST, "noise"});
+    frame_order_parts(&frame, (struct frame_parts){PART_LOST, "noise"});
     assert_string_equal(frame.echoes.items[0].id.object, "b");
     assert_string_equal(frame.lost.items[0].stage, "ideal");
     assert_string_equal(frame.lost.items[0].echoes.items[0].id.object, "b");
     assert_string_equal(frame.lost.items[1].echoes.items[0].id.object, "a");
-    frame_order_part(&frame, (struct frame_part){SECTION_LOST | SECTION_ECHOES, NULL});
+    frame_order_parts(&frame, (struct frame_parts){PART_LOST | PART_ECHOES, NULL});
     assert_string_equal(frame.echoes.items[0].id.object, "a");
     assert_string_equal(frame.lost.items[0].echoes.items[0].id.object, "a");
     arena_free(&arena);
@@ -242,7 +242,7 @@ int main(void)
         cmocka_unit_test(echo_ids_are_ordered_by_their_members_one_after_the_other),
         cmocka_unit_test(ties_are_decided_by_a_total_order),
         cmocka_unit_test(a_cells_leader_stays_first_whatever_its_name),
-        cmocka_unit_test(other_sections_and_other_stages_losses_stay_as_they_are),
+        cmocka_unit_test(other_parts_and_other_stages_losses_stay_as_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

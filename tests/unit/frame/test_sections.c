@@ -82,17 +82,17 @@ static void a_word_is_taken_until_its_stage_has_run(void **state)
     (void)state;
     static const struct {
         const char *word;
-        unsigned before, after; /* sections of a frame that still takes it, and that does not */
+        unsigned before, after; /* parts of a frame that still takes it, and that does not */
     } cases[] = {
-        {"objects", SECTION_CELLS | SECTION_SENSORS, SECTION_TARGETS},
-        {"reflectors", SECTION_REFLECTORS | SECTION_SENSORS, SECTION_SENSORS},
-        {"echoes", SECTION_SENSORS, SECTION_CELLS | SECTION_SENSORS},
-        {"echoes", SECTION_ECHOES | SECTION_CELLS, SECTION_TARGETS},
-        {"cells", SECTION_SENSORS | SECTION_CELLS, SECTION_TARGETS},
-        {"account", SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_SENSORS | SECTION_COUNTS},
-        {"margins", SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_SENSORS | SECTION_ECHOES},
-        {"quality", SECTION_SENSORS | SECTION_CELLS, SECTION_TARGETS},
-        {"visibility", SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_SENSORS | SECTION_ECHOES},
+        {"objects", PART_CELLS | PART_SENSORS, PART_TARGETS},
+        {"reflectors", PART_REFLECTORS | PART_SENSORS, PART_SENSORS},
+        {"echoes", PART_SENSORS, PART_CELLS | PART_SENSORS},
+        {"echoes", PART_ECHOES | PART_CELLS, PART_TARGETS},
+        {"cells", PART_SENSORS | PART_CELLS, PART_TARGETS},
+        {"account", PART_OBJECTS | PART_REFLECTORS, PART_SENSORS | PART_COUNTS},
+        {"margins", PART_OBJECTS | PART_REFLECTORS, PART_SENSORS | PART_ECHOES},
+        {"quality", PART_SENSORS | PART_CELLS, PART_TARGETS},
+        {"visibility", PART_OBJECTS | PART_REFLECTORS, PART_SENSORS | PART_ECHOES},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct frame early = {.present = cases[i].before}, late = {.present = cases[i].after};
@@ -105,28 +105,23 @@ static void a_word_is_taken_until_its_stage_has_run(void **state)
     }
 }
 
-static void sections_go_when_no_later_stage_reads_them(void **state)
+static void parts_go_when_no_later_stage_reads_them(void **state)
 {
     (void)state;
     static const struct {
         uint64_t carried;
         unsigned present, left;
     } cases[] = {
-        {CARRY_OBJECTS, SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_OBJECTS | SECTION_REFLECTORS},
-        {0, SECTION_OBJECTS | SECTION_SENSORS | SECTION_ECHOES,
-         SECTION_OBJECTS | SECTION_SENSORS | SECTION_ECHOES},
-        {0, SECTION_REFLECTORS | SECTION_SENSORS | SECTION_ECHOES,
-         SECTION_SENSORS | SECTION_ECHOES},
-        {CARRY_REFLECTORS, SECTION_REFLECTORS | SECTION_SENSORS,
-         SECTION_REFLECTORS | SECTION_SENSORS},
-        {CARRY_ECHOES, SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS,
-         SECTION_ECHOES | SECTION_TARGETS},
-        {CARRY_CELLS, SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS,
-         SECTION_CELLS | SECTION_TARGETS},
-        {0, SECTION_OBJECTS | SECTION_TARGETS | SECTION_COUNTS | SECTION_VEHICLES,
-         SECTION_TARGETS | SECTION_COUNTS | SECTION_VEHICLES},
-        {0, SECTION_SENSORS | SECTION_LOST, SECTION_SENSORS},
-        {CARRY_ACCOUNT, SECTION_SENSORS | SECTION_LOST, SECTION_SENSORS | SECTION_LOST},
+        {CARRY_OBJECTS, PART_OBJECTS | PART_REFLECTORS, PART_OBJECTS | PART_REFLECTORS},
+        {0, PART_OBJECTS | PART_SENSORS | PART_ECHOES, PART_OBJECTS | PART_SENSORS | PART_ECHOES},
+        {0, PART_REFLECTORS | PART_SENSORS | PART_ECHOES, PART_SENSORS | PART_ECHOES},
+        {CARRY_REFLECTORS, PART_REFLECTORS | PART_SENSORS, PART_REFLECTORS | PART_SENSORS},
+        {CARRY_ECHOES, PART_ECHOES | PART_CELLS | PART_TARGETS, PART_ECHOES | PART_TARGETS},
+        {CARRY_CELLS, PART_ECHOES | PART_CELLS | PART_TARGETS, PART_CELLS | PART_TARGETS},
+        {0, PART_OBJECTS | PART_TARGETS | PART_COUNTS | PART_VEHICLES,
+         PART_TARGETS | PART_COUNTS | PART_VEHICLES},
+        {0, PART_SENSORS | PART_LOST, PART_SENSORS},
+        {CARRY_ACCOUNT, PART_SENSORS | PART_LOST, PART_SENSORS | PART_LOST},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct frame frame = {.sections = cases[i].carried, .present = cases[i].present};
@@ -142,7 +137,7 @@ static void margins_that_are_left_out_go_at_once(void **state)
     struct lost_echo lost = {.margins.present = MARGIN_SIGHT};
     struct lost_group group = {.echoes = {&lost, 1, 1}};
     struct frame frame = {.sections = CARRY_MARGINS | CARRY_ACCOUNT,
-                          .present = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST,
+                          .present = PART_SENSORS | PART_ECHOES | PART_LOST,
                           .echoes = {&echo, 1, 1},
                           .lost = {&group, 1, 1}};
     struct sections_change change;
@@ -174,7 +169,7 @@ int main(void)
         cmocka_unit_test(an_account_of_every_tenth_frame_is_in_frames_0_10_and_20),
         cmocka_unit_test(what_is_no_section_is_refused),
         cmocka_unit_test(a_word_is_taken_until_its_stage_has_run),
-        cmocka_unit_test(sections_go_when_no_later_stage_reads_them),
+        cmocka_unit_test(parts_go_when_no_later_stage_reads_them),
         cmocka_unit_test(margins_that_are_left_out_go_at_once),
         cmocka_unit_test(quality_that_is_left_out_goes_at_once),
     };

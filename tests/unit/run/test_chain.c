@@ -59,10 +59,10 @@ static int pass(void *state, struct frame *frame, struct runner *runner)
 
 #define STAGE(name_, ...)                                                                          \
     static const struct stage name_ = {.name = #name_, .options = &count_record, __VA_ARGS__}
-STAGE(source, .next = next, .writes = SECTION_OBJECTS);
-STAGE(turner, .step = turn, .reads = SECTION_OBJECTS, .writes = SECTION_OBJECTS);
-STAGE(failing, .step = fail_at_second, .reads = SECTION_OBJECTS);
-STAGE(stopping, .step = pass, .reads = SECTION_OBJECTS, .stop = fail_at_stop);
+STAGE(source, .next = next, .writes = PART_OBJECTS);
+STAGE(turner, .step = turn, .reads = PART_OBJECTS, .writes = PART_OBJECTS);
+STAGE(failing, .step = fail_at_second, .reads = PART_OBJECTS);
+STAGE(stopping, .step = pass, .reads = PART_OBJECTS, .stop = fail_at_stop);
 
 struct stages {
     const struct stage *list[4];

@@ -7,7 +7,7 @@ static void make_frame(struct frame *frame, struct arena *arena)
 {
     static const char *const objects[][2] = {
         {"z", "car"}, {"ego", "car"}, {"b", "truck"}, {"a", "car"}};
-    *frame = (struct frame){.ego = "ego", .present = SECTION_OBJECTS, .arena = arena};
+    *frame = (struct frame){.ego = "ego", .present = PART_OBJECTS, .arena = arena};
     for (size_t i = 0; i < 4; i++)
         *list_add(&frame->objects, arena) =
             (struct object){.id = objects[i][0], .class = objects[i][1]};

@@ -13,7 +13,7 @@ static struct frame_sample sample_of(int frames, int scenes, int64_t most, struc
         struct frame frame = {.scene = name, .frame = i, .interval_s = 1, .ego = "ego"};
         struct diag diag = {0};
         frame.arena = &scratch;
-        frame.present = SECTION_OBJECTS;
+        frame.present = PART_OBJECTS;
         assert_int_equal(frame_sample_add(&sample, &frame, &diag), 0);
     }
     arena_free(&scratch);

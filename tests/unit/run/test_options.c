@@ -37,14 +37,14 @@ static int no_frame(void *state, struct frame *frame, struct runner *runner)
 static const struct stage filter = {.name = "filter",
                                     .summary = "Filter.",
                                     .options = &choices,
-                                    .reads = SECTION_ECHOES,
-                                    .writes = SECTION_CELLS,
+                                    .reads = PART_ECHOES,
+                                    .writes = PART_CELLS,
                                     .step = no_frame};
 static const struct stage source = {.name = "source",
                                     .summary = "Make.",
                                     .options = &choices,
                                     .operand = "PLACE",
-                                    .writes = SECTION_OBJECTS,
+                                    .writes = PART_OBJECTS,
                                     .next = no_frame};
 
 static int no_work(void *state, struct runner *runner)
@@ -57,14 +57,14 @@ static int no_work(void *state, struct runner *runner)
 static const struct stage reader = {.name = "reader",
                                     .summary = "Read.",
                                     .options = &choices,
-                                    .reads = SECTION_TARGETS,
+                                    .reads = PART_TARGETS,
                                     .run = no_work};
 static const struct stage tables = {.name = "tables",
                                     .summary = "Tabulate.",
                                     .options = &choices,
                                     .operand = "DIR",
                                     .into_folder = true,
-                                    .reads = SECTION_TARGETS,
+                                    .reads = PART_TARGETS,
                                     .run = no_work};
 static const struct stage maker = {.name = "maker",
                                    .summary = "Write.",
@@ -281,8 +281,8 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
 {
     (void)state;
     static const char *const of_filter[] = {"Usage: glint-filter [OPTION]... [FILE]...\nFilter.\n",
-                                            "input; sections: echoes.\n",
-                                            "output; sections: cells.\n",
+                                            "input; parts: echoes.\n",
+                                            "output; parts: cells.\n",
                                             "      --where=NAME ",
                                             "      --radius-m=NUMBER ",
                                             "how far; a number in [-5, 100] m\n",
@@ -297,10 +297,10 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
                                             "      --version ",
                                             "\nExit status: 0"};
     static const char *const of_source[] = {"Usage: glint-source [OPTION]... PLACE\nMake.\n",
-                                            "\nPLACE: the place.\n", "sections: objects.\n"};
+                                            "\nPLACE: the place.\n", "parts: objects.\n"};
     static const char *const of_tables[] = {
         "Usage: glint-tables [OPTION]... DIR [FILE]...\nTabulate.\n", "\nDIR: the place.\n",
-        "sections: targets.\n"};
+        "parts: targets.\n"};
     static const char *const of_maker[] = {"Usage: glint-maker [OPTION]... DIR\nWrite.\n"};
     assert_helps(&filter, of_filter, COUNT(of_filter));
     assert_helps(&source, of_source, COUNT(of_source));

@@ -45,8 +45,8 @@ static void write_rest(const struct frame *frame, unsigned present, const struct
     for (size_t i = 0; i < frame->lost.count; i++)
         if (strcmp(frame->lost.items[i].stage, stage->name) != 0)
             *list_add(&rest.lost, &arena) = frame->lost.items[i];
-    rest.present = present & ~(stage->writes & ~(unsigned)SECTION_LOST);
-    if ((stage->writes & SECTION_REFLECTORS) != 0)
+    rest.present = present & ~(stage->writes & ~(unsigned)PART_LOST);
+    if ((stage->writes & PART_REFLECTORS) != 0)
         forget_sizes(&rest, &arena);
     text->length = 0;
     if (frame_text_write(&rest, text, &diag) != 0)
@@ -60,7 +60,7 @@ static bool keeps_to_its_part(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
     struct text before = {0}, after = {0};
-    frame_drop(frame, stage->writes & ~stage->reads & ~(unsigned)(SECTION_LOST | SECTION_COUNTS));
+    frame_drop(frame, stage->writes & ~stage->reads & ~(unsigned)(PART_LOST | PART_COUNTS));
     unsigned present = frame->present;
     write_rest(frame, present, stage, &before);
     if (runner_step(runner, frame) != 0)
@@ -83,7 +83,7 @@ static bool fits(const struct stage *stage, const char *suite)
     return strcmp(stage->name, "sensor-signal") != 0 || strstr(suite, "-signal") != NULL;
 }
 
-/* The chain itself, then every other filter in place of what wrote its sections: frames then have
+/* The chain itself, then every other filter in place of what wrote its parts: frames then have
  * what a later stage needs. */
 static size_t order_filters(const char *suite, const struct stage **filters)
 {
@@ -119,7 +119,7 @@ static void run_filters(const char *suite, const char *density)
             /* What stands in takes from what it replaces the echoes that it accounts for. */
             if (i >= 4) {
                 frame.sections &= ~(uint64_t)CARRY_ACCOUNT;
-                frame_drop(&frame, SECTION_LOST);
+                frame_drop(&frame, PART_LOST);
             }
             if (!keeps_to_its_part(&runners[i], &frame))
                 fail_msg("glint-%s changed what it does not declare", filters[i]->name);
@@ -177,7 +177,7 @@ static void a_change_that_is_not_declared_is_found(void **state)
     begin_frame(&frame);
     begin(&runner, &stage, 0, NULL);
     assert_false(keeps_to_its_part(&runner, &frame));
-    stage.reads = stage.writes = SECTION_OBJECTS;
+    stage.reads = stage.writes = PART_OBJECTS;
     assert_true(keeps_to_its_part(&runner, &frame));
     runner_free(&runner);
     arena_free(&arena);
@@ -190,8 +190,8 @@ static void a_stage_that_writes_an_invalid_frame_fails_itself(void **state)
     struct frame frame = {.arena = &arena};
     const struct stage stage = {.name = "invalid",
                                 .options = STAGE_OPTIONS(int, field_none),
-                                .reads = SECTION_OBJECTS,
-                                .writes = SECTION_OBJECTS,
+                                .reads = PART_OBJECTS,
+                                .writes = PART_OBJECTS,
                                 .step = write_negative_length};
     struct runner runner;
     begin_frame(&frame);
@@ -227,8 +227,8 @@ static void a_list_in_place_of_the_documents_is_checked(void **state)
     struct frame frame = {.arena = &arena};
     const struct stage stage = {.name = "invalid",
                                 .options = &extraction_record,
-                                .reads = SECTION_OBJECTS,
-                                .writes = SECTION_OBJECTS | SECTION_REFLECTORS,
+                                .reads = PART_OBJECTS,
+                                .writes = PART_OBJECTS | PART_REFLECTORS,
                                 .step = extract_negative_ercs};
     struct runner runner;
     begin_frame(&frame);

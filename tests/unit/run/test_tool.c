@@ -65,7 +65,7 @@ static const struct stage counter = {.name = "counter",
                                      .operand = "DIR",
                                      .into_folder = true,
                                      .draws = true,
-                                     .reads = SECTION_OBJECTS,
+                                     .reads = PART_OBJECTS,
                                      .run = count_frames};
 
 #define HEAD(number, seed)                                                                         \

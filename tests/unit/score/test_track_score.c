@@ -27,7 +27,7 @@ static struct frame frame_with_thing_at(double x_m, double y_m)
                           .ego = "ego",
                           .objects = {objects, 2, 2},
                           .sensors.list = {&view, 1, 1},
-                          .present = SECTION_OBJECTS | SECTION_SENSORS};
+                          .present = PART_OBJECTS | PART_SENSORS};
 }
 
 static bool in_view(double x_m, double y_m)
@@ -81,16 +81,16 @@ static void classes_are_whole_words(void **state)
                          cases[i].counts);
 }
 
-static void a_frame_without_the_section_that_decides_is_refused(void **state)
+static void a_frame_without_the_part_that_decides_is_refused(void **state)
 {
     (void)state;
     struct diag diag = {0};
-    struct frame frame = {.present = SECTION_OBJECTS};
+    struct frame frame = {.present = PART_OBJECTS};
     assert_int_equal(track_score_check(&frame, TRACK_TRUTH_ALL, &diag), 0);
     assert_int_equal(track_score_check(&frame, TRACK_TRUTH_IN_VIEW, &diag), -1);
     assert_string_equal(diag.text, "sensors: missing; --objects=in_view needs it");
     diag = (struct diag){0};
-    frame.present |= SECTION_SENSORS;
+    frame.present |= PART_SENSORS;
     assert_int_equal(track_score_check(&frame, TRACK_TRUTH_IN_VIEW, &diag), 0);
     assert_int_equal(track_score_check(&frame, TRACK_TRUTH_DETECTED, &diag), -1);
     assert_int_equal(diag.code, DIAG_DATA);
@@ -233,7 +233,7 @@ int main(void)
         cmocka_unit_test(the_ego_never_counts),
         cmocka_unit_test(objects_with_an_echo_in_a_target_are_detected),
         cmocka_unit_test(classes_are_whole_words),
-        cmocka_unit_test(a_frame_without_the_section_that_decides_is_refused),
+        cmocka_unit_test(a_frame_without_the_part_that_decides_is_refused),
         cmocka_unit_test(a_switch_is_another_track_than_last_in_its_scene),
         cmocka_unit_test(a_track_three_and_four_metres_off_is_five_off),
         cmocka_unit_test(tracks_are_sorted_by_id),

@@ -29,7 +29,7 @@ struct thing {
     const char *extra;
     double maybe_s;
     enum colour tint;
-    LIST_OF(struct part) section;
+    LIST_OF(struct part) group;
     unsigned present;
 };
 
@@ -52,7 +52,7 @@ enum {
     EXTRA,
     MAYBE,
     TINT,
-    IN_SECTION
+    IN_GROUP
 };
 
 static const struct field fields[] = {
@@ -71,8 +71,8 @@ static const struct field fields[] = {
                .absent = 0.5},
     [TINT] = {FIELD_CHOICE_OF(struct thing, tint, colours, "tint"), FIELD_OPTIONAL,
               .absent = GREEN},
-    [IN_SECTION] = {FIELD_LIST_OF(struct thing, section, &part_record, "section"), FIELD_OPTIONAL,
-                    .section = 4},
+    [IN_GROUP] = {FIELD_LIST_OF(struct thing, group, &part_record, "group"), FIELD_OPTIONAL,
+                  .group = 4},
     {0}};
 static const struct record record = {.name = "thing",
                                      .size = sizeof(struct thing),
@@ -123,7 +123,7 @@ static void absent_members_have_their_value_and_are_recognized(void **state)
     assert_int_equal(thing.tint, GREEN);
     assert_close(thing.part.width_m, 2, 0);
     assert_null(thing.name);
-    static const int optional[] = {FLAG, PARTS, EXTRA, MAYBE, TINT, IN_SECTION};
+    static const int optional[] = {FLAG, PARTS, EXTRA, MAYBE, TINT, IN_GROUP};
     for (size_t i = 0; i < COUNT(optional); i++)
         assert_false(field_present(&record, &fields[optional[i]], &thing));
     static const int needed[] = {RANGE, NUMBER, NAME, COLOUR, SEED, NAMES, PART};
@@ -134,7 +134,7 @@ static void absent_members_have_their_value_and_are_recognized(void **state)
     thing.maybe_s = 0;
     thing.tint = RED;
     field_list_add(&fields[PARTS], &thing, &arena);
-    field_mark_present(&record, &fields[IN_SECTION], &thing);
+    field_mark_present(&record, &fields[IN_GROUP], &thing);
     field_mark_present(&record, &fields[RANGE], &thing);
     assert_int_equal(thing.present, 4);
     for (size_t i = 0; i < COUNT(optional); i++)
@@ -142,12 +142,12 @@ static void absent_members_have_their_value_and_are_recognized(void **state)
     arena_free(&arena);
 }
 
-static void an_optional_record_with_sections_is_present_with_any_of_them(void **state)
+static void an_optional_record_with_groups_is_present_with_any_of_them(void **state)
 {
     (void)state;
     static const struct field inner_fields[] = {
-        {FIELD_REAL_IN(struct thing, gain, 0, 1, "zero is a gain"), FIELD_OPTIONAL, .section = 1},
-        {FIELD_REAL_IN(struct thing, range_m, 0, 1, "range"), FIELD_OPTIONAL, .section = 2},
+        {FIELD_REAL_IN(struct thing, gain, 0, 1, "zero is a gain"), FIELD_OPTIONAL, .group = 1},
+        {FIELD_REAL_IN(struct thing, range_m, 0, 1, "range"), FIELD_OPTIONAL, .group = 2},
         {0}};
     static const struct record inner = {.name = "inner",
                                         .size = sizeof(struct thing),
@@ -167,7 +167,7 @@ static void an_optional_record_with_sections_is_present_with_any_of_them(void **
 }
 
 /* The lower half of 0.5 is all zeros. */
-static void an_optional_record_without_sections_is_present_with_any_member(void **state)
+static void an_optional_record_without_groups_is_present_with_any_member(void **state)
 {
     (void)state;
     static const struct field inner_fields[] = {
@@ -415,8 +415,8 @@ int main(void)
         cmocka_unit_test(the_ending_of_a_name_is_its_unit),
         cmocka_unit_test(members_are_found_by_their_whole_name),
         cmocka_unit_test(absent_members_have_their_value_and_are_recognized),
-        cmocka_unit_test(an_optional_record_with_sections_is_present_with_any_of_them),
-        cmocka_unit_test(an_optional_record_without_sections_is_present_with_any_member),
+        cmocka_unit_test(an_optional_record_with_groups_is_present_with_any_of_them),
+        cmocka_unit_test(an_optional_record_without_groups_is_present_with_any_member),
         cmocka_unit_test(numbers_are_taken_between_their_bounds),
         cmocka_unit_test(seeds_have_64_bits),
         cmocka_unit_test(names_and_choices_are_checked),

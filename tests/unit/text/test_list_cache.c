@@ -145,7 +145,7 @@ static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
 /* The line of a frame with this set's reflectors, with and without a cache. */
 static void write_set(struct list_cache *cache, struct reflector_set *set, struct text *line)
 {
-    struct frame frame = {.scene = "s", .ego = "e", .present = SECTION_REFLECTORS};
+    struct frame frame = {.scene = "s", .ego = "e", .present = PART_REFLECTORS};
     struct diag diag = {0};
     struct text plain = {0};
     frame.reflectors.items = set;

@@ -39,11 +39,11 @@ static const struct field fields[] = {
     {FIELD_NAME_OF(struct thing, name, "name")},
     {FIELD_NAME_OF(struct thing, alias, "alias"), FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct thing, gain, 0, 0.1, "gain")},
-    {FIELD_REAL_IN(struct thing, later_s, 0, 1, "later"), FIELD_OPTIONAL, .section = IN_LATER},
+    {FIELD_REAL_IN(struct thing, later_s, 0, 1, "later"), FIELD_OPTIONAL, .group = IN_LATER},
     [NAMES] = {FIELD_NAMES_OF(struct thing, names, "names"), FIELD_OPTIONAL},
     {FIELD_RECORD_OF(struct thing, part, &part_record, "part")},
     [PARTS] = {FIELD_LIST_OF(struct thing, parts, &part_record, "parts"), FIELD_OPTIONAL,
-               .section = IN_PARTS},
+               .group = IN_PARTS},
     [MORE] = {FIELD_LIST_OF(struct thing, more, &part_record, "more"), FIELD_OPTIONAL,
               FIELD_STEADY},
     {0},
@@ -117,7 +117,7 @@ static void the_value_of_an_absent_member_passes_although_it_is_out_of_bounds(vo
     assert_string_equal(fault(&thing), "part.width_m: -0.0 is outside [1, 10] m");
 }
 
-static void a_section_is_checked_only_if_it_is_present_and_wanted(void **state)
+static void a_group_is_checked_only_if_it_is_present_and_wanted(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -212,7 +212,7 @@ int main(void)
         cmocka_unit_test(a_missing_name_is_refused_unless_it_is_optional),
         cmocka_unit_test(a_number_out_of_bounds_is_refused_with_its_path),
         cmocka_unit_test(the_value_of_an_absent_member_passes_although_it_is_out_of_bounds),
-        cmocka_unit_test(a_section_is_checked_only_if_it_is_present_and_wanted),
+        cmocka_unit_test(a_group_is_checked_only_if_it_is_present_and_wanted),
         cmocka_unit_test(among_items_the_bad_name_is_found),
         cmocka_unit_test(lists_of_a_document_are_not_checked_again),
         cmocka_unit_test(every_byte_of_a_name_is_checked),
