@@ -6,11 +6,11 @@
 #include <unistd.h>
 
 #include "base/suggestion.h"
-#include "documents/datasheet.h"
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "effects/effect.h"
 #include "run/chain.h"
+#include "run/datasheet.h"
 #include "run/pipeline.h"
 #include "text/document.h"
 #include "text/file_format.h"

@@ -1,7 +1,7 @@
 /* Documents of sensor suites, with the data sheet of those that are taken. */
-#include "documents/datasheet.h"
 #include "documents/suite_file.h"
 #include "fuzz/fuzz.h"
+#include "run/datasheet.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {

@@ -1,4 +1,4 @@
-#include "documents/datasheet.h"
+#include "run/datasheet.h"
 
 #include <math.h>
 #include <stdio.h>

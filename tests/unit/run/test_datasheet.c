@@ -6,8 +6,8 @@
 #include "base/arena.h"
 #include "base/units.h"
 #include "documents/consistency.h"
-#include "documents/datasheet.h"
 #include "documents/suite_file.h"
+#include "run/datasheet.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
