@@ -25,7 +25,7 @@ comma = ,
 SANITIZE = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 endif
 
-# scripts/fuzz: what libFuzzer needs, which is clang's. An empty list may be NULL, and clang calls NULL + 0 an overflow.
+# tests/tools/fuzz: what libFuzzer needs, which is clang's. An empty list may be NULL, and clang calls NULL + 0 an overflow.
 ifdef FUZZ
 BUILD = build-fuzz
 CC = clang
@@ -91,9 +91,9 @@ $(BUILD)/lib/%.c.o: lib/%.c
 # The page of glint-view: its parts joined, where page.html names them, and embedded as bytes.
 page = lib/view/page
 view_parts = $(addprefix $(page)/,$(shell sed -n 's/^@\(.*\.[a-z]*\)@$$/\1/p' $(page)/page.html))
-$(BUILD)/view_page.html: $(page)/page.html $(view_parts) scripts/join-page
+$(BUILD)/view_page.html: $(page)/page.html $(view_parts) tests/tools/join-page
 	@mkdir -p $(@D)
-	$(Q)scripts/join-page $< >$@
+	$(Q)tests/tools/join-page $< >$@
 
 $(BUILD)/view_page.c: $(BUILD)/view_page.html
 	$(Q){ echo '#include "view/view_page.h"'; echo 'const char view_page[] = {'; \
@@ -184,7 +184,7 @@ $(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) 
 	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ $(plugin_libs) $(LIBS)
 
 # For scripts/bench: our functions beside libm's, the machine's floors, what a command spends. For
-# scripts/accuracy-cost: angles by table.
+# tests/tools/accuracy-cost: angles by table.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(SPEED_LIBS) -lz -lm
 $(BUILD)/tests/speed/parse_xml: SPEED_LIBS = -lexpat
@@ -230,23 +230,23 @@ fuzz: $(harnesses)
 test: all unit
 
 check: test
-	$(Q)BUILD=$(BUILD) scripts/check-house
+	$(Q)BUILD=$(BUILD) tests/tools/check-house
 
 bench: all
 	$(Q)scripts/bench
 
 # What accuracy costs, into data/accuracy: half an hour at most.
 accuracy: all
-	$(Q)scripts/accuracy-cost
+	$(Q)tests/tools/accuracy-cost
 
 schemas: all
 	$(Q)$(BUILD)/bin/glint-schema schemas
-	$(Q)scripts/tables-sql schemas/tables.json >schemas/tables.sql
+	$(Q)tests/tools/tables-sql schemas/tables.json >schemas/tables.sql
 	$(Q)python3 scripts/sets/schema.py >schemas/dataset.json
 
 # One line a module, from the headers.
 lib/README.md: FORCE
-	$(Q)scripts/lib-readme >$@.new && mv $@.new $@
+	$(Q)tests/tools/lib-readme >$@.new && mv $@.new $@
 
 format:
 	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] pipelines/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
@@ -315,7 +315,7 @@ install: all man
 	install -d $(doc)/stages/spray
 	sed '/^```c$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray/spray.c
 	sed '/^```make$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray/Makefile
-	scripts/installed-pages "$(scripts) glint.py sets exports radars" $(doc) $(DESTDIR)$(PREFIX)/share/glint
+	tests/tools/installed-pages "$(scripts) glint.py sets exports radars" $(doc) $(DESTDIR)$(PREFIX)/share/glint
 
 # Takes away what `make install` puts there: programs and pages by name, and glint's own folders.
 uninstall:

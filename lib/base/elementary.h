@@ -1,7 +1,7 @@
 /* Elementary functions with the same bytes on every machine. They use only + - * / sqrt,
  * comparisons and integer operations. IEEE 754 defines the results of these to the bit, so no
  * compiler, C library or CPU changes one. They need round-to-nearest and no contraction of products
- * and sums; the Makefile's flags give both. scripts/check-house refuses libm's functions.
+ * and sums; the Makefile's flags give both. tests/tools/check-house refuses libm's functions.
  *
  * Errors are in units in the last place (ulp) of the exact result; 0.5 ulp is correct rounding.
  * tests/unit/base/test_elementary measures them against MPFR. */

@@ -1,4 +1,4 @@
-"""The diagrams of scripts/accuracy-cost, by gnuplot: cost-long.svg, cost-short.svg, knobs.svg.
+"""The diagrams of tests/tools/accuracy-cost, by gnuplot: cost-long.svg, cost-short.svg, knobs.svg.
 
 All axes are scaled here, so that the place of every point is known and labels can be placed beside it.
 """

@@ -1,4 +1,4 @@
-"""What else costs time or accuracy in scripts/accuracy-cost: spacing, digits, plumbing, tables of angles."""
+"""What else costs time or accuracy in tests/tools/accuracy-cost: spacing, digits, plumbing, tables of angles."""
 import decimal
 import json
 import os

@@ -1,4 +1,4 @@
-"""What scripts/test checks of scripts/accuracy-cost with few frames and seeds."""
+"""What scripts/test checks of tests/tools/accuracy-cost with few frames and seeds."""
 import json
 import os
 import random

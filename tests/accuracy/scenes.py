@@ -1,4 +1,4 @@
-"""The radars of scripts/accuracy-cost and the frames that they look at."""
+"""The radars of tests/tools/accuracy-cost and the frames that they look at."""
 import json
 import math
 import os

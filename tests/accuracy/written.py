@@ -1,4 +1,4 @@
-"""The tables of scripts/accuracy-cost: cost.csv, knobs.csv, and the same in Markdown."""
+"""The tables of tests/tools/accuracy-cost: cost.csv, knobs.csv, and the same in Markdown."""
 import csv
 import os
 

@@ -65,7 +65,7 @@ def simulated(costs, pace, draws):
 
 def told(lines):
     """The seconds left that the line tells."""
-    done = subprocess.run(["bash", "-c", f". tests/support/progress.sh; progress_left {CORES} names"], cwd=ROOT, input="\n".join(lines) + "\n",
+    done = subprocess.run(["bash", "-c", f". scripts/support/progress.sh; progress_left {CORES} names"], cwd=ROOT, input="\n".join(lines) + "\n",
                           capture_output=True, text=True, check=True)
     hours, minutes, seconds = map(int, re.search(r"(\d+):(\d\d):(\d\d) left: names", done.stderr).groups())
     return 3600 * hours + 60 * minutes + seconds
@@ -187,7 +187,7 @@ def a_part_tells_its_share_and_what_it_starts_does_not(folder):
 
 def who_waits_for_files_fails_only_with_the_command(folder):
     """Under the strict options of scripts; the folder of the files appears late, and a share is empty while it is written."""
-    text = f"set -euo pipefail; . tests/support/progress.sh; sh -c 'sleep 0.7; mkdir {folder}/late; exit CODE' & " \
+    text = f"set -euo pipefail; . scripts/support/progress.sh; sh -c 'sleep 0.7; mkdir {folder}/late; exit CODE' & " \
            f"progress_wait $! 1 files {folder}/late .o; echo whole; rmdir {folder}/late"
     found = [(done.returncode, done.stdout) for done in (shell(text.replace("CODE", code)) for code in "05")]
     if found != [(0, "whole\n"), (5, "")]:
@@ -240,7 +240,7 @@ def tests_run_under_nohup(_):
 
 def whoever_sends_a_signal_that_can_be_ignored_sets_it(_):
     """Scripts of tests that end a process other than by SIGKILL use tests/support/signals.py."""
-    for folder in "tests/chain", "tests/oracle", "scripts":
+    for folder in "tests/chain", "tests/oracle", "tests/tools", "scripts":
         for name in sorted(os.listdir(os.path.join(ROOT, folder))):
             path = os.path.join(ROOT, folder, name)
             if not os.path.isfile(path) or path == os.path.abspath(__file__):

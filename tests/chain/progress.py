@@ -180,7 +180,7 @@ def scripts_show_the_same_line(_):
     support = os.path.join(ROOT, "tests", "support")
     python = f"import sys, time; sys.path.insert(0, '{support}'); from progress import Progress\n" \
              f"for n in Progress('runs').over(range(4)): time.sleep({BLOCKED_S} if n < 2 else 0.3)"
-    shell = f". {support}/progress.sh; sleep {BLOCKED_S}; progress 1 4 runs; progress_end"
+    shell = f". {ROOT}/scripts/support/progress.sh; sleep {BLOCKED_S}; progress 1 4 runs; progress_end"
     for words in (f"python3 -c \"{python}\"", f"sh -c '{shell}'", f"bash -c '{shell}'"):
         text, _ = on_terminal(words)
         if not re.match(LINE.replace(b"UNIT", b"runs"), text) or not ERASED.search(text):

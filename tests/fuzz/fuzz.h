@@ -1,4 +1,4 @@
-/* What the harnesses of libFuzzer share. scripts/fuzz builds and runs them.
+/* What the harnesses of libFuzzer share. tests/tools/fuzz builds and runs them.
  *
  * A harness reads any bytes as one kind of input. It fails by a report of the sanitizers, by an
  * exit, or by fuzz_must. Input may be refused, but never with DIAG_INTERNAL, which says that a

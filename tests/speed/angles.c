@@ -1,6 +1,6 @@
 /* Time and error of inverting the sensing ratio by a table instead of by its closed form: ROUNDS
  * lines per way with ENTRIES (0: the closed form), NS per call, MEAN and GREATEST error in radians,
- * between tabs, all ways in turn each round. scripts/accuracy-cost takes the medians.
+ * between tabs, all ways in turn each round. tests/tools/accuracy-cost takes the medians.
  *
  * The table is the paper's way (equation 7): azimuths at even steps of the ratio (|delta| - |sum|)
  * / (|delta| + |sum|), straight between them. Echoes are even over 80 degrees to either side. */

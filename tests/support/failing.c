@@ -1,4 +1,4 @@
-/* A library to preload that makes one call of a program fail. scripts/faults builds and preloads
+/* A library to preload that makes one call of a program fail. tests/tools/faults builds and preloads
  * it.
  *
  *     FAILING_CALL     malloc (with calloc and realloc), write, fsync, rename or close

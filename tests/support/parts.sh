@@ -10,7 +10,7 @@
 #
 # A line of PARTS_SECONDS (absent: tests/seconds) has the seconds and the title of a part, and + behind the seconds where
 # most of them are for building, which is done once.
-. tests/support/progress.sh
+. scripts/support/progress.sh
 parts_seconds=${PARTS_SECONDS:-tests/seconds}
 parts_logs=$(mktemp -d)
 parts_shown=''
