@@ -20,7 +20,7 @@ from model import sensor, suite_of, thing  # noqa: E402
 from effects_noise import THRESHOLD, frames_of, listen, rms  # noqa: E402
 
 DRAWS = 5000
-SECTIONS_DBSM = [0, 10, 20]
+CROSS_SECTIONS_DBSM = [0, 10, 20]
 
 
 def radar(**changes):
@@ -47,8 +47,8 @@ def sheet_of(bench, document):
                           capture_output=True, check=True, text=True)
     chances = [float(word) for word in re.search(r"probability of ([\d.]+) and of ([\d.]+)", done.stdout).groups()]
     rows = re.findall(r"^ +([\d.]+) degrees((?: +\S+){6})$", done.stdout, re.M)
-    ranges = {(float(degrees), section, chance): words.split()[2 * i + chance]
-              for degrees, words in rows for i, section in enumerate(SECTIONS_DBSM) for chance in (0, 1)}
+    ranges = {(float(degrees), rcs_dbsm, chance): words.split()[2 * i + chance]
+              for degrees, words in rows for i, rcs_dbsm in enumerate(CROSS_SECTIONS_DBSM) for chance in (0, 1)}
     accuracies = [[float(word) for word in row.split()[:5]]
                   for row in re.findall(r"^  SNR +(.*)$", done.stdout.replace(" dB", ""), re.M)]
     return chances, ranges, accuracies
@@ -64,13 +64,13 @@ def look(bench, document, kind, range_m, degrees, draws):
 def detection(bench):
     for name, document in RADARS.items():
         chances, ranges, _ = sheet_of(bench, document)
-        for degrees, section, which in ((0.0, 10, 0), (0.0, 10, 1), (30.0, 0, 1), (60.0, 20, 0)):
+        for degrees, rcs_dbsm, which in ((0.0, 10, 0), (0.0, 10, 1), (30.0, 0, 1), (60.0, 20, 0)):
             # A hair nearer, as a steady echo at the threshold itself hangs on the range's last digit.
-            near = float(ranges[degrees, section, which]) * 0.999
-            share = len(look(bench, document, f"section_{section}", near, degrees, DRAWS)) / DRAWS
+            near = float(ranges[degrees, rcs_dbsm, which]) * 0.999
+            share = len(look(bench, document, f"rcs_{rcs_dbsm}", near, degrees, DRAWS)) / DRAWS
             slack = 5 * math.sqrt(share * (1 - share) / DRAWS) + 0.01
             bench.check(abs(share - chances[which]) < slack,
-                        f"{name}, {section} dBsm at {degrees} degrees, {near} m: {share}, printed {chances[which]}")
+                        f"{name}, {rcs_dbsm} dBsm at {degrees} degrees, {near} m: {share}, printed {chances[which]}")
 
 
 def accuracy(bench):
@@ -79,7 +79,7 @@ def accuracy(bench):
         document = RADARS[name]
         _, ranges, accuracies = sheet_of(bench, document)
         far, (_, range_m, rate_mps, azimuth_deg) = float(ranges[0.0, 10, 0]) / math.sqrt(10), accuracies[2][:4]
-        targets = look(bench, document, "section_10", far, 0.0, DRAWS)
+        targets = look(bench, document, "rcs_10", far, 0.0, DRAWS)
         bench.check(len(targets) == DRAWS, f"{name}: {len(targets)} targets")
         for key, scale, printed in (("range_m", 1, range_m), ("range_rate_mps", 1, rate_mps),
                                     ("azimuth_rad", 180 / math.pi, azimuth_deg)):
@@ -111,7 +111,7 @@ def measured_law(bench):
     signal = dict(document, range_max_m=176, carrier_hz=76.5e9, **shape)
     for range_m, degrees in ((15, 0), (20, -12), (40, 5), (60, 12.3), (100, -8.5), (170, 0.4)):
         place = range_m * math.cos(math.radians(degrees)), range_m * math.sin(math.radians(degrees))
-        frames = frames_of([thing("post", "section_20", *place)], 200)
+        frames = frames_of([thing("post", "rcs_20", *place)], 200)
         expected = 20 + LAW[0](range_m) + LAW[1](degrees)
         where = f"{range_m} m, {degrees} degrees"
         for stages, one in (["glint-sensor", "glint-noise"], document), (["glint-sensor-signal"], signal):
@@ -126,9 +126,9 @@ def measured_law(bench):
                     for frame in map(json.loads, text.splitlines())]
             # The power of a noisy amplitude is on average that of the echo and that of the noise.
             power = 10 * math.log10(sum(10 ** (target["amplitude_db"] / 10) for target in made) / len(made) - 1)
-            snr, section = (statistics.median(target["quality"][key] for target in made) for key in ("snr_db", "rcs_dbsm"))
+            snr, rcs_dbsm = (statistics.median(target["quality"][key] for target in made) for key in ("snr_db", "rcs_dbsm"))
             for name, value, truth in (("power", power, expected), ("snr_db", snr, expected),
-                                       ("rcs_dbsm", section, 20)):
+                                       ("rcs_dbsm", rcs_dbsm, 20)):
                 bench.check(abs(value - truth) < 0.1, f"{stages[0]}, {where}: {name} {value}, expected {truth}")
     _, ranges, _ = sheet_of(bench, document)
     for degrees in 11.3, 17.0:
@@ -138,9 +138,9 @@ def measured_law(bench):
 
 def prepare(bench):
     model.add_shipped_vehicles(bench)
-    for section in SECTIONS_DBSM:
-        ercs = math.sqrt(10 ** (section / 10) / 10)
-        bench.add_vehicle(f"section_{section}", model.vehicle(0.1, 0.1, points=[model.everywhere("p", ercs)]))
+    for rcs_dbsm in CROSS_SECTIONS_DBSM:
+        ercs = math.sqrt(10 ** (rcs_dbsm / 10) / 10)
+        bench.add_vehicle(f"rcs_{rcs_dbsm}", model.vehicle(0.1, 0.1, points=[model.everywhere("p", ercs)]))
 
 
 CHECKS = [

@@ -193,7 +193,7 @@ def chances(bench):
     for sheet, law, chance in ((PLAIN | detected, "none", 0.9), (PLAIN | detected, "swerling_1", 0.6), (PLAIN | detected, "swerling_3", 0.8),
                                (levels, "none", 0.7), (levels, "swerling_1", 0.9)):
         sensor = sensors_of(bench, sheet | {"fluctuation": law, "detection_probability": chance})[0]
-        share = len(data_sheet.look(bench, sensor, "section_10", 79.99, 0, DRAWS)) / DRAWS
+        share = len(data_sheet.look(bench, sensor, "rcs_10", 79.99, 0, DRAWS)) / DRAWS
         slack = 5 * math.sqrt(chance * (1 - chance) / DRAWS) + 0.002
         bench.check(abs(share - chance) < slack, f"{law}: {share} detected, not {chance}")
     part = printed(bench, PLAIN | {"false_alarms_per_scan": 2})[0]["front"]

@@ -183,7 +183,7 @@ function lossRow(loss) {
     return row;
 }
 
-function silentSection(losses) {
+function silentBlock(losses) {
     const groups = new Map();
     for (const loss of losses) {
         const what = silentWords(loss.reason.name) + effectNote(loss.effect);
@@ -208,7 +208,7 @@ function silentWords(reason) {
 // Share in view, in the levels of nuScenes, by number (lib/frame/sightings.h).
 const levels = ['0 to 40 %', '40 to 60 %', '60 to 80 %', '80 to 100 %'];
 
-// The visibility of the chosen object, from the section visibility: a line, or none.
+// The visibility of the chosen object, as --sections visibility gives it: a line, or none.
 function sightingLines(scan) {
     const begin = starts('scan_sightings');
     const objects = column('sighting_object');
@@ -257,7 +257,7 @@ function moreLine(count) {
     return count > 0 ? [make('p', `and ${count} more`, 'soft')] : [];
 }
 
-function section(title, rows) {
+function block(title, rows) {
     return rows.length === 0 ? [] : [make('h3', title), ...rows];
 }
 
@@ -289,12 +289,12 @@ function showObject() {
     parts.push(...objectNotes().map(note => make('p', note, 'soft')));
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end && state.object !== head.scenes[state.scene].ego; scan++) {
-        parts.push(...objectSections(scan));
+        parts.push(...objectBlocks(scan));
     }
     panel.replaceChildren(...parts);
 }
 
-function objectSections(scan) {
+function objectBlocks(scan) {
     const targets = targetsFrom(scan, state.object);
     const losses = lossesOf(scan, state.object);
     const notable = losses.filter(loss => loss.reason.notable);
@@ -305,7 +305,7 @@ function objectSections(scan) {
         ...targets.map(one => targetRow(scan, one.target, one.number, state.object)),
         ...notable.slice(0, 40).map(lossRow),
         ...moreLine(notable.length - 40),
-        ...silentSection(silent),
+        ...silentBlock(silent),
     ];
 }
 
@@ -335,7 +335,7 @@ function valuesTable(scan, target) {
     return table;
 }
 
-// A target's quality as rows of a table; none if the stream has no section quality.
+// A target's quality as rows of a table; none if the stream has no quality.
 function qualityRows(target) {
     const begin = starts('target_quality');
     const row = begin[target];
@@ -369,12 +369,12 @@ function qualityRows(target) {
     ];
 }
 
-function qualitySection(target) {
+function qualityBlock(target) {
     const rows = qualityRows(target);
     const table = make('table', null, 'values');
     table.id = 'quality';
     table.append(...rows.map(row => tableRow(row)));
-    return section('Quality', rows.length === 0 ? [] : [table]);
+    return block('Quality', rows.length === 0 ? [] : [table]);
 }
 
 function weightBar(weight, colour) {
@@ -425,7 +425,7 @@ function showTarget() {
     order.sort((a, b) => weights[b] - weights[a]);
     const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
     panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
-        ...targetNotes(scan), ...qualitySection(state.target), ...section(`Made of ${plural(order.length, 'reflection centre')}`, rows),
+        ...targetNotes(scan), ...qualityBlock(state.target), ...block(`Made of ${plural(order.length, 'reflection centre')}`, rows),
         ...moreLine(order.length - rows.length), make('p', cellWords(cellOf(scan)), 'soft'));
 }
 
@@ -522,7 +522,7 @@ function showReflector() {
 }
 
 // The losses of the frame by reason; a click draws them on the map, or no longer.
-function causeSection() {
+function causeBlock() {
     const rows = frameCauses(state.frame).map(({item, count}) => {
         const shown = state.cause === causeOf(item);
         const row = rowButton('✕', [make('b', String(count)), ` ${item.reason.name === 'no_specular_point' ? silentWords(item.reason.name) : ownReason(item)}`],
@@ -532,7 +532,7 @@ function causeSection() {
         row.classList.add(item.reason.notable ? 'lost' : 'silent');
         return row;
     });
-    return section('Echoes that are in no target, by reason: click to draw them', rows);
+    return block('Echoes that are in no target, by reason: click to draw them', rows);
 }
 
 function showCause(cause) {
@@ -551,7 +551,7 @@ function silentObjects() {
     const silent = [...column('object_id').slice(begin, end)].filter(object => !seen.has(object));
     const rows = silent.slice(0, 24).map(object =>
         rowButton('–', [objectTitle(object)], '', () => chooseObject(object)));
-    return section('Objects without a target: click to see why', rows).concat(moreLine(silent.length - rows.length));
+    return block('Objects without a target: click to see why', rows).concat(moreLine(silent.length - rows.length));
 }
 
 function showFrame() {
@@ -561,7 +561,7 @@ function showFrame() {
     if (hasSensors() && column('target_range_m').length === 0) {
         parts.push(make('p', 'No frame of this stream has a target: has it been through all stages?', 'soft'));
     }
-    parts.push(...causeSection());
+    parts.push(...causeBlock());
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
         const targets = targetsOf(scan);
