@@ -9,7 +9,6 @@
 
 struct check {
     const char *sensors, *extract;
-    bool partial;
     struct runner *runner;
     struct runner *extraction, *ideal; /* that make the echoes again; NULL: not begun */
     const char *key;                   /* of ideal's suite and effects */
@@ -69,13 +68,12 @@ static int check_all(struct check *own, struct diag *diag)
     while ((more = runner_frame(own->runner, &frame)) > 0) {
         own->frames++;
         own->targets += (int64_t)frame->targets.count;
-        if ((own->partial ? frame_sequence_once
-                          : frame_sequence_follow)(&own->sequence, frame, runner_place(own->runner),
-                                                   runner_arena(own->runner), diag) != 0 ||
+        if (frame_sequence_follow(&own->sequence, frame, runner_place(own->runner),
+                                  runner_arena(own->runner), diag) != 0 ||
             check_labels(own, frame, diag) != 0)
             return -1;
     }
-    return more == 0 && !own->partial ? frame_sequence_end(&own->sequence, diag) : more;
+    return more == 0 ? frame_sequence_end(&own->sequence, diag) : more;
 }
 
 static int print(const struct check *own, struct output *output)
@@ -109,7 +107,6 @@ static int check_run(void *state, struct runner *runner)
 }
 
 static const struct field check_options[] = {
-    {OPTIONAL_FLAG(struct check, partial, "scenes may lack frames and come in any order")},
     {OPTIONAL_NAME(struct check, sensors, "path of the suite, if it is not found by its name")},
     {OPTIONAL_INTEGER(struct check, every, 0, 1e9,
                       "compute the labels of every N-th frame again; 0: of no frame; absent: 1"),

@@ -132,8 +132,6 @@ def truth(bin_dir, text):
         frames[number]["targets"][0]["contributors"][0]["range_m"] += 1e-3
         done = run("glint-check --every 4", bin_dir, lines_of(frames))
         check(done.returncode == wanted, f"frame {number} of --every 4: {done.stderr.decode()}")
-    done = run("glint-check --partial", bin_dir, b"".join(reversed(text.splitlines(keepends=True))))
-    check(done.returncode == 0, f"--partial: {done.stderr.decode()}")
 
 
 def ghosts_are_counted(bin_dir):
