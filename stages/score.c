@@ -8,8 +8,8 @@
 
 struct score_state {
     const char *truth;
-    double cutoff, azimuth_cell_rad;
-    bool partial, summary, text, ensemble;
+    double azimuth_cell_rad;
+    bool summary, text, ensemble;
     struct reference_stream *other;
     int64_t frames;
     struct frame_sequence sequence;
@@ -22,22 +22,8 @@ static int score_start(void *state, struct runner *runner)
     struct score_state *own = state;
     own->summary = own->summary || own->text;
     own->lists.arena = runner_arena(runner);
-    if (own->ensemble && (own->partial || own->cutoff != TARGET_SCORE_CUTOFF))
-        return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--ensemble: has no pairs and no frames of one side, so it takes neither "
-                         "--cutoff nor --partial");
-    own->other = runner_reference_stream(runner, own->truth, &frame_record, own->partial);
+    own->other = runner_reference_stream(runner, own->truth, &frame_record, false);
     return own->other != NULL ? 0 : -1;
-}
-
-/* Streams are matched by the names of scenes. So both sides of a pair must have one seed, and with
- * --partial, where a frame may lack its partner, a name must have one seed in the whole stream. */
-static int check_scene(struct score_state *own, const struct frame *frame, struct runner *runner)
-{
-    if (frame_sequence_ascend(&own->sequence, frame, runner_place(runner), runner_arena(runner),
-                              runner_diag(runner)) != 0)
-        return -1;
-    return own->partial ? frame_sequence_one_seed(&own->sequence, runner_diag(runner)) : 0;
 }
 
 static int score_step(void *state, struct frame *frame, struct runner *runner)
@@ -46,11 +32,10 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
     const struct frame *truth;
     if (own->ensemble)
         return ensemble_add(&own->lists, frame, runner_diag(runner));
-    if (check_scene(own, frame, runner) != 0)
+    if (frame_sequence_ascend(&own->sequence, frame, runner_place(runner), runner_arena(runner),
+                              runner_diag(runner)) != 0 ||
+        reference_stream_frame(own->other, frame, &truth, runner_diag(runner)) < 0)
         return -1;
-    int found = reference_stream_frame(own->other, frame, &truth, runner_diag(runner));
-    if (found <= 0)
-        return found;
     own->frames++;
     struct score_line line = {
         .scene = frame->scene, .frame = frame->frame, .time_s = frame->time_s};
@@ -58,7 +43,7 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
         const struct sensor_view *view = &truth->sensors.list.items[i];
         if (!view->measured && !frame->sensors.list.items[i].measured)
             continue;
-        struct target_cell cell = target_score_cell(view, own->azimuth_cell_rad, own->cutoff);
+        struct target_cell cell = target_score_cell(view, own->azimuth_cell_rad);
         struct score_tally scan = {.sensor = view->name};
         target_score_scan(&scan, truth, frame, &cell, frame->arena);
         if (own->summary)
@@ -98,9 +83,7 @@ static int score_stop(void *state, struct runner *runner)
         return -1;
     struct score_summary summary = {
         .frames = own->frames,
-        .true_frames = reference_stream_unmatched(own->other),
-        .listed_frames = reference_stream_missing(own->other),
-        .cutoff = own->cutoff,
+        .cutoff = TARGET_SCORE_CUTOFF,
         .azimuth_cell_rad = own->azimuth_cell_rad,
     };
     if (!own->summary)
@@ -116,14 +99,9 @@ static int score_stop(void *state, struct runner *runner)
 static const struct field score_options[] = {
     {FIELD_NAME_OF(struct score_state, truth, "frames with the targets that are the truth"),
      .word = "FILE"},
-    {OPTIONAL_REAL(struct score_state, cutoff, 1e-6, 1e6,
-                   "targets this many cells apart are no pair; absent: 2"),
-     .absent = TARGET_SCORE_CUTOFF},
     {OPTIONAL_REAL(
         struct score_state, azimuth_cell_rad, 1e-6, 2 * PI,
         "cell in azimuth; absent: that of the suite, or a twentieth of the field of view")},
-    {OPTIONAL_FLAG(struct score_state, partial,
-                   "count frames that only one side has instead of refusing them")},
     {OPTIONAL_FLAG(struct score_state, summary, "write one JSON line for the whole stream")},
     {OPTIONAL_FLAG(struct score_state, ensemble,
                    "compare the lists of many seeds as random lists, by their energy distance")},
@@ -142,11 +120,12 @@ const struct stage stage_score = {
         "must not.\n\n"
         "Writes a JSON line for each frame, with a score for each sensor that measured: GOSPA "
         "(order 2, alpha 2) with its parts, OSPA, counts, differences of the pairs, and the "
-        "Wasserstein-1 distance of each component. Scans that one side alone made are counted and "
+        "Wasserstein-1 distance of each component. Targets 2 cells apart or more are no pair. "
+        "Scans that one side alone made are counted and "
         "not compared. The distance of two targets is in "
         "cells, d^2 = (range / cell_range_m)^2 + (range rate / cell_range_rate_mps)^2 + (azimuth "
         "/ azimuth_cell_rad)^2, with the cells of the truth's sensors. A frame that one side "
-        "lacks is an error, unless --partial is given. --summary keeps every value, which takes "
+        "lacks is an error. --summary keeps every value, which takes "
         "half a kilobyte for each target. glint-score-tracks scores trackers.\n\n"
         "With --ensemble each stream has every scene with at least 3 seeds; no seed may be in "
         "both streams. The lists of a scene, frame and sensor are samples of two random lists. "

@@ -15,11 +15,10 @@ struct tracker {
 struct score_tracks {
     const char *tracks, *against, *classes;
     enum track_truth objects;
-    double cutoff_m;
-    bool partial, summary, text;
-    struct tracker tracker, other;            /* of --tracks and --against */
-    int64_t true_frames, frames, id_switches; /* of the truth; of the truth and all trackers */
-    struct score_tally tally;                 /* for the summary */
+    bool summary, text;
+    struct tracker tracker, other; /* of --tracks and --against */
+    int64_t frames, id_switches;
+    struct score_tally tally; /* for the summary */
     struct tracker_scenes scenes;
     struct frame_sequence sequence;
     struct intern seen; /* classes of all objects but the egos, for --classes */
@@ -29,24 +28,23 @@ static int score_tracks_start(void *state, struct runner *runner)
 {
     struct score_tracks *own = state;
     own->summary = own->summary || own->text || own->against != NULL;
-    own->tracker.stream =
-        runner_reference_stream(runner, own->tracks, &track_list_record, own->partial);
+    own->tracker.stream = runner_reference_stream(runner, own->tracks, &track_list_record, false);
     if (own->tracker.stream == NULL || own->against == NULL)
         return own->tracker.stream != NULL ? 0 : -1;
     if (strcmp(own->tracks, "-") == 0 && strcmp(own->against, "-") == 0)
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--tracks and --against are both standard input; expected a file for one");
-    own->other.stream =
-        runner_reference_stream(runner, own->against, &track_list_record, own->partial);
+    own->other.stream = runner_reference_stream(runner, own->against, &track_list_record, false);
     return own->other.stream != NULL ? 0 : -1;
 }
 
-/* Reads the tracks of the frame: 1, 0 if there are none, -1 after a message. */
+/* Reads the tracks of the frame. */
 static int read_tracks(struct tracker *tracker, const struct frame *frame, struct runner *runner)
 {
     if (tracker->stream == NULL)
-        return 1;
-    return reference_stream_tracks(tracker->stream, frame, &tracker->tracks, runner_diag(runner));
+        return 0;
+    struct diag *diag = runner_diag(runner);
+    return reference_stream_tracks(tracker->stream, frame, &tracker->tracks, diag) < 0 ? -1 : 0;
 }
 
 static void score_tracker(const struct score_tracks *own, struct tracker *tracker,
@@ -54,7 +52,7 @@ static void score_tracker(const struct score_tracks *own, struct tracker *tracke
 {
     tracker->tally = (struct score_tally){0};
     tracker->switches = track_score_frame(&tracker->tally, frame, &tracker->tracks, own->objects,
-                                          own->classes, own->cutoff_m, &tracker->memory, lasting);
+                                          own->classes, &tracker->memory, lasting);
     if (frame->last)
         track_score_forget(&tracker->memory, frame->scene);
 }
@@ -88,11 +86,8 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
         return -1;
     if (own->classes != NULL)
         track_score_note_classes(&own->seen, frame, lasting);
-    own->true_frames++;
-    int found = read_tracks(tracker, frame, runner),
-        matched = read_tracks(&own->other, frame, runner);
-    if (found <= 0 || matched <= 0)
-        return found < 0 || matched < 0 ? -1 : 0;
+    if (read_tracks(tracker, frame, runner) != 0 || read_tracks(&own->other, frame, runner) != 0)
+        return -1;
     score_tracker(own, tracker, frame, lasting);
     if (own->other.stream != NULL)
         compare_trackers(own, frame, lasting);
@@ -123,14 +118,9 @@ static int score_tracks_stop(void *state, struct runner *runner)
         return -1;
     if (!own->summary)
         return 0;
-    int64_t unmatched = reference_stream_unmatched(own->tracker.stream);
-    if (own->other.stream != NULL)
-        unmatched += reference_stream_unmatched(own->other.stream);
     struct score_summary summary = {
         .frames = own->frames,
-        .true_frames = own->true_frames - own->frames,
-        .listed_frames = unmatched,
-        .cutoff_m = own->cutoff_m,
+        .cutoff_m = TRACK_SCORE_CUTOFF_M,
         .id_switches = own->id_switches,
         .all = score_of(&own->tally, 1, runner_arena(runner)),
     };
@@ -157,11 +147,6 @@ static const struct field score_tracks_options[] = {
                      "the objects that a tracker should find; absent: in_view")},
     {OPTIONAL_NAME(struct score_tracks, classes, "only objects of these classes: car,truck"),
      .word = "LIST"},
-    {OPTIONAL_REAL(struct score_tracks, cutoff_m, 1e-6, 1e6,
-                   "a track and an object this far apart are not paired; absent: 5 m"),
-     .absent = TRACK_SCORE_CUTOFF_M},
-    {OPTIONAL_FLAG(struct score_tracks, partial,
-                   "count frames that only one side has instead of refusing them")},
     {OPTIONAL_FLAG(struct score_tracks, summary, "write one JSON line for the whole stream")},
     {OPTIONAL_FLAG(struct score_tracks, text,
                    "write the summary as a table for people instead of JSON")},
@@ -177,13 +162,14 @@ const struct stage stage_score_tracks = {
         "list.jsonl.\n\n"
         "Writes a JSON line for each frame: GOSPA (order 2, alpha 2) over the distances of "
         "centres in metres, with its parts, OSPA, counts, distances and differences in velocity "
-        "of the pairs, and how many objects are paired with another track than last time. Tracks "
+        "of the pairs, which are less than 5 m apart, and how many objects are paired with another "
+        "track than last time. Tracks "
         "with a covariance P also get the NEES e' P^-1 e of their distance e, 2 on average if P "
         "is right. --objects chooses the objects that count: in_view, if their centre is within "
         "the range and field of view of a sensor; detected, if a target of the frame contains one "
         "of their echoes, where frames without a measurement are counted and not scored; all. The "
-        "ego never counts. A frame that one side lacks is an error, "
-        "unless --partial is given. Tracks have no seed, so each scene of the stream must have a "
+        "ego never counts. A frame that one side lacks is an error. "
+        "Tracks have no seed, so each scene of the stream must have a "
         "single seed.\n\n"
         "--against has the tracks of another tracker, or those from another chain's lists. The "
         "summary then has the differences of both scores per frame, paired by scene, with "

@@ -239,7 +239,7 @@ struct embedded_list ensemble_embed(const struct frame *frame, const struct sens
                                     struct arena *arena)
 {
     struct ensemble_list list = list_of(frame, view, arena);
-    struct target_cell unit = target_score_cell(view, 0, 0);
+    struct target_cell unit = target_score_cell(view, 0);
     return embed(&list, &unit, arena);
 }
 
@@ -292,7 +292,7 @@ static int score_scene(const struct ensemble_scene *truth, const struct ensemble
         if (!measured(truth, k) || !measured(listed, k))
             continue;
         struct target_cell unit =
-            target_score_cell(&truth->seeds.items[0].lists.items[k].view, azimuth_rad, 0);
+            target_score_cell(&truth->seeds.items[0].lists.items[k].view, azimuth_rad);
         for (size_t i = 0; i < all; i++) {
             const struct ensemble_seed *seed =
                 i < ones ? &truth->seeds.items[i] : &listed->seeds.items[i - ones];

@@ -32,8 +32,7 @@ struct reference_stream {
     int64_t number;    /* of its frame in the scene */
     struct waiting_line *first, **last;
     struct waiting_line *taken; /* the waiting line that was taken out last */
-    int64_t unmatched, missing;
-    struct frame frame; /* if the lines are frames */
+    struct frame frame;         /* if the lines are frames */
     struct track_list tracks;
     struct arena arena;
 };
@@ -79,16 +78,6 @@ int reference_stream_prefix(const struct reference_stream *reference, struct dia
     return diag_prefix(diag, "%s:%zu: ", input_name(reference->input), reference->found);
 }
 
-int64_t reference_stream_unmatched(const struct reference_stream *reference)
-{
-    return reference->unmatched;
-}
-
-int64_t reference_stream_missing(const struct reference_stream *reference)
-{
-    return reference->missing;
-}
-
 /* Parses the line as a frame or as tracks. */
 static int parse(struct reference_stream *reference, struct diag *diag)
 {
@@ -128,7 +117,6 @@ static void keep_line(struct reference_stream *reference)
 static int skip_line(struct reference_stream *reference, size_t number, const char *scene,
                      int64_t frame, struct diag *diag)
 {
-    reference->unmatched++;
     if (reference->partial)
         return 0;
     reference->found = number;
@@ -216,7 +204,6 @@ static int find(struct reference_stream *reference, const struct frame *frame, s
             reference->ended ? SEARCH_PAST : read_next(reference, frame->scene, frame->frame, diag);
     if (search != SEARCH_PAST)
         return search == SEARCH_FOUND ? 1 : -1;
-    reference->missing++;
     if (reference->partial)
         return 0;
     return diag_fail(diag, DIAG_DATA, "frame: %s has no frame %lld of scene \"%s\"",

@@ -12,8 +12,9 @@
 struct reference_stream;
 
 /* Opens the file, or standard input for "-", whose lines are frames (frame_record) or tracks
- * (track_list_record). With partial true, frames that only one stream has are
- * counted; else they are errors. The pause comes before a wait for a line. NULL after a message. */
+ * (track_list_record). With partial true either stream may have frames that the
+ * other lacks; else they are errors. The pause comes before a wait for a line. NULL after a
+ * message. */
 struct reference_stream *reference_stream_open(const char *path, const struct record *record,
                                                bool partial, struct input_pause pause,
                                                struct diag *diag);
@@ -45,10 +46,6 @@ int reference_stream_finish(struct reference_stream *reference, struct diag *dia
 /* Refuses (DIAG_DATA) the stream, as it has no frame of this scene. */
 int reference_stream_lacks(const struct reference_stream *reference, const char *scene,
                            struct diag *diag);
-
-/* The number of lines so far that matched no frame, and of frames that had no line. */
-int64_t reference_stream_unmatched(const struct reference_stream *reference);
-int64_t reference_stream_missing(const struct reference_stream *reference);
 
 /* True if two times of one frame agree but for how they were written, to a microsecond. */
 bool reference_stream_same_time(double a_s, double b_s);

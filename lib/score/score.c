@@ -90,14 +90,6 @@ const struct record score_record = {
     {                                                                                              \
         FIELD_REAL_IN(struct score_line, time_s, -1e10, 1e10, "time of the frame")                 \
     }
-#define SUMMARY_HEAD                                                                               \
-    {COUNT(struct score_summary, frames, "frames in both streams, which are scored")},             \
-        {COUNT(struct score_summary, true_frames,                                                  \
-               "frames of the truth that another stream lacks")},                                  \
-    {                                                                                              \
-        COUNT(struct score_summary, listed_frames,                                                 \
-              "frames of the other streams that the truth lacks")                                  \
-    }
 #define SWITCHES(owner)                                                                            \
     COUNT(owner, id_switches, "objects paired with another track than the last time")
 
@@ -112,7 +104,7 @@ const struct record score_line_record = {FIELD_TABLE(struct score_line, line_fie
                                                      "Scores of one frame, by glint-score.")};
 
 static const struct field summary_fields[] = {
-    SUMMARY_HEAD,
+    {COUNT(struct score_summary, frames, "frames of each stream")},
     {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "cut-off distance, in cells")},
     {OPTIONAL_REAL(struct score_summary, azimuth_cell_rad, 0, 10,
                    "size of a cell in azimuth; absent: a twentieth of each field of view")},
@@ -138,7 +130,7 @@ const struct record score_track_line_record = {
                 "Score of one frame, by glint-score-tracks.")};
 
 static const struct field track_summary_fields[] = {
-    SUMMARY_HEAD,
+    {COUNT(struct score_summary, frames, "frames of each stream")},
     {FIELD_REAL_IN(struct score_summary, cutoff_m, 0, 1e6,
                    "tracks this far off or farther are no pair")},
     {SWITCHES(struct score_summary)},
@@ -460,16 +452,6 @@ static void write_table(const struct table *table)
     }
 }
 
-static void write_frames(int64_t frames, int64_t only_true, int64_t only_listed, struct text *text)
-{
-    text_format(text, "%" PRId64 " frames", frames);
-    if (only_true + only_listed > 0)
-        text_format(text,
-                    " in both streams, %" PRId64 " in the truth alone, %" PRId64
-                    " in the scored stream alone",
-                    only_true, only_listed);
-}
-
 void score_table_summary(const struct score_summary *summary, struct text *text,
                          struct arena *arena)
 {
@@ -482,9 +464,9 @@ void score_table_summary(const struct score_summary *summary, struct text *text,
     }
     scores[sensors] = summary->all;
     heads[sensors] = "all";
-    write_frames(summary->frames, summary->true_frames, summary->listed_frames, text);
-    text_format(text, "; distances in cells, cut off at %g; in azimuth a cell is ",
-                summary->cutoff);
+    text_format(text,
+                "%" PRId64 " frames; distances in cells, cut off at %g; in azimuth a cell is ",
+                summary->frames, summary->cutoff);
     if (summary->azimuth_cell_rad > 0)
         text_format(text, "%g deg\n", summary->azimuth_cell_rad * (180 / PI));
     else
@@ -502,9 +484,10 @@ void score_table_summary(const struct score_summary *summary, struct text *text,
 
 void score_table_track_summary(const struct score_summary *summary, struct text *text)
 {
-    write_frames(summary->frames, summary->true_frames, summary->listed_frames, text);
-    text_format(text, "; distances in metres, cut off at %g; %" PRId64 " identity switches\n",
-                summary->cutoff_m, summary->id_switches);
+    text_format(text,
+                "%" PRId64 " frames; distances in metres, cut off at %g; %" PRId64
+                " identity switches\n",
+                summary->frames, summary->cutoff_m, summary->id_switches);
     write_table(&(struct table){&summary->all, (const char *const[]){"all"}, 1, "m", "m^2",
                                 (double[1]){0}, text});
     if ((summary->present & SCORE_DIFFERENCE) != 0)

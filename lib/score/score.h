@@ -61,8 +61,7 @@ struct score_line {
 
 /* The scores of a stream. */
 struct score_summary {
-    int64_t frames, true_frames, listed_frames; /* in all streams; of the truth that another lacks;
-                                                 * of the others that the truth lacks */
+    int64_t frames;
     double cutoff, azimuth_cell_rad; /* of targets; azimuth_cell_rad 0: a twentieth of each field of
                                       * view */
     double cutoff_m;                 /* of tracks */

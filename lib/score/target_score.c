@@ -15,8 +15,7 @@ struct entry {
     LIST_OF(struct entry *) truths, listed; /* all of the group, in the first of it */
 };
 
-struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
-                                     double cutoff)
+struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad)
 {
     if (azimuth_rad == 0)
         azimuth_rad =
@@ -25,7 +24,6 @@ struct target_cell target_score_cell(const struct sensor_view *view, double azim
         .range_m = view->cell_range_m,
         .azimuth_rad = azimuth_rad,
         .range_rate_mps = view->cell_range_rate_mps,
-        .cutoff = cutoff,
     };
 }
 
@@ -84,7 +82,7 @@ static int compare(const void *left, const void *right)
 static size_t enter_targets(struct entry *entries, const struct frame *frame, const char *sensor,
                             const struct target_cell *cell, struct arena *arena)
 {
-    double strip_m = cell->cutoff * cell->range_m * (1 + 1e-9);
+    double strip_m = TARGET_SCORE_CUTOFF * cell->range_m * (1 + 1e-9);
     size_t count = 0;
     for (size_t i = 0; i < frame->targets.count; i++)
         if (strcmp(frame->targets.items[i].sensor, sensor) == 0)
@@ -162,7 +160,7 @@ static void join_near(struct entry *entries, size_t rows, size_t columns,
 {
     struct entry **truths = by_place(entries, rows, arena);
     struct entry **listed = by_place(entries + rows, columns, arena);
-    double reach_mps = cell->cutoff * cell->range_rate_mps * (1 + 1e-9);
+    double reach_mps = TARGET_SCORE_CUTOFF * cell->range_rate_mps * (1 + 1e-9);
     for (int beside = -1; beside <= 1; beside++)
         for (size_t i = 0, low = 0; i < rows; i++) {
             double strip = truths[i]->strip + beside, rate_mps = truths[i]->target->range_rate_mps;
@@ -174,7 +172,7 @@ static void join_near(struct entry *entries, size_t rows, size_t columns,
                                  listed[j]->target->range_rate_mps <= rate_mps + reach_mps;
                  j++)
                 if (target_score_distance(truths[i]->target, listed[j]->target, cell) <
-                    cell->cutoff)
+                    TARGET_SCORE_CUTOFF)
                     join(truths[i], listed[j]);
         }
 }
@@ -189,7 +187,7 @@ static void pair_group(const struct entry *first, const struct target_cell *cell
         for (size_t j = 0; j < columns; j++)
             distance[i * columns + j] = target_score_distance(first->truths.items[i]->target,
                                                               first->listed.items[j]->target, cell);
-    gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
+    gospa_pair(distance, rows, columns, TARGET_SCORE_CUTOFF, item_of, arena);
     for (size_t i = 0; i < rows; i++)
         if (item_of[i] < columns) { /* GOSPA_NONE is above all columns */
             first->truths.items[i]->partner = first->listed.items[item_of[i]]->target;
@@ -255,5 +253,5 @@ void target_score_scan(struct score_tally *tally, const struct frame *truth,
         pairs++;
         add_errors(tally->values[SCORE_ERROR], pair, arena);
     }
-    score_add_scan(tally, squares, pairs, truths, items, cell->cutoff);
+    score_add_scan(tally, squares, pairs, truths, items, TARGET_SCORE_CUTOFF);
 }

@@ -8,18 +8,16 @@
 #include "frame/frame.h"
 #include "score/score.h"
 
-/* The size of a cell, all positive, and the distance in cells from which on targets are no pair. */
+/* The size of a cell, all positive. */
 struct target_cell {
     double range_m, azimuth_rad, range_rate_mps;
-    double cutoff;
 };
 
-enum { TARGET_SCORE_CUTOFF = 2 }; /* cells, unless the user says otherwise */
+enum { TARGET_SCORE_CUTOFF = 2 }; /* targets so many cells apart are no pair */
 
 /* The cell of a sensor, from the view in the truth. An azimuth_rad of 0 stands for the view's
  * azimuth_cell_rad, or where that is absent for a twentieth of its field of view. */
-struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
-                                     double cutoff);
+struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad);
 
 /* True if its cells and its field of view have a width, so that there are distances in cells. */
 bool target_score_has_cells(const struct sensor_view *view);

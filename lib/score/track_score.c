@@ -201,7 +201,7 @@ static struct object_list true_objects(const struct frame *frame, enum track_tru
 }
 
 struct track_pairs track_score_pairs(const struct frame *frame, const struct track_list *list,
-                                     enum track_truth truth, const char *classes, double cutoff_m)
+                                     enum track_truth truth, const char *classes)
 {
     struct object_list objects = true_objects(frame, truth, classes);
     size_t rows = objects.list.count, columns = list->tracks.count;
@@ -213,7 +213,7 @@ struct track_pairs track_score_pairs(const struct frame *frame, const struct tra
             distance[i * columns + j] =
                 elementary_hypot(objects.list.items[i]->x_m - list->tracks.items[j].x_m,
                                  objects.list.items[i]->y_m - list->tracks.items[j].y_m);
-    gospa_pair(distance, rows, columns, cutoff_m, track_of, frame->arena);
+    gospa_pair(distance, rows, columns, TRACK_SCORE_CUTOFF_M, track_of, frame->arena);
     struct track_pairs pairs = {0};
     for (size_t i = 0; i < rows; i++) {
         struct track_pair *pair = list_add(&pairs.list, frame->arena);
@@ -232,14 +232,13 @@ struct track_pairs track_score_pairs(const struct frame *frame, const struct tra
 
 int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           const struct track_list *list, enum track_truth truth,
-                          const char *classes, double cutoff_m, struct track_memory *memory,
-                          struct arena *lasting)
+                          const char *classes, struct track_memory *memory, struct arena *lasting)
 {
     if (truth == TRACK_TRUTH_DETECTED && !frame_measured(frame)) {
         tally->listed_scans++;
         return 0;
     }
-    struct track_pairs found = track_score_pairs(frame, list, truth, classes, cutoff_m);
+    struct track_pairs found = track_score_pairs(frame, list, truth, classes);
     struct score_values *errors = tally->values[SCORE_ERROR];
     double squares = 0;
     int64_t switches = 0;
@@ -261,7 +260,7 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
         switches +=
             track_score_replaced(memory, frame->scene, object->id, track->id, lasting) != NULL;
     }
-    score_add_scan(tally, squares, pairs, objects, list->tracks.count, cutoff_m);
+    score_add_scan(tally, squares, pairs, objects, list->tracks.count, TRACK_SCORE_CUTOFF_M);
     return switches;
 }
 

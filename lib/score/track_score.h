@@ -54,7 +54,7 @@ int track_score_check(const struct frame *frame, enum track_truth truth, struct 
 bool track_score_counts(const struct frame *frame, const struct object *object,
                         enum track_truth truth, const char *classes);
 
-enum { TRACK_SCORE_CUTOFF_M = 5 }; /* unless the user says otherwise */
+enum { TRACK_SCORE_CUTOFF_M = 5 }; /* tracks so far off an object are not paired with it */
 
 /* The last track of every object, by scene. It lies in the arena it is given and grows with the
  * objects. A zeroed one is empty. */
@@ -88,15 +88,14 @@ struct track_pairs {
 /* Pairs as the score does: all expected objects, and then all false tracks, each in the order of
  * their ids. The pairs lie in the frame's arena. */
 struct track_pairs track_score_pairs(const struct frame *frame, const struct track_list *list,
-                                     enum track_truth truth, const char *classes, double cutoff_m);
+                                     enum track_truth truth, const char *classes);
 
 /* Adds one frame, with tracks in the order of their ids, to the tally. Pairs are recorded in
  * memory, which lies in the lasting arena. Where no sensor measured, no object can be detected: the
  * tracks are counted as a scan of their own. Returns the number of identity switches. */
 int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           const struct track_list *list, enum track_truth truth,
-                          const char *classes, double cutoff_m, struct track_memory *memory,
-                          struct arena *lasting);
+                          const char *classes, struct track_memory *memory, struct arena *lasting);
 
 /* Adds the classes of the frame's objects but the ego to those seen. */
 void track_score_note_classes(struct intern *seen, const struct frame *frame, struct arena *arena);

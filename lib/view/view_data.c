@@ -391,7 +391,7 @@ static int compare_targets(struct view_data *data, const struct frame *frame, st
         struct target_pairs pairs = {0};
         const struct sensor_view *view = found > 0 ? &truth->sensors.list.items[i] : NULL;
         if (found > 0 && target_score_is_compared(view->name, truth, frame)) {
-            struct target_cell cell = target_score_cell(view, 0, TARGET_SCORE_CUTOFF);
+            struct target_cell cell = target_score_cell(view, 0);
             pairs = target_score_pairs(view->name, truth, frame, &cell, frame->arena);
         }
         put_count(data, COLUMN_SCAN_TRUE, view != NULL && view->measured);
@@ -426,7 +426,7 @@ static int compare_tracks(struct view_data *data, const struct frame *frame, str
     if (found > 0)
         data->scenes.items[scene_of(data, frame)].tracked = true;
     if (found > 0)
-        pairs = track_score_pairs(frame, &tracks, TRACK_TRUTH_IN_VIEW, NULL, TRACK_SCORE_CUTOFF_M);
+        pairs = track_score_pairs(frame, &tracks, TRACK_TRUTH_IN_VIEW, NULL);
     for (size_t i = 0; i < pairs.list.count; i++) {
         const struct track_pair *pair = &pairs.list.items[i];
         const char *before = NULL;

@@ -144,14 +144,16 @@ def ways(frames, folder):
 def sinks(frames, folder):
     """Scores, which are lines too; their truth waits as well."""
     cells = CHAIN.rpartition(" | ")[0]
-    truth = os.path.join(folder, "truth.jsonl")
+    truth, begun = os.path.join(folder, "truth.jsonl"), os.path.join(folder, "begun.jsonl")
+    true_lines = run(["glint", "-c", cells + " | glint-noise-none"], b"".join(frames)).splitlines(keepends=True)
     with open(truth, "wb") as out:
-        out.write(run(["glint", "-c", cells + " | glint-noise-none"], b"".join(frames)))
+        out.writelines(true_lines)
     text = f"{CHAIN} | glint-score --truth {truth}"
     seen, expected = 0, []
     for count in range(1, len(frames) + 1):
-        lines = run(["glint", "-c", text.replace("glint-score", "glint-score --partial")],
-                    b"".join(frames[:count])).splitlines()
+        with open(begun, "wb") as out:
+            out.writelines(true_lines[:count])
+        lines = run(["glint", "-c", text.replace(truth, begun)], b"".join(frames[:count])).splitlines()
         expected.append(lines[seen:])
         seen = len(lines)
     for program in ("bash", "glint"):

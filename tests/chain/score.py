@@ -22,6 +22,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 COMPONENTS = ["range_m", "azimuth_rad", "range_rate_mps", "amplitude_db"]
 TRACKED = ["position_m", "velocity_mps", "nees"]
 MOST = 11  # the most targets a side for which trying all assignments is feasible
+CUTOFF, CUTOFF_M = 2, 5  # pairs are nearer: targets in cells, tracks in metres
 checks = failures = 0
 
 
@@ -158,7 +159,7 @@ def turn(angle):
     return math.remainder(angle, math.tau)
 
 
-def scan_targets(truth, listed, view, cutoff, azimuth_cell):
+def scan_targets(truth, listed, view, azimuth_cell):
     width = azimuth_cell or view["field_of_view_rad"] / 20
 
     def apart(a, b):
@@ -167,7 +168,7 @@ def scan_targets(truth, listed, view, cutoff, azimuth_cell):
                           turn(a["azimuth_rad"] - b["azimuth_rad"]) / width)
 
     tally = Tally()
-    pairs = tally.scan([[apart(a, b) for b in listed] for a in truth], truth, listed, cutoff)
+    pairs = tally.scan([[apart(a, b) for b in listed] for a in truth], truth, listed, CUTOFF)
     for name in COMPONENTS:
         tally.apart[name] = [listed[j][name] - truth[i][name] for i, j in pairs]
         tally.truth[name] = [target[name] for target in truth]
@@ -221,7 +222,7 @@ def thin(rng, frames):
     return frames
 
 
-def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
+def check_targets(bench, rng, source, suite, azimuth_cell):
     bench.run(f"{source} | glint-extract | glint-ideal --sensors {suite} | glint-sensor -o cells.jsonl")
     truth = thin(rng, bench.run("glint-noise-none cells.jsonl"))
     listed = thin(rng, bench.run("glint-noise-gauss cells.jsonl"))
@@ -230,7 +231,7 @@ def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
     rng.shuffle(shuffled)
     shuffled.sort(key=lambda frame: frame["frame"])
     bench.write("list.jsonl", shuffled)
-    command = f"glint-score --truth truth.jsonl list.jsonl --cutoff {cutoff}"
+    command = "glint-score --truth truth.jsonl list.jsonl"
     if azimuth_cell is not None:
         command += f" --azimuth-cell-rad {azimuth_cell}"
     lines = {(line["scene"], line["frame"]): line for line in bench.run(command)}
@@ -243,7 +244,7 @@ def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
               f"{source}, frame {a['frame']}: other sensors")
         for view, score in zip(views, line["sensors"]):
             tally = scan_targets([t for t in a["targets"] if t["sensor"] == view["name"]],
-                                 [t for t in b["targets"] if t["sensor"] == view["name"]], view, cutoff, azimuth_cell)
+                                 [t for t in b["targets"] if t["sensor"] == view["name"]], view, azimuth_cell)
             tally.compare(score, f"{source} {a['scene']} {a['frame']} {view['name']}")
             sensors.setdefault(view["name"], Tally()).add(tally)
     summary = bench.run(command + " --summary")[0]
@@ -353,20 +354,20 @@ def counts(frame, thing, which):
         or (which == "detected" and thing["id"] in echoing))
 
 
-def check_tracks(bench, rng, frames, which, cutoff):
+def check_tracks(bench, rng, frames, which):
     names, last = {}, {}
     lines = [{"scene": frame["scene"], "frame": frame["frame"], "time_s": frame["time_s"],
               "tracks": invented_tracks(rng, frame, names)} for frame in frames]
     bench.write("frames.jsonl", frames)
     bench.write("tracks.jsonl", lines)
-    command = f"glint-score-tracks --tracks tracks.jsonl frames.jsonl --objects {which} --cutoff-m {cutoff}"
+    command = f"glint-score-tracks --tracks tracks.jsonl frames.jsonl --objects {which}"
     scores, everything, total = bench.run(command), Tally(), 0
     check(len(scores) == len(frames), f"{len(scores)} lines of tracks for {len(frames)} frames")
     for frame, line, score in zip(frames, lines, scores):
         truth = [thing for thing in frame["objects"] if counts(frame, thing, which)]
         tally, tracks = Tally(), line["tracks"]
         pairs = tally.scan([[math.dist((o["x_m"], o["y_m"]), (t["x_m"], t["y_m"])) for t in tracks] for o in truth],
-                           truth, tracks, cutoff)
+                           truth, tracks, CUTOFF_M)
         tally.apart["position_m"] = [math.dist((truth[i]["x_m"], truth[i]["y_m"]), (tracks[j]["x_m"], tracks[j]["y_m"]))
                                      for i, j in pairs]
         tally.apart["velocity_mps"] = [math.hypot(truth[i]["vx_mps"] - tracks[j]["vx_mps"],
@@ -478,16 +479,16 @@ def main():
     rng = random.Random(7)
     with tempfile.TemporaryDirectory(prefix="glint-score.") as folder:
         bench = Bench(sys.argv[1], folder)
-        for source, suite, cutoff, azimuth_cell in (
-                ("glint-traffic-random --density medium --frames 60", "srr24-pair-every-frame", 2, None),
-                ("glint-traffic-random --density dense --frames 40 --seed 3", "corner77-every-frame", 20, 0.1),
-                ("glint-traffic cut-in", "corner77", 1, 0.02)):
-            check_targets(bench, rng, source, suite, cutoff, azimuth_cell)
+        for source, suite, azimuth_cell in (
+                ("glint-traffic-random --density medium --frames 60", "srr24-pair-every-frame", None),
+                ("glint-traffic-random --density dense --frames 40 --seed 3", "corner77-every-frame", 0.1),
+                ("glint-traffic cut-in", "corner77", 0.02)):
+            check_targets(bench, rng, source, suite, azimuth_cell)
         # Frames of 20 Hz last longer than the cycle of this radar, so that each has a scan.
         frames = bench.run("glint-traffic highway-straight --radius-m 60 | glint-extract"
                            " | glint-ideal --sensors srr24-pair | glint-sensor | glint-noise")[:80]
-        for which, cutoff in (("all", 5), ("in_view", 3), ("detected", 5)):
-            check_tracks(bench, rng, frames, which, cutoff)
+        for which in ("all", "in_view", "detected"):
+            check_tracks(bench, rng, frames, which)
         check_ensemble(bench)
     print(f"score: {checks} checks, {failures} failed")
     return 1 if failures else 0

@@ -68,26 +68,21 @@ static void frames_meet_in_every_interleaving(void **state)
         for (int i = 0; i < SCENES * FRAMES; i++)
             assert_int_equal(ask(reference, order[i], next[order[i]]++, &diag), 1);
         assert_int_equal(reference_stream_finish(reference, &diag), 0);
-        assert_int_equal(reference_stream_unmatched(reference), 0);
-        assert_int_equal(reference_stream_missing(reference), 0);
         reference_stream_close(reference);
     }
 }
 
-/* Each stream lacks some frames; all others meet, and each that lacks is counted once. */
-static void frames_of_one_stream_alone_are_counted(void **state)
+/* Each stream lacks some frames; all others meet. */
+static void frames_meet_where_either_stream_lacks_some(void **state)
 {
     struct scratch *scratch = *state;
     uint64_t sample = 2;
     for (int round = 0; round < 50; round++) {
         int order[SCENES * FRAMES], next[SCENES] = {0};
         bool there[SCENES][FRAMES], wanted[SCENES][FRAMES];
-        int64_t left = 0, absent = 0;
         for (int i = 0; i < SCENES * FRAMES; i++) {
             there[i % SCENES][i / SCENES] = sample_bits(&sample) % 4 != 0;
             wanted[i % SCENES][i / SCENES] = sample_bits(&sample) % 4 != 0;
-            left += there[i % SCENES][i / SCENES] && !wanted[i % SCENES][i / SCENES];
-            absent += !there[i % SCENES][i / SCENES] && wanted[i % SCENES][i / SCENES];
         }
         FILE *file = fopen(scratch->path, "w");
         interleave(&sample, order);
@@ -105,8 +100,6 @@ static void frames_of_one_stream_alone_are_counted(void **state)
                 assert_int_equal(ask(reference, order[i], next[order[i]], &diag),
                                  there[order[i]][next[order[i]]]);
         assert_int_equal(reference_stream_finish(reference, &diag), 0);
-        assert_int_equal(reference_stream_unmatched(reference), left);
-        assert_int_equal(reference_stream_missing(reference), absent);
         reference_stream_close(reference);
     }
 }
@@ -160,7 +153,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_meet_in_every_interleaving),
-        cmocka_unit_test(frames_of_one_stream_alone_are_counted),
+        cmocka_unit_test(frames_meet_where_either_stream_lacks_some),
         cmocka_unit_test(a_frame_without_a_line_is_refused),
         cmocka_unit_test(a_line_without_a_frame_is_refused_with_its_place),
         cmocka_unit_test(a_file_that_is_not_there_is_refused),

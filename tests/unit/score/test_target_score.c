@@ -10,7 +10,7 @@
 
 enum { MOST = 8 };
 
-static const struct target_cell cell = {0.5, 0.1, 0.25, 2};
+static const struct target_cell cell = {0.5, 0.1, 0.25};
 
 /* A frame of one radar with these targets. */
 struct score_scene {
@@ -67,10 +67,10 @@ static void the_azimuth_cell_is_the_option_the_suites_or_a_twentieth_of_the_view
 {
     (void)state;
     struct sensor_view view = {.cell_range_m = 1, .cell_range_rate_mps = 2, .field_of_view_rad = 3};
-    assert_close(target_score_cell(&view, 0, 2).azimuth_rad, 0.15, 1e-16);
+    assert_close(target_score_cell(&view, 0).azimuth_rad, 0.15, 1e-16);
     view.azimuth_cell_rad = 0.02;
-    assert_close(target_score_cell(&view, 0, 2).azimuth_rad, 0.02, 0);
-    assert_close(target_score_cell(&view, 0.07, 2).azimuth_rad, 0.07, 0);
+    assert_close(target_score_cell(&view, 0).azimuth_rad, 0.02, 0);
+    assert_close(target_score_cell(&view, 0.07).azimuth_rad, 0.07, 0);
 }
 
 static void one_cell_is_a_distance_of_one_in_each_component(void **state)
@@ -205,7 +205,7 @@ static void groups_are_paired_as_cheaply_as_whole_lists(void **state)
         for (size_t i = 0; i < rows * columns; i++)
             distance[i] = target_score_distance(&truth.targets[i / columns],
                                                 &list.targets[i % columns], &cell);
-        size_t wanted = gospa_pair(distance, rows, columns, cell.cutoff, item_of, &arena);
+        size_t wanted = gospa_pair(distance, rows, columns, TARGET_SCORE_CUTOFF, item_of, &arena);
         for (size_t i = 0; i < rows; i++)
             whole += item_of[i] < columns ? pow(distance[i * columns + item_of[i]], 2) : 0;
         assert_close(cost_of(squares, count, rows + columns),
