@@ -119,6 +119,9 @@ const struct effect effect_clutter = {
     .left_out_when = "clutter_per_m2 or clutter_ercs is 0, or the frame has no objects",
     .cost = "a draw per point on the ground that is not too weak",
     .home = EFFECT_HOME_SENSOR,
+    .members = {{EFFECT_CONDITION(clutter_per_m2), {5, 0.2, EFFECT_BY_LOGARITHM, 1e-5, 3e-3}},
+                {EFFECT_CONDITION(clutter_ercs), {6, 0, EFFECT_BY_LOGARITHM, 0.01, 1}},
+                {EFFECT_CONDITION(clutter_overdispersion), {7, 0, EFFECT_EVENLY, 0, 4}}},
     .described = described,
     .add_echoes = add_echoes,
 };

@@ -20,6 +20,16 @@ const char *const effect_homes[] = {
     NULL,
 };
 
+const struct effect_member *effect_random_condition(int number)
+{
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        for (const struct effect_member *member = effect_table[i]->members; member->size > 0;
+             member++)
+            if (member->random.number == number)
+                return member;
+    return NULL;
+}
+
 /* Removes the first effect from a set that is not empty, and returns it. */
 static enum effect_id take_first(uint64_t *set)
 {
@@ -56,16 +66,27 @@ static double shown_instant_s(const struct frame *frame, const struct sensor *se
     return instant_s - (effects_enabled(selection, EFFECT_LATENCY) ? sensor->latency_s : 0);
 }
 
+/* Is any bit of a member set in the document that has it? */
+static bool is_set(const struct effect_member *member, const void *document)
+{
+    const char *bytes = (const char *)document + member->offset;
+    for (size_t i = 0; i < member->size; i++)
+        if (bytes[i] != 0)
+            return true;
+    return false;
+}
+
 static bool is_described(const struct effect *effect, const struct effect_scan *scan)
 {
-    static const char zeros[sizeof(double)];
+    if (effect->described != NULL)
+        return effect->described(scan);
     for (const struct effect_member *member = effect->members; member->size > 0; member++) {
-        const void *owner =
+        const void *document =
             member->of_conditions ? (const void *)&scan->frame->conditions : scan->sensor;
-        if (memcmp((const char *)owner + member->offset, zeros, member->size) != 0)
+        if (is_set(member, document))
             return true;
     }
-    return effect->described != NULL && effect->described(scan);
+    return false;
 }
 
 struct effect_scan effect_begin(const struct frame *frame, const struct sensor *sensor,

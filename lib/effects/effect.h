@@ -75,10 +75,24 @@ struct effect_measurement {
     struct margins margins;
 };
 
+/* How random scenes draw a condition (traffic/random_traffic.h): evenly from low to high, or evenly
+ * in its logarithm. */
+enum effect_random_law { EFFECT_EVENLY, EFFECT_BY_LOGARITHM };
+
+struct effect_random {
+    /* The place among the draws, from 1. All come from one sequence, so a new condition takes the
+     * number after the greatest one: what was drawn before stays. */
+    int number;
+    double share; /* of scenes that have it; 0: those that have the condition drawn before it */
+    enum effect_random_law law;
+    double low, high; /* of a number or a choice, or of the length of a list */
+};
+
 /* A number, choice or flag of the sensor, or of the scene's conditions. */
 struct effect_member {
     size_t offset, size;
     bool of_conditions;
+    struct effect_random random; /* of a condition */
 };
 
 #define EFFECT_MEMBER(owner, member) offsetof(owner, member), sizeof(((owner *)0)->member)
@@ -97,8 +111,8 @@ struct effect {
 
     enum effect_home home;
 
-    /* The documents describe the effect for a scan if any bit of these members (at most 3) is set,
-     * or if `described` returns true. */
+    /* The members, at most 3, of the documents that describe the effect. They do so for a scan if
+     * any bit of a member is set, or, with the hook `described`, if that returns true. */
     struct effect_member members[4];
     bool (*described)(const struct effect_scan *scan);
     /* Works out constants of the scan, which lie in the frame's arena. The hook receive finds them
@@ -125,6 +139,9 @@ static inline bool effect_has_cause(const struct effect *effect)
 {
     return effect->described != NULL || effect->members[0].size > 0;
 }
+
+/* The condition that random scenes draw as this number, from 1; NULL: they draw fewer. */
+const struct effect_member *effect_random_condition(int number);
 
 /* Begins a scan at a home. Notes in the selection's log, for each effect of this home that has a
  * cause, whether the scan simulates it. */

@@ -16,7 +16,7 @@ const struct effect effect_fog = {
     .left_out_when = "fog_gpm3 is 0",
     .cost = "an exponential per echo",
     .home = EFFECT_HOME_SENSOR,
-    .members = {{EFFECT_CONDITION(fog_gpm3)}},
+    .members = {{EFFECT_CONDITION(fog_gpm3), {2, 0.15, EFFECT_BY_LOGARITHM, 0.005, 1}}},
     .begin = begin,
     .receive = effect_attenuate,
 };

@@ -63,6 +63,8 @@ const struct effect effect_interference = {
     .left_out_when = "there are no interferers or the sensor has no receiver_bandwidth_hz",
     .cost = "a received power per interferer",
     .home = EFFECT_HOME_SENSOR,
+    .members = {{EFFECT_SENSOR(receiver_bandwidth_hz)},
+                {EFFECT_CONDITION(interferers), {4, 0.2, EFFECT_EVENLY, 1, 2}}},
     .described = described,
     .interference = interference,
 };

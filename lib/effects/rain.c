@@ -16,7 +16,7 @@ const struct effect effect_rain = {
     .left_out_when = "rain_mmph is 0",
     .cost = "an exponential per echo",
     .home = EFFECT_HOME_SENSOR,
-    .members = {{EFFECT_CONDITION(rain_mmph)}},
+    .members = {{EFFECT_CONDITION(rain_mmph), {1, 0.4, EFFECT_BY_LOGARITHM, 0.05, 100}}},
     .begin = begin,
     .receive = effect_attenuate,
 };

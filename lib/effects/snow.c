@@ -15,7 +15,7 @@ const struct effect effect_snow = {
     .left_out_when = "snow_mmph is 0",
     .cost = "an exponential per echo",
     .home = EFFECT_HOME_SENSOR,
-    .members = {{EFFECT_CONDITION(snow_mmph)}},
+    .members = {{EFFECT_CONDITION(snow_mmph), {8, 0.15, EFFECT_BY_LOGARITHM, 0.1, 10}}},
     .begin = begin,
     .receive = effect_attenuate,
 };

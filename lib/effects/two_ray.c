@@ -61,6 +61,8 @@ const struct effect effect_two_ray = {
     .cost = "a Fresnel coefficient per echo",
     .scene = "the road mirrors {object}",
     .home = EFFECT_HOME_SENSOR,
+    .members = {{EFFECT_SENSOR(mount_z_m)},
+                {EFFECT_CONDITION(road), {3, 0.5, EFFECT_EVENLY, ROAD_ASPHALT, ROAD_CONCRETE}}},
     .described = described,
     .begin = begin,
     .receive = receive,

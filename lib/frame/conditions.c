@@ -14,35 +14,25 @@ static const struct field interferer_fields[] = {
 static const struct record interferer_record = {FIELD_TABLE(
     struct interferer, interferer_fields, "interferer", "An object with a radar of its own.")};
 
-#define NUMBER(member, most, help, ...) {OPTIONAL_REAL(struct conditions, member, 0, most, help)},
-#define CHOICE(member, choices, help, ...)                                                         \
+#define NUMBER(member, most, help) {OPTIONAL_REAL(struct conditions, member, 0, most, help)},
+#define CHOICE(type, member, choices, help)                                                        \
     {OPTIONAL_CHOICE(struct conditions, member, choices, help)},
-#define LIST(member, record, help, ...) {OPTIONAL_LIST(struct conditions, member, record, help)},
+#define LIST(type, member, record, help) {OPTIONAL_LIST(struct conditions, member, record, help)},
 static const struct field condition_fields[] = {
 #include "frame/conditions.def"
     {0},
 };
 
 #define UNSAID (-1)
-#define NUMBER(member, most, help, ...)                                                            \
+#define NUMBER(member, most, help)                                                                 \
     {OPTIONAL_REAL(struct conditions, member, 0, most, help), .absent = UNSAID},
-#define CHOICE(member, choices, help, ...)                                                         \
+#define CHOICE(type, member, choices, help)                                                        \
     {OPTIONAL_CHOICE(struct conditions, member, choices, help), .absent = UNSAID},
 #define LIST(...)
 static const struct field change_fields[] = {
 #include "frame/conditions.def"
     {0},
 };
-
-#define DRAW(kind, member, draw, share, law, low, high)                                            \
-    [(draw)-1] = {kind, offsetof(struct conditions, member), share, law, low, high},
-#define NUMBER(member, most, help, ...) DRAW(FIELD_REAL, member, __VA_ARGS__)
-#define CHOICE(member, choices, help, ...) DRAW(FIELD_CHOICE, member, __VA_ARGS__)
-#define LIST(member, record, help, ...) DRAW(FIELD_LIST, member, __VA_ARGS__)
-const struct condition_draw conditions_draws[] = {
-#include "frame/conditions.def"
-};
-const size_t conditions_draw_count = sizeof conditions_draws / sizeof conditions_draws[0];
 
 const struct record conditions_record = {
     FIELD_TABLE(struct conditions, condition_fields, "conditions",

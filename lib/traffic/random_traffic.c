@@ -6,6 +6,7 @@
 #include "base/elementary.h"
 #include "base/hash.h"
 #include "base/units.h"
+#include "effects/effect.h"
 
 #define LANE_M 3.5
 #define TRIES 32
@@ -271,11 +272,11 @@ static struct interferer draw_interferer(struct random_sequence *sequence,
 }
 
 /* Draws interferers in the cyclic order of the objects, so that none is drawn twice. */
-static void draw_interferers(struct random_sequence *sequence, const struct condition_draw *draw,
+static void draw_interferers(struct random_sequence *sequence, const struct effect_random *random,
                              struct frame *frame)
 {
     int64_t others = (int64_t)frame->objects.count - 1;
-    int64_t count = random_sequence_whole(sequence, (int64_t)draw->low, (int64_t)draw->high);
+    int64_t count = random_sequence_whole(sequence, (int64_t)random->low, (int64_t)random->high);
     int64_t place = random_sequence_whole(sequence, 0, others > 0 ? others - 1 : 0);
     for (int64_t i = 0; i < count && i < others; i++) {
         *list_add(&frame->conditions.interferers, frame->arena) =
@@ -284,35 +285,46 @@ static void draw_interferers(struct random_sequence *sequence, const struct cond
     }
 }
 
-static double draw_number(struct random_sequence *sequence, const struct condition_draw *draw)
+static double draw_number(struct random_sequence *sequence, const struct effect_random *random)
 {
-    if (draw->law == CONDITION_EVENLY)
-        return random_sequence_between(sequence, draw->low, draw->high);
-    return draw->low * elementary_pow(draw->high / draw->low, random_sequence_next(sequence));
+    if (random->law == EFFECT_EVENLY)
+        return random_sequence_between(sequence, random->low, random->high);
+    return random->low * elementary_pow(random->high / random->low, random_sequence_next(sequence));
 }
 
-static void draw_condition(struct random_sequence *sequence, const struct condition_draw *draw,
+/* The kind of a condition, which is a member of struct conditions at this offset. */
+static enum field_kind kind_of(const struct effect_member *member)
+{
+    const struct field *field = conditions_record.fields;
+    while (field->offset != member->offset)
+        field++;
+    return field->kind;
+}
+
+static void draw_condition(struct random_sequence *sequence, const struct effect_member *condition,
                            struct frame *frame)
 {
-    void *member = (char *)&frame->conditions + draw->offset;
-    if (draw->kind == FIELD_LIST)
-        draw_interferers(sequence, draw, frame);
-    else if (draw->kind == FIELD_CHOICE)
+    void *member = (char *)&frame->conditions + condition->offset;
+    const struct effect_random *random = &condition->random;
+    enum field_kind kind = kind_of(condition);
+    if (kind == FIELD_LIST)
+        draw_interferers(sequence, random, frame);
+    else if (kind == FIELD_CHOICE)
         *(int *)member =
-            (int)random_sequence_whole(sequence, (int64_t)draw->low, (int64_t)draw->high);
+            (int)random_sequence_whole(sequence, (int64_t)random->low, (int64_t)random->high);
     else
-        *(double *)member = draw_number(sequence, draw);
+        *(double *)member = draw_number(sequence, random);
 }
 
 void random_traffic_conditions(struct random_address address, struct frame *frame)
 {
     struct random_sequence sequence = random_sequence_at(address, RANDOM_CONDITIONS);
+    const struct effect_member *condition;
     bool has = false;
-    for (size_t i = 0; i < conditions_draw_count; i++) {
-        const struct condition_draw *draw = &conditions_draws[i];
-        if (draw->share > 0)
-            has = random_sequence_chance(&sequence, draw->share);
+    for (int number = 1; (condition = effect_random_condition(number)) != NULL; number++) {
+        if (condition->random.share > 0)
+            has = random_sequence_chance(&sequence, condition->random.share);
         if (has)
-            draw_condition(&sequence, draw, frame);
+            draw_condition(&sequence, condition, frame);
     }
 }

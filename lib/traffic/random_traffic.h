@@ -66,7 +66,8 @@ void random_traffic_fill(const struct random_traffic *traffic, int64_t number, s
 void random_traffic_roadside(struct random_address address, struct frame *frame);
 
 /* Draws road, weather and the objects with a radar (interferers) at the address of a snapshot or a
- * moving scene, by the laws in frame/conditions.def. There are at most as many interferers as
+ * moving scene, by the laws of the effects that read them
+ * (effects/effect.h). There are at most as many interferers as
  * objects beside the ego; each has 0 to 40 dBm and chirps of 1 to 50 MHz/us up or down, and hits up
  * to 30 % of the chirps. */
 void random_traffic_conditions(struct random_address address, struct frame *frame);

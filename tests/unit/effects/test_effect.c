@@ -33,6 +33,44 @@ static void an_effect_acts_at_its_home_alone(void **state)
     }
 }
 
+/* The effect's condition of this field that random scenes draw. */
+static const struct effect_member *drawn_member(const struct field *field)
+{
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        for (const struct effect_member *member = effect_table[i]->members; member->size > 0;
+             member++)
+            if (member->of_conditions && member->offset == field->offset &&
+                member->random.number > 0)
+                return member;
+    fail_msg("no effect says how random scenes draw %s", field->name);
+    return NULL;
+}
+
+/* Each draw has a number of its own, from 1 without a gap, and the first a share. */
+static void what_random_scenes_draw_is_what_documents_may_say(void **state)
+{
+    (void)state;
+    int draws = 0;
+    for (const struct field *field = conditions_record.fields; field->name != NULL; field++) {
+        const struct effect_member *member = drawn_member(field);
+        const struct effect_random *random = &member->random;
+        if (effect_random_condition(random->number) != member)
+            fail_msg("%s is draw %d, as another condition is", field->name, random->number);
+        assert_true(random->share >= 0 && random->share <= 1 && random->low <= random->high);
+        assert_true(random->low > 0 || random->law == EFFECT_EVENLY);
+        if (field->kind == FIELD_REAL)
+            assert_true(random->low >= field->low && random->high <= field->high);
+        if (field->kind == FIELD_CHOICE)
+            assert_true(field->choices[0] && random->low == 1 &&
+                        field->choices[(int)random->high + 1] == NULL);
+        draws++;
+    }
+    for (int number = 1; number <= draws; number++)
+        if (effect_random_condition(number) == NULL)
+            fail_msg("no condition is draw %d of the %d of random scenes", number, draws);
+    assert_true(effect_random_condition(1)->random.share > 0);
+}
+
 static uint64_t effects_with_a_cause(enum effect_home home)
 {
     uint64_t effects = 0;
@@ -194,6 +232,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(every_effect_says_what_it_is),
         EFFECT_TEST(an_effect_acts_at_its_home_alone),
+        EFFECT_TEST(what_random_scenes_draw_is_what_documents_may_say),
         EFFECT_TEST(what_no_document_describes_is_left_out_and_noted),
         EFFECT_TEST(a_member_describes_its_effect_and_no_other),
         EFFECT_TEST(flags_choices_and_limits_describe_their_effects),

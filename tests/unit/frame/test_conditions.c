@@ -69,28 +69,6 @@ static void a_change_of_one_member_leaves_all_others(void **state)
         }
 }
 
-/* Of its own field; the first draw has a share, and none is missing. */
-static void what_random_scenes_draw_is_what_documents_may_say(void **state)
-{
-    (void)state;
-    size_t rows = 0;
-    assert_true(conditions_draws[0].share > 0);
-    for (const struct field *field = conditions_record.fields; field->name != NULL; field++) {
-        const struct condition_draw *draw = conditions_draws;
-        while (draw->offset != field->offset || draw->kind != field->kind)
-            assert_true(++draw < conditions_draws + conditions_draw_count);
-        assert_true(draw->share >= 0 && draw->share <= 1 && draw->low <= draw->high);
-        assert_true(draw->low > 0 || draw->law == CONDITION_EVENLY);
-        if (field->kind == FIELD_REAL)
-            assert_true(draw->low >= field->low && draw->high <= field->high);
-        if (field->kind == FIELD_CHOICE)
-            assert_true(field->choices[0] && draw->low == 1 &&
-                        field->choices[(int)draw->high + 1] == NULL);
-        rows++;
-    }
-    assert_int_equal(rows, conditions_draw_count);
-}
-
 static void impossible_conditions_are_refused(void **state)
 {
     (void)state;
@@ -117,7 +95,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_said_replaces_and_what_is_not_stays),
         cmocka_unit_test(a_change_of_one_member_leaves_all_others),
-        cmocka_unit_test(what_random_scenes_draw_is_what_documents_may_say),
         cmocka_unit_test(impossible_conditions_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

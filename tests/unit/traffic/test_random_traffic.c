@@ -7,6 +7,7 @@
 
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
+#include "effects/effect.h"
 #include "traffic/random_traffic.h"
 #include "traffic/scenario.h"
 
@@ -279,22 +280,23 @@ static void roads_and_interferers_come_in_their_shares(void **state)
 
 /* The share of scenes that have a condition, and its law: the middle of its range, evenly or in the
  * logarithm, is in the middle of what is drawn. */
-static void every_number_is_drawn_as_its_row_says(void **state)
+static void every_number_is_drawn_as_its_effect_says(void **state)
 {
     enum { FRAMES = 20000 };
     double share = 0;
-    for (size_t row = 0; row < conditions_draw_count; row++) {
-        const struct condition_draw *draw = &conditions_draws[row];
+    const struct effect_member *condition;
+    for (int i = 1; (condition = effect_random_condition(i)) != NULL; i++) {
+        const struct effect_random *draw = &condition->random;
         share = draw->share > 0 ? draw->share : share;
-        if (draw->kind != FIELD_REAL)
+        if (condition->size != sizeof(double))
             continue;
-        bool evenly = draw->law == CONDITION_EVENLY;
+        bool evenly = draw->law == EFFECT_EVENLY;
         double middle = evenly ? (draw->low + draw->high) / 2 : sqrt(draw->low * draw->high);
         int has = 0, above = 0;
         for (int64_t number = 0; number < FRAMES; number++) {
             const struct frame *frame = in_conditions(*state, TRAFFIC_SPARSE, number);
             double value;
-            memcpy(&value, (const char *)&frame->conditions + draw->offset, sizeof value);
+            memcpy(&value, (const char *)&frame->conditions + condition->offset, sizeof value);
             assert_true(value == 0 || (value > draw->low && value < draw->high));
             has += value > 0;
             above += value > middle;
@@ -376,7 +378,7 @@ int main(void)
         cmocka_unit_test(a_snapshot_is_drawn_by_its_number_alone),
         cmocka_unit_test(seed_number_and_density_each_make_another_snapshot),
         cmocka_unit_test(roads_and_interferers_come_in_their_shares),
-        cmocka_unit_test(every_number_is_drawn_as_its_row_says),
+        cmocka_unit_test(every_number_is_drawn_as_its_effect_says),
         cmocka_unit_test(conditions_of_few_objects_have_few_interferers),
         cmocka_unit_test(conditions_are_drawn_by_number_and_change_no_object),
         cmocka_unit_test(strips_run_along_the_road_on_both_sides_and_change_no_object),
