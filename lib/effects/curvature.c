@@ -9,4 +9,5 @@ const struct effect effect_curvature = {
     .cost = "a square root per plane",
     .scene = "{object} has curved sides",
     .home = EFFECT_HOME_IDEAL,
+    .members = {{EFFECT_SENSOR(curved_sides)}},
 };

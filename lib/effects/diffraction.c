@@ -9,4 +9,5 @@ const struct effect effect_diffraction = {
     .cost = "four edges per sight line and object near it",
     .scene = "{object} is seen around an edge",
     .home = EFFECT_HOME_IDEAL,
+    .members = {{EFFECT_SENSOR(diffraction)}},
 };

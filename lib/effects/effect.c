@@ -66,7 +66,14 @@ static double shown_instant_s(const struct frame *frame, const struct sensor *se
     return instant_s - (effects_enabled(selection, EFFECT_LATENCY) ? sensor->latency_s : 0);
 }
 
-/* Is any bit of a member set in the document that has it? */
+static bool has_member_of(const struct effect *effect, enum effect_owner owner)
+{
+    for (const struct effect_member *member = effect->members; member->size > 0; member++)
+        if (member->owner == owner)
+            return true;
+    return false;
+}
+
 static bool is_set(const struct effect_member *member, const void *document)
 {
     const char *bytes = (const char *)document + member->offset;
@@ -76,17 +83,42 @@ static bool is_set(const struct effect_member *member, const void *document)
     return false;
 }
 
+/* Is any member of this owner, whose values lie in the document, set? */
+static bool describes(enum effect_owner owner, const void *document, const struct effect *effect)
+{
+    for (const struct effect_member *member = effect->members; member->size > 0; member++)
+        if (member->owner == owner && is_set(member, document))
+            return true;
+    return false;
+}
+
 static bool is_described(const struct effect *effect, const struct effect_scan *scan)
 {
     if (effect->described != NULL)
         return effect->described(scan);
-    for (const struct effect_member *member = effect->members; member->size > 0; member++) {
-        const void *document =
-            member->of_conditions ? (const void *)&scan->frame->conditions : scan->sensor;
-        if (is_set(member, document))
-            return true;
-    }
-    return false;
+    return describes(EFFECT_OWNER_SENSOR, scan->sensor, effect) ||
+           describes(EFFECT_OWNER_CONDITIONS, &scan->frame->conditions, effect) ||
+           describes(EFFECT_OWNER_FRAME, scan->frame, effect);
+}
+
+uint64_t effect_missing(const struct sensor *sensor)
+{
+    uint64_t missing = 0;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (has_member_of(effect_table[i], EFFECT_OWNER_SENSOR) &&
+            !describes(EFFECT_OWNER_SENSOR, sensor, effect_table[i]))
+            missing |= EFFECT_BIT(i);
+    return missing;
+}
+
+uint64_t effect_of_scenes(void)
+{
+    uint64_t effects = 0;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (effect_table[i]->members[0].size > 0 &&
+            !has_member_of(effect_table[i], EFFECT_OWNER_SENSOR))
+            effects |= EFFECT_BIT(i);
+    return effects;
 }
 
 struct effect_scan effect_begin(const struct frame *frame, const struct sensor *sensor,

@@ -88,16 +88,19 @@ struct effect_random {
     double low, high; /* of a number or a choice, or of the length of a list */
 };
 
-/* A number, choice or flag of the sensor, or of the scene's conditions. */
+/* A member of the sensor, of the scene's conditions or of the frame. */
+enum effect_owner { EFFECT_OWNER_SENSOR, EFFECT_OWNER_CONDITIONS, EFFECT_OWNER_FRAME };
+
 struct effect_member {
     size_t offset, size;
-    bool of_conditions;
+    enum effect_owner owner;
     struct effect_random random; /* of a condition */
 };
 
 #define EFFECT_MEMBER(owner, member) offsetof(owner, member), sizeof(((owner *)0)->member)
-#define EFFECT_SENSOR(member) EFFECT_MEMBER(struct sensor, member), false
-#define EFFECT_CONDITION(member) EFFECT_MEMBER(struct conditions, member), true
+#define EFFECT_SENSOR(member) EFFECT_MEMBER(struct sensor, member), EFFECT_OWNER_SENSOR
+#define EFFECT_CONDITION(member) EFFECT_MEMBER(struct conditions, member), EFFECT_OWNER_CONDITIONS
+#define EFFECT_FRAME(member) EFFECT_MEMBER(struct frame, member), EFFECT_OWNER_FRAME
 
 struct effect {
     /* Texts for people, all without a period. */
@@ -111,8 +114,8 @@ struct effect {
 
     enum effect_home home;
 
-    /* The members, at most 3, of the documents that describe the effect. They do so for a scan if
-     * any bit of a member is set, or, with the hook `described`, if that returns true. */
+    /* The members, at most 3, that describe the effect. They do so for a scan if any bit of one is
+     * set; with the hook `described` if that returns true. Ideal decides for its own effects. */
     struct effect_member members[4];
     bool (*described)(const struct effect_scan *scan);
     /* Works out constants of the scan, which lie in the frame's arena. The hook receive finds them
@@ -133,6 +136,12 @@ struct effect {
 
 extern const struct effect *const effect_table[EFFECT_COUNT];
 extern const char *const effect_homes[]; /* names of stages, by enum effect_home */
+
+/* The effects that members of sensors describe, and no member of this one. */
+uint64_t effect_missing(const struct sensor *sensor);
+
+/* The effects that the scene alone describes, whatever the sensor. */
+uint64_t effect_of_scenes(void);
 
 /* Does the effect have members or the hook `described`? */
 static inline bool effect_has_cause(const struct effect *effect)

@@ -9,4 +9,5 @@ const struct effect effect_elevation = {
     .cost = "two square roots and an angle per reflector",
     .scene = "{object} is above or below the sensor",
     .home = EFFECT_HOME_IDEAL,
+    .members = {{EFFECT_SENSOR(mount_z_m)}},
 };

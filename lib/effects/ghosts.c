@@ -10,4 +10,5 @@ const struct effect effect_ghosts = {
     .cost = "a mirror image per reflector and mirror",
     .scene = "{mirror} mirrors {object}",
     .home = EFFECT_HOME_IDEAL,
+    .members = {{EFFECT_SENSOR(bounces)}},
 };

@@ -9,4 +9,5 @@ const struct effect effect_height = {
     .cost = "a height of the sight line per object in the way",
     .scene = "{object} is seen over or under others",
     .home = EFFECT_HOME_IDEAL,
+    .members = {{EFFECT_SENSOR(mount_z_m)}},
 };

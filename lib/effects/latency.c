@@ -8,4 +8,5 @@ const struct effect effect_latency = {
     .cost = "a step of motion per object",
     .scene = "{object} moved since the measurement",
     .home = EFFECT_HOME_IDEAL,
+    .members = {{EFFECT_SENSOR(latency_s)}},
 };

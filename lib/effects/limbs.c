@@ -53,6 +53,7 @@ const struct effect effect_limbs = {
     .cost = "a draw per person and limb",
     .scene = "limbs of {object} swing",
     .home = EFFECT_HOME_SENSOR,
+    .members = {{EFFECT_SENSOR(micro_motion)}},
     .described = described,
     .add_echoes = add_echoes,
 };

@@ -46,6 +46,7 @@ const struct effect effect_range_migration = {
     .cost = "two square roots per echo",
     .scene = "{object} walks through range cells",
     .home = EFFECT_HOME_SENSOR,
+    .members = {{EFFECT_SENSOR(range_migration)}},
     .described = described,
     .begin = begin,
     .receive = receive,

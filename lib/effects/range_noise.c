@@ -29,6 +29,9 @@ const struct effect effect_range_noise = {
         "the sensor's range_sigma_m and range_rate_sigma_mps are 0 and its sigma_law is not by_snr",
     .cost = "two draws per cell",
     .home = EFFECT_HOME_NOISE,
+    .members = {{EFFECT_SENSOR(range_sigma_m)},
+                {EFFECT_SENSOR(range_rate_sigma_mps)},
+                {EFFECT_SENSOR(sigma_law)}},
     .described = described,
     .measure[EFFECT_STEP_NOISE] = add_noise,
 };

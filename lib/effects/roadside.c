@@ -7,4 +7,5 @@ const struct effect effect_roadside = {
     .left_out_when = "no cell of a strip is in the sensor's range and view",
     .cost = "a draw per cell in view, and a sight line per scatterer",
     .home = EFFECT_HOME_IDEAL,
+    .members = {{EFFECT_FRAME(roadside)}},
 };

@@ -40,6 +40,7 @@ const struct effect effect_wheels = {
     .cost = "a draw per wheel and point on it",
     .scene = "wheels of {object} roll",
     .home = EFFECT_HOME_SENSOR,
+    .members = {{EFFECT_SENSOR(micro_motion)}},
     .described = described,
     .add_echoes = add_echoes,
 };

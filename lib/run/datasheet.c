@@ -6,11 +6,12 @@
 #include "base/elementary.h"
 #include "base/units.h"
 #include "documents/consistency.h"
-#include "documents/suite_effects.h"
 #include "documents/usual_figures.h"
+#include "effects/effect.h"
 #include "radar/detection.h"
 
-#define LEAST_GAIN 1e-6 /* less is rounding where a pattern ends in a zero */
+#define LONG_RANGE_M 150 /* radars that look farther are of another class than those of corners */
+#define LEAST_GAIN 1e-6  /* less is rounding where a pattern ends in a zero */
 
 static double with_rounding(double sigma, double step)
 {
@@ -188,11 +189,25 @@ static void add_effects(const char *label, uint64_t set, struct text *text)
             text_format(text, "%s%s", count++ > 0 ? ", " : "", effects_names[i]);
 }
 
+uint64_t datasheet_missing(const struct sensor *sensor)
+{
+    uint64_t missing = effect_missing(sensor);
+    bool levels = (missing & EFFECT_BIT(EFFECT_LEVEL)) == 0;
+    return levels ? missing & ~EFFECT_BIT(EFFECT_FLUCTUATION) : missing;
+}
+
+struct datasheet_example datasheet_example(const struct sensor *sensor)
+{
+    if (sensor->range_max_m > LONG_RANGE_M)
+        return (struct datasheet_example){"lrr77-full", EFFECT_BIT(EFFECT_COHERENCE)};
+    return (struct datasheet_example){"radarscenes77-full", EFFECT_BIT(EFFECT_QUANTISATION)};
+}
+
 /* The effects that the document lacks, and a suite to extend that has them. */
 static void add_missing(const struct sensor *sensor, struct text *text)
 {
-    uint64_t missing = suite_effects_missing(sensor);
-    struct suite_effects_example example = suite_effects_example(sensor);
+    uint64_t missing = datasheet_missing(sensor);
+    struct datasheet_example example = datasheet_example(sensor);
     uint64_t neither = missing & example.missing;
     add_effects("  not described:     ", missing, text);
     text_add_word(text, missing == 0 ? "no effect" : "");
@@ -200,7 +215,8 @@ static void add_missing(const struct sensor *sensor, struct text *text)
         text_format(text, "; \"extends\": \"%s\" has them", example.name);
     if (neither != missing && neither != 0)
         add_effects(" without ", neither, text);
-    text_add_word(text, "\n  of the scene:      clutter, roadside, rain, fog, snow\n");
+    add_effects("\n  of the scene:      ", effect_of_scenes(), text);
+    text_add_word(text, "\n");
 }
 
 static void add_figures(const struct sensor *sensor, const struct datasheet *sheet,

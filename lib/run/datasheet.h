@@ -29,6 +29,19 @@ struct datasheet {
 /* The figures of a sensor with its derived members. */
 void datasheet_of(const struct sensor *sensor, struct datasheet *sheet);
 
+/* The set of effects that the sensor's document does not describe, of those that a sensor may lack.
+ * Levels of bodies stand for fluctuation: a sensor with levels does not lack it. */
+uint64_t datasheet_missing(const struct sensor *sensor);
+
+/* A shipped suite that describes all effects but a few. */
+struct datasheet_example {
+    const char *name;
+    uint64_t missing; /* the set of effects that its sensors lack, too */
+};
+
+/* The example whose sensors reach about as far as this one. */
+struct datasheet_example datasheet_example(const struct sensor *sensor);
+
 /* Adds a sheet for every sensor, in degrees, dBsm, m and m/s. Neighbouring sensors that differ only
  * in name and mount share one. A check that does not hold, and a figure that is not usual, is a
  * line that begins with "doubt:". The suite's assumptions follow. */

@@ -39,7 +39,7 @@ static const struct effect_member *drawn_member(const struct field *field)
     for (int i = 0; i < EFFECT_COUNT; i++)
         for (const struct effect_member *member = effect_table[i]->members; member->size > 0;
              member++)
-            if (member->of_conditions && member->offset == field->offset &&
+            if (member->owner == EFFECT_OWNER_CONDITIONS && member->offset == field->offset &&
                 member->random.number > 0)
                 return member;
     fail_msg("no effect says how random scenes draw %s", field->name);
@@ -129,6 +129,37 @@ static void a_member_describes_its_effect_and_no_other(void **state)
         assert_true(effect_bench_begin(bench, others, home).effects == 0);
         assert_true(bench->log.simulated == 0);
     }
+}
+
+/* Of a sensor that describes nothing, each member alone. */
+static void a_sensor_lacks_an_effect_until_a_member_is_set(void **state)
+{
+    (void)state;
+    int tried = 0;
+    for (int effect = 0; effect < EFFECT_COUNT; effect++)
+        for (const struct effect_member *member = effect_table[effect]->members; member->size > 0;
+             member++) {
+            struct sensor sensor = {0};
+            if (member->owner != EFFECT_OWNER_SENSOR)
+                continue;
+            assert_true((effect_missing(&sensor) & EFFECT_BIT(effect)) != 0);
+            ((char *)&sensor)[member->offset] = 1;
+            assert_true((effect_missing(&sensor) & EFFECT_BIT(effect)) == 0);
+            tried++;
+        }
+    assert_true(tried > 20);
+}
+
+static void what_a_scene_describes_whatever_the_sensor_is_of_scenes(void **state)
+{
+    (void)state;
+    static const enum effect_id of_scenes[] = {EFFECT_ROADSIDE, EFFECT_CLUTTER, EFFECT_RAIN};
+    static const enum effect_id others[] = {EFFECT_LATENCY, EFFECT_TWO_RAY, EFFECT_INTERFERENCE,
+                                            EFFECT_MERGING};
+    for (size_t i = 0; i < COUNT(of_scenes); i++)
+        assert_true((effect_of_scenes() & EFFECT_BIT(of_scenes[i])) != 0);
+    for (size_t i = 0; i < COUNT(others); i++)
+        assert_true((effect_of_scenes() & EFFECT_BIT(others[i])) == 0);
 }
 
 static void flags_choices_and_limits_describe_their_effects(void **state)
@@ -235,6 +266,8 @@ int main(void)
         EFFECT_TEST(what_random_scenes_draw_is_what_documents_may_say),
         EFFECT_TEST(what_no_document_describes_is_left_out_and_noted),
         EFFECT_TEST(a_member_describes_its_effect_and_no_other),
+        EFFECT_TEST(a_sensor_lacks_an_effect_until_a_member_is_set),
+        EFFECT_TEST(what_a_scene_describes_whatever_the_sensor_is_of_scenes),
         EFFECT_TEST(flags_choices_and_limits_describe_their_effects),
         EFFECT_TEST(a_scan_has_the_instant_of_its_measurement),
         EFFECT_TEST(effects_act_in_the_order_of_the_chain),

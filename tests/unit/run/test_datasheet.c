@@ -367,6 +367,33 @@ static void a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions(void *
     text_free(&text);
 }
 
+static void levels_stand_for_fluctuation(void **state)
+{
+    (void)state;
+    struct sensor sensor = {.level_fast_db = 1};
+    assert_true((datasheet_missing(&sensor) & EFFECT_BIT(EFFECT_FLUCTUATION)) == 0);
+    sensor = (struct sensor){.fluctuation = FLUCTUATION_SWERLING_1};
+    assert_true((datasheet_missing(&sensor) & EFFECT_BIT(EFFECT_LEVEL)) != 0);
+}
+
+static void the_examples_lack_what_they_are_said_to_lack(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct diag diag = {0};
+    const double reaches_m[] = {60, 250};
+    for (int i = 0; i < 2; i++) {
+        struct sensor sensor = {.range_max_m = reaches_m[i]};
+        struct datasheet_example example = datasheet_example(&sensor);
+        const struct suite *suite = suite_file_load(example.name, &arena, &diag);
+        assert_non_null(suite);
+        for (size_t k = 0; k < suite->sensors.count; k++)
+            assert_true(datasheet_missing(&suite->sensors.items[k]) == example.missing);
+        assert_string_equal(datasheet_example(&suite->sensors.items[0]).name, example.name);
+    }
+    arena_free(&arena);
+}
+
 static void sensors_that_differ_in_their_mount_share_a_sheet(void **state)
 {
     (void)state;
@@ -410,6 +437,8 @@ int main(void)
         cmocka_unit_test(accuracy_follows_law_noise_and_steps),
         cmocka_unit_test(without_noise_rows_of_accuracy_say_how_strong_an_echo_is),
         cmocka_unit_test(a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions),
+        cmocka_unit_test(levels_stand_for_fluctuation),
+        cmocka_unit_test(the_examples_lack_what_they_are_said_to_lack),
         cmocka_unit_test(sensors_that_differ_in_their_mount_share_a_sheet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
