@@ -187,6 +187,9 @@ $(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) 
 # tests/tools/accuracy-cost: angles by table.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(SPEED_LIBS) -lz -lm
+# glint with clocks around what its chain calls.
+$(BUILD)/tests/speed/timed: $(BUILD)/tests/speed/timed.o $(stage_objects) $(BUILD)/registry.o $(archives)
+	$(Q)$(LINK) $(call wraps,tests/speed/timed.c) -o $@ $^ $(plugin_libs) $(LIBS)
 $(BUILD)/tests/speed/parse_xml: SPEED_LIBS = -lexpat
 $(BUILD)/tests/speed/read_table: SPEED_LIBS = -ljansson -lcsv -lstdc++
 $(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o $(BUILD)/tests/speed/digits.o

@@ -1,7 +1,6 @@
 #include "run/chain.h"
 
 #include <stdio.h>
-#include <time.h>
 
 #include "frame/frame_text.h"
 #include "run/frame_stream.h"
@@ -17,10 +16,7 @@ struct chain {
     struct arena arena; /* the frame's */
     struct list_cache list_cache;
     struct frame_stream input; /* of the first runner, unless it is a source */
-    bool timed;                /* times are asked for */
-    struct chain_times times;
-    bool tool_has_frame;   /* its messages are about this frame */
-    int64_t tool_begin_ns; /* when the tool last went to work: at its begin, with its frame */
+    bool tool_has_frame;       /* its messages are about this frame */
     struct progress progress;
 };
 
@@ -67,35 +63,6 @@ static int complain_of_all(struct runner *runners, size_t count)
     return code;
 }
 
-int64_t chain_cpu_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
-/* 0 where no times are asked for. */
-static int64_t clock_ns(const struct chain *chain)
-{
-    return chain->timed ? chain_cpu_ns() : 0;
-}
-
-static void add_time(const struct chain *chain, int64_t *total, int64_t begin)
-{
-    *total += clock_ns(chain) - begin - chain->times.clock_ns;
-}
-
-/* Measures how long one look at the clock takes: it is a system call, and a frame may take no
- * longer than a few of those. */
-static void time_clock(struct chain *chain)
-{
-    enum { CALLS = 1000 };
-    int64_t begin = clock_ns(chain);
-    for (int i = 0; i < CALLS; i++)
-        clock_ns(chain);
-    chain->times.clock_ns = (clock_ns(chain) - begin) / CALLS;
-}
-
 static struct runner *last(struct chain *chain)
 {
     return &chain->runners[chain->count - 1];
@@ -118,22 +85,17 @@ static int write_frame(struct chain *chain)
     if (runner->stage->sink || runner->stage->run != NULL)
         return 0;
     struct output *output = runner->outputs.items[0];
-    struct text *text = output_text(output);
-    size_t begin = text->length;
-    if (frame_text_write(&chain->frame, text, &runner->diag) != 0)
+    if (frame_text_write(&chain->frame, output_text(output), &runner->diag) != 0)
         return -1;
-    chain->times.bytes_written += (int64_t)(text->length - begin);
     return output_send(output, &runner->diag);
 }
 
 static int first_frame(struct chain *chain)
 {
     struct runner *first = &chain->runners[0];
-    bool source = first->stage->next != NULL;
-    int64_t begin = clock_ns(chain);
-    int more = source ? runner_next(first, &chain->frame)
-                      : frame_stream_next(&chain->input, &chain->frame, &first->diag);
-    add_time(chain, source ? &first->spent_ns : &chain->times.read_ns, begin);
+    int more = first->stage->next != NULL
+                   ? runner_next(first, &chain->frame)
+                   : frame_stream_next(&chain->input, &chain->frame, &first->diag);
     if (more < 0)
         name_place(chain, first);
     return more;
@@ -160,17 +122,12 @@ static int run_frame(struct chain *chain)
     size_t index = chain->runners[0].stage->next != NULL ? 1 : 0;
     for (; index < chain->stages; index++) {
         struct runner *runner = &chain->runners[index];
-        int64_t begin = clock_ns(chain);
         if (runner_step(runner, &chain->frame) != 0) {
             name_place(chain, runner);
             return -1;
         }
-        add_time(chain, &runner->spent_ns, begin);
     }
-    int64_t begin = clock_ns(chain);
     int result = write_frame(chain);
-    add_time(chain, &chain->times.write_ns, begin);
-    chain->times.frames++;
     if (progress_step(&chain->progress))
         show_progress(chain);
     return result == 0 ? 1 : -1;
@@ -188,7 +145,6 @@ static bool any_failed(const struct chain *chain)
 static int next_frame(void *from, struct frame **frame)
 {
     struct chain *chain = from;
-    add_time(chain, &last(chain)->spent_ns, chain->tool_begin_ns);
     *frame = &chain->frame;
     int more = any_failed(chain) ? 0 : run_frame(chain);
     if (more <= 0)
@@ -196,7 +152,6 @@ static int next_frame(void *from, struct frame **frame)
     if (more < 0 && !failed(last(chain)))
         more = 0;
     chain->tool_has_frame = more > 0;
-    chain->tool_begin_ns = clock_ns(chain);
     return more;
 }
 
@@ -204,10 +159,8 @@ static void run_tool(struct chain *chain)
 {
     struct runner *tool = last(chain);
     tool->frames = (struct frame_source){next_frame, chain};
-    chain->tool_begin_ns = clock_ns(chain);
     if (runner_run_tool(tool) != 0 && chain->tool_has_frame)
         name_place(chain, tool);
-    add_time(chain, &tool->spent_ns, chain->tool_begin_ns);
 }
 
 /* Sends on what the chain has made before it waits for a frame, which may depend on it. A failure
@@ -253,9 +206,9 @@ static void finish(struct chain *chain)
     runner_close_outputs(last(chain), !any_failed(chain));
 }
 
-int chain_run(struct runner *runners, size_t count, struct chain_times *times)
+int chain_run(struct runner *runners, size_t count)
 {
-    struct chain chain = {.runners = runners, .count = count, .timed = times != NULL};
+    struct chain chain = {.runners = runners, .count = count};
     chain.stages = runners[count - 1].stage->run != NULL ? count - 1 : count;
     chain.input.paths = runners[0].common.files.items;
     chain.input.count = runners[0].common.files.count;
@@ -267,16 +220,11 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
         runners[i].before = i > 0 ? &runners[i - 1] : NULL;
         runners[i].input = runners[0].stage->next != NULL ? NULL : &chain.input;
     }
-    if (chain.timed)
-        time_clock(&chain);
     start(&chain);
     for (size_t i = 0; i < count; i++)
         print_notices(&runners[i]);
     run(&chain);
     finish(&chain);
-    chain.times.bytes_read = chain.input.bytes;
-    if (times != NULL)
-        *times = chain.times;
     int code = complain_of_all(runners, count);
     for (size_t i = 0; i < count; i++) {
         runners[i].pause = (struct input_pause){0};
@@ -316,7 +264,7 @@ int chain_main(const struct stage *stage, int count, char **words)
         complain(&runner, &runner.diag);
     else
         code = runner.common.help || runner.common.version ? print_about(&runner)
-                                                           : chain_run(&runner, 1, NULL);
+                                                           : chain_run(&runner, 1);
     runner_free(&runner);
     return code;
 }

@@ -8,21 +8,9 @@
 
 #include "run/runner.h"
 
-/* CPU time of this thread for reading and writing frames, without the time that reading the clock
- * takes. Each runner has that of its own steps (spent_ns). */
-struct chain_times {
-    int64_t frames, bytes_read, bytes_written;
-    int64_t clock_ns; /* of one look at the clock */
-    int64_t read_ns, write_ns;
-};
-
-/* CPU time of this thread, in nanoseconds. */
-int64_t chain_cpu_ns(void);
-
 /* Runs prepared runners from the first frame to the last and prints the messages of those that
- * fail to stderr. Returns the exit code. times, if not NULL, is filled in: clocks are read only
- * then. */
-int chain_run(struct runner *runners, size_t count, struct chain_times *times);
+ * fail to stderr. Returns the exit code. */
+int chain_run(struct runner *runners, size_t count);
 
 /* The main of glint-NAME. */
 int chain_main(const struct stage *stage, int count, char **words);

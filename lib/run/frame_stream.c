@@ -48,8 +48,6 @@ int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct d
         const char *line;
         size_t length;
         int more = input_line(stream->input, FRAME_TEXT_SIZE, &line, &length, diag);
-        if (more > 0)
-            stream->bytes += (int64_t)length + 1;
         if (more >= 0 || diag->code != DIAG_NO_INPUT) /* a folder has no lines */
             stream->line++;
         if (more > 0 && frame_stream_parse(line, length, frame, diag) != 0)

@@ -11,7 +11,6 @@ struct frame_stream {
     struct input *input;
     struct input_pause pause; /* before a wait for the next frame */
     size_t path, line;        /* how many paths are open or done, and lines of the last of them */
-    int64_t bytes;            /* of all lines so far */
 };
 
 /* The next frame, in canonical order and checked: 1; 0 at the end; -1 after a message. */

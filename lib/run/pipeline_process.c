@@ -37,7 +37,6 @@ static const char first_hour[] =
 static const char usage[] =
     "Usage: glint FILE\n"
     "  or:  glint -c TEXT\n"
-    "  or:  glint --times FILE\n"
     "  or:  glint --list programs|effects|sensors|scenarios|vehicles|pipelines\n"
     "  or:  glint --list EFFECT\n"
     "  or:  glint --datasheet SUITE\n"
@@ -51,8 +50,6 @@ static const char usage[] =
     "\n"
     "Options:\n"
     "  -c TEXT              run TEXT instead of a file\n"
-    "      --times FILE     run FILE, then print to stderr, as JSON lines, how long\n"
-    "                       each part took\n"
     "      --list WHAT      list what there is, with a sentence on each; of an\n"
     "                       effect: its cause, when auto leaves it out, its cost\n"
     "      --datasheet SUITE\n"
@@ -132,7 +129,7 @@ static int unknown_program(const struct command *command, struct diag *diag)
 }
 
 static int run_commands(const struct pipeline *pipeline, struct runner *runners,
-                        struct chain_times *times, struct arena *arena, struct diag *diag)
+                        struct arena *arena, struct diag *diag)
 {
     size_t count = pipeline->commands.count;
     for (size_t i = 0; i < count; i++) {
@@ -142,29 +139,10 @@ static int run_commands(const struct pipeline *pipeline, struct runner *runners,
         if (check_place(&runners[i], command, i, count, diag) != 0)
             return -1;
     }
-    return chain_run(runners, count, times);
+    return chain_run(runners, count);
 }
 
-static void print_time(const char *part, int64_t total_ns, int64_t frames)
-{
-    fprintf(stderr, "{\"part\":\"%s\",\"frames\":%" PRId64 ",\"ns_per_frame\":%.0f}\n", part,
-            frames, frames > 0 ? (double)total_ns / (double)frames : 0);
-}
-
-static void print_times(const struct chain_times *times, const struct runner *runners, size_t count)
-{
-    if (times->bytes_read > 0)
-        print_time("read", times->read_ns, times->frames);
-    for (size_t i = 0; i < count; i++)
-        print_time(runners[i].stage->name, runners[i].spent_ns, times->frames);
-    if (times->bytes_written > 0)
-        print_time("write", times->write_ns, times->frames);
-    fprintf(stderr, "{\"part\":\"bytes\",\"read\":%" PRId64 ",\"written\":%" PRId64 "}\n",
-            times->bytes_read, times->bytes_written);
-}
-
-static int run_text(const char *name, const char *text, size_t length, bool timed,
-                    struct arena *arena)
+static int run_text(const char *name, const char *text, size_t length, struct arena *arena)
 {
     struct diag diag = {0};
     struct pipeline pipeline;
@@ -175,10 +153,7 @@ static int run_text(const char *name, const char *text, size_t length, bool time
     }
     size_t count = pipeline.commands.count;
     struct runner *runners = arena_get(arena, count * sizeof *runners);
-    struct chain_times times = {0};
-    int code = run_commands(&pipeline, runners, timed ? &times : NULL, arena, &diag);
-    if (timed && diag.code == DIAG_OK)
-        print_times(&times, runners, count);
+    int code = run_commands(&pipeline, runners, arena, &diag);
     for (size_t i = 0; i < count; i++)
         runner_free(&runners[i]);
     if (diag.code == DIAG_OK)
@@ -194,7 +169,7 @@ static const char *find_script(const char *name, struct arena *arena, struct dia
                                    : document_find(NULL, "pipelines", name, ".sh", arena, diag);
 }
 
-static int run_file(const char *name, bool timed, struct arena *arena)
+static int run_file(const char *name, struct arena *arena)
 {
     struct diag diag = {0};
     struct text text = {0};
@@ -203,7 +178,7 @@ static int run_file(const char *name, bool timed, struct arena *arena)
     if (path == NULL || document_bytes(path, &text, &diag) != 0)
         code = complain(&diag);
     else
-        code = run_text(path, text.bytes, text.length, timed, arena);
+        code = run_text(path, text.bytes, text.length, arena);
     text_free(&text);
     return code;
 }
@@ -394,7 +369,7 @@ static int answer(int (*add)(const char *, struct text *, struct arena *, struct
 
 static int refuse_options(const char *first)
 {
-    static const char *const options[] = {"c", "times", "list", "datasheet", "help", "version"};
+    static const char *const options[] = {"c", "list", "datasheet", "help", "version"};
     const char *name = first + strspn(first, "-");
     struct suggestion meant = suggestion_begin(name, strlen(name));
     bool known = first[0] != '-';
@@ -423,15 +398,13 @@ static int run(int count, char **words, struct arena *arena)
     if (strcmp(first, "--version") == 0)
         return print("glint (glint) " GLINT_VERSION "\n", sizeof "glint (glint) " GLINT_VERSION);
     if (count == 3 && strcmp(first, "-c") == 0)
-        return run_text("-c", second, strlen(second), false, arena);
-    if (count == 3 && strcmp(first, "--times") == 0)
-        return run_file(second, true, arena);
+        return run_text("-c", second, strlen(second), arena);
     if (count == 3 && strcmp(first, "--list") == 0)
         return answer(add_listing, second, arena);
     if (count == 3 && strcmp(first, "--datasheet") == 0)
         return answer(add_datasheet, second, arena);
     if (count == 2 && (first[0] != '-' || first[1] == '\0'))
-        return run_file(first, false, arena);
+        return run_file(first, arena);
     return refuse_options(first);
 }
 

@@ -35,7 +35,6 @@ struct runner {
     LIST_OF(const struct vehicle *) vehicles;
     struct frame_sequence sequence;    /* of the frames so far, under --complete */
     int64_t expected_frames;           /* 0 if the source does not say */
-    int64_t spent_ns;                  /* CPU time of its steps; 0 where the chain takes no times */
     struct effect_log *log;            /* of a stage that a tool tries; NULL: none */
     char effects[FIELD_NAME_SIZE + 1]; /* those of the latest frame, and what they select */
     struct selection selection;

@@ -1,14 +1,23 @@
 #include "run/trial.h"
 
+#include <time.h>
+
 #include "base/sort.h"
 #include "effects/effect.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
-#include "run/chain.h"
 #include "run/frame_stream.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
 #include "text/record_write.h"
+
+/* CPU time of this thread, in nanoseconds. */
+static int64_t cpu_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
 
 /* The names of the effects behind a first word, with these letters before each name. */
 static const char *list_names(const char *first, const char *before, uint64_t effects,
@@ -154,14 +163,14 @@ static int open_frame(struct trial_bench *bench, const struct sampled_frame *sam
     struct frame *frame = &bench->frame;
     frame->arena = &bench->arena;
     frame->list_cache = &bench->cache;
-    int64_t begin_ns = chain_cpu_ns();
+    int64_t begin_ns = cpu_ns();
     if (frame_stream_parse(sampled->line, sampled->length, frame, runner_diag(bench->runner)) != 0)
         return -1;
     frame->seed = seed;
     if ((frame->present & PART_REFLECTORS) == 0 &&
         runner_try(bench->runner, bench->extract, frame) != 0)
         return -1;
-    bench->head_ns[bench->round] += chain_cpu_ns() - begin_ns;
+    bench->head_ns[bench->round] += cpu_ns() - begin_ns;
     bench->frames[bench->round]++;
     bench->kept[TRIAL_IDEAL] = *frame;
     return (bench->pass & TRIAL_ALONE) != 0 ? 0 : run_whole(bench);
@@ -192,7 +201,7 @@ static void resume(struct trial_bench *bench, const struct trial *trial)
 static int run_stages(struct trial_bench *bench, struct trial *trial)
 {
     resume(bench, trial);
-    int64_t begin_ns = chain_cpu_ns();
+    int64_t begin_ns = cpu_ns();
     for (int at = (int)trial->first; at < TRIAL_POSITIONS; at++)
         if (trial->stages[at] != NULL &&
             runner_try(bench->runner, trial->stages[at], &bench->made) != 0)
@@ -200,7 +209,7 @@ static int run_stages(struct trial_bench *bench, struct trial *trial)
     bench->line.length = 0;
     if (frame_text_write(&bench->made, &bench->line, runner_diag(bench->runner)) != 0)
         return -1;
-    trial->latest_ns = chain_cpu_ns() - begin_ns;
+    trial->latest_ns = cpu_ns() - begin_ns;
     return 0;
 }
 

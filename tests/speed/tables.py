@@ -92,7 +92,7 @@ def reading(folder):
 def frames_of(glint, folder, path):
     """What glint tells of its times, and the peak of its memory, while it writes the frames of everybody."""
     command = f"glint-traffic {path} --ego all --radius-m {RADIUS_M}"
-    return timing.spent([glint, "--times", timing.write_text(command, folder)])
+    return timing.timed(glint, timing.write_text(command, folder))
 
 
 def all_egos(glint, folder):

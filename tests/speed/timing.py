@@ -34,6 +34,11 @@ def spent(command, stdout=subprocess.DEVNULL):
     return {line["part"]: line for line in map(json.loads, done.stderr.splitlines())}
 
 
+def timed(glint, script):
+    """What each part of a pipeline takes in the build of that glint."""
+    return spent([os.path.join(os.path.dirname(glint), "..", "tests", "speed", "timed"), script])
+
+
 def function_lines(repeat):
     done = subprocess.run([os.path.join(TOOLS, "functions"), str(repeat)],
                           check=True, stdout=subprocess.PIPE, text=True)
@@ -56,7 +61,7 @@ def write_text(text, folder, name="chain.sh"):
 
 def part_times(glint, text, folder):
     """ns per frame of one fused run, by part."""
-    told = spent([glint, "--times", write_text(text, folder)])
+    told = timed(glint, write_text(text, folder))
     return {part: line["ns_per_frame"] for part, line in told.items() if "ns_per_frame" in line}
 
 
@@ -103,7 +108,7 @@ class Chain:
         return total
 
     def sample(self):
-        told = spent([self.glint, "--times", self.fused])
+        told = timed(self.glint, self.fused)
         self.add("fused", "all", self.add_run("fused", told))
         told = spent([self.glint, self.fused])["spent"]
         self.add("fused", "cpu", told["cpu_ns"] / self.frames)
@@ -111,7 +116,7 @@ class Chain:
         self.peak_kB["fused", "all"] = told["peak_kB"]
         total = 0
         for name, text in self.stages:
-            told = spent([self.glint, "--times", text])
+            told = timed(self.glint, text)
             total += self.add_run("piped", told, f"{name}: ")
         self.add("piped", "all", total)
         told = spent(["bash", self.fused])["spent"]

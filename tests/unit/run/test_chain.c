@@ -66,7 +66,6 @@ STAGE(stopping, .step = pass, .reads = PART_OBJECTS, .stop = fail_at_stop);
 
 struct stages {
     const struct stage *list[4];
-    struct chain_times *times;
 };
 
 static int run(const void *with)
@@ -76,7 +75,7 @@ static int run(const void *with)
     size_t count = 0;
     for (; count < 4 && row->list[count] != NULL; count++)
         runner_prepare(&runners[count], row->list[count], 0, NULL);
-    int code = chain_run(runners, count, row->times);
+    int code = chain_run(runners, count);
     for (size_t i = 0; i < count; i++)
         runner_free(&runners[i]);
     return code;
@@ -138,30 +137,6 @@ static void the_code_is_that_of_the_rightmost_stage_that_fails(void **state)
     assert_string_equal(captured->err, "glint-failing: scene \"s\", frame 1: no more\n");
 }
 
-/* What a run of the chain counts, printed by its process. */
-static int print_counts(const void *with)
-{
-    (void)with;
-    struct chain_times times;
-    freopen("/dev/null", "w", stdout);
-    int code = run(&(struct stages){.list = {&source, &turner}, .times = &times});
-    fprintf(stderr, "%lld %lld %lld %d", (long long)times.frames, (long long)times.bytes_read,
-            (long long)times.bytes_written, times.clock_ns >= 0);
-    return code;
-}
-
-static void frames_and_bytes_are_counted_with_the_times(void **state)
-{
-    (void)state;
-    static struct captured captured;
-    char expected[64];
-    size_t bytes = strlen(chain(&source, &turner, NULL)->out);
-    snprintf(expected, sizeof expected, "3 0 %zu 1", bytes);
-    capture(&captured, print_counts, NULL);
-    assert_int_equal(captured.code, 0);
-    assert_string_equal(captured.err, expected);
-}
-
 /* Runs the program of the stage with one word. */
 static int run_main(const void *with)
 {
@@ -189,7 +164,6 @@ int main(void)
         cmocka_unit_test(every_frame_goes_through_all_stages),
         cmocka_unit_test(frames_before_a_failure_go_out_and_the_message_names_the_frame),
         cmocka_unit_test(the_code_is_that_of_the_rightmost_stage_that_fails),
-        cmocka_unit_test(frames_and_bytes_are_counted_with_the_times),
         cmocka_unit_test(a_program_of_one_stage_prints_what_it_is_or_refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -84,31 +84,6 @@ static void the_exit_code_is_that_of_the_rightmost_program_that_fails(void **sta
     assert_int_equal(glint("-c", "glint-traffic nowhere | glint-noise --sensor 3")->code, 64);
 }
 
-static void times_of_every_part_go_to_stderr(void **state)
-{
-    (void)state;
-    char path[] = "/tmp/glint-fused-XXXXXX";
-    static const char pipeline[] = "glint-traffic-random --frames 2 | glint-extract\n";
-    int file = mkstemp(path);
-    assert_int_equal(write(file, pipeline, sizeof pipeline - 1), sizeof pipeline - 1);
-    close(file);
-    struct captured *captured = glint("--times", path);
-    unlink(path);
-    assert_int_equal(captured->code, 0);
-    static const char *const parts[] = {
-        "{\"part\":\"traffic-random\",\"frames\":2,", "{\"part\":\"extract\",\"frames\":2,",
-        "{\"part\":\"write\",\"frames\":2,", "{\"part\":\"bytes\",\"read\":0,\"written\":"};
-    const char *at = captured->err;
-    for (size_t i = 0; i < 4; i++) {
-        assert_memory_equal(at, parts[i], strlen(parts[i]));
-        at = strchr(at, '\n') + 1;
-    }
-    assert_string_equal(at, "");
-    char written[32];
-    snprintf(written, sizeof written, "\"written\":%zu}\n", strlen(captured->out));
-    assert_non_null(strstr(captured->err, written));
-}
-
 static void what_glint_does_not_know_is_refused_with_what_it_does(void **state)
 {
     (void)state;
@@ -231,7 +206,6 @@ int main(void)
         cmocka_unit_test(a_pipeline_runs_in_one_process),
         cmocka_unit_test(programs_out_of_place_are_refused),
         cmocka_unit_test(the_exit_code_is_that_of_the_rightmost_program_that_fails),
-        cmocka_unit_test(times_of_every_part_go_to_stderr),
         cmocka_unit_test(what_glint_does_not_know_is_refused_with_what_it_does),
         cmocka_unit_test(stages_and_tools_have_a_line_each_with_their_sentence),
         cmocka_unit_test(an_effect_is_listed_by_its_name_and_with_the_others),

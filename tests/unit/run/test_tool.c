@@ -129,7 +129,7 @@ static int run(const struct stage *tool, const struct scratch *scratch, const ch
         words[count] = more[count - 1];
     struct runner runner;
     assert_int_equal(runner_prepare(&runner, tool, count, words), 0);
-    int code = chain_run(&runner, 1, NULL);
+    int code = chain_run(&runner, 1);
     runner_free(&runner);
     return code;
 }
