@@ -124,9 +124,9 @@ struct echo {
     struct echo_id id;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
-    double departure_rad; /* azimuth of the wave's departure less that of its arrival */
-    double height_m;      /* of the reflector's middle over the road; 0: not known */
-    double extent_m;      /* from the reflector's lowest to its highest part; 0: a point */
+    double departure_azimuth_rad; /* of the wave, on paths by a wall one way; else 0 */
+    double height_m;              /* of the reflector's middle over the road; 0: not known */
+    double extent_m;              /* from the reflector's lowest to its highest part; 0: a point */
     enum moving_part moving_part;
     double ground_rate_mps; /* part of range_rate_mps, by the object's motion over ground */
     double heading_rad;     /* of the object, from boresight */

@@ -139,10 +139,8 @@ static const struct field echo_fields[] = {
     {NAME(struct echo, sensor, "name in the suite")},
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
-    {OPTIONAL_REAL(
-        struct echo, departure_rad, -PI, PI,
-        "azimuth of the wave's departure less that of its arrival, on paths that go by a "
-        "wall in one direction")},
+    {OPTIONAL_REAL(struct echo, departure_azimuth_rad, -PI, PI,
+                   "azimuth at which the wave departs, on the paths wall_object and object_wall")},
     {OPTIONAL_REAL(struct echo, height_m, 0, 1e7,
                    "height of the reflector over the road; absent: not known")},
     {OPTIONAL_REAL(struct echo, extent_m, 0, 1e7,

@@ -184,7 +184,7 @@ static struct margins margins_of(const struct look *look, const struct kinematic
 static void add_ghost(struct look *look, const struct ghost_candidate *candidate, enum path path,
                       struct mirror_ghost ghost, const struct route *out, const struct route *back)
 {
-    double departure_rad = out->read.azimuth_rad;
+    bool one_way = path != PATH_WALL_OBJECT_WALL;
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
         .sensor = look->sensor->name,
@@ -197,7 +197,7 @@ static void add_ghost(struct look *look, const struct ghost_candidate *candidate
         .azimuth_rad = ghost.kinematics.azimuth_rad,
         .range_rate_mps = ghost.kinematics.range_rate_mps,
         .ercs = sqrt(out->factor * back->factor) * candidate->ercs * ghost.ercs_factor,
-        .departure_rad = departure_rad - ghost.kinematics.azimuth_rad,
+        .departure_azimuth_rad = one_way ? out->read.azimuth_rad : 0,
         .time_s = look->time_s,
         .effects = EFFECT_BIT(EFFECT_GHOSTS) | out->effects | back->effects |
                    look_latency_effect(look, candidate->body) |

@@ -3,16 +3,21 @@
 #include "base/elementary.h"
 #include "effects/effect.h"
 
-/* Factor on the strength of a ghost whose wave leaves in another direction than it arrives from:
- * each way counts with the root of the antenna pattern, and the pointers are those of the arrival.
- */
-static double departure_factor(const struct antenna *antenna, const struct echo *echo,
-                               double arrival_gain)
+/* A_phi = sqrt(A_phi(departure) A_phi(arrival)) of a wave that passes a wall one way (MODEL 14.1).
+ * The product is the same for a path and its reverse, so that their levels tie to the last bit. */
+static double one_way_gain(double departure_gain, double arrival_gain)
 {
-    if (echo->departure_rad == 0 || arrival_gain == 0)
-        return 1;
-    double gain = antenna_gain(antenna, echo->azimuth_rad + echo->departure_rad);
-    return sqrt(elementary_max(gain, 0) / arrival_gain);
+    return sqrt(elementary_max(departure_gain, 0) * elementary_max(arrival_gain, 0));
+}
+
+/* Scales a ghost by the antenna on both ways; its pointers remain those of the arrival. */
+static void weigh_departure(const struct antenna *antenna, const struct echo *echo,
+                            double arrival_gain, struct received_echo *received)
+{
+    double departure_gain = antenna_gain(antenna, echo->departure_azimuth_rad);
+    received->amplitude = received->strength * one_way_gain(departure_gain, arrival_gain);
+    if (arrival_gain > 0)
+        received->strength = received->amplitude / arrival_gain;
 }
 
 struct received_echo received_echo_in_free_space(const struct sensor *sensor,
@@ -27,9 +32,10 @@ struct received_echo received_echo_in_free_space(const struct sensor *sensor,
         .margins = &echo->margins,
     };
     double gain = antenna_gain(&sensor->antenna, echo->azimuth_rad);
-    received.strength = radar_strength(&sensor->amplitude_law, echo->range_m, echo->ercs) *
-                        departure_factor(&sensor->antenna, echo, gain);
+    received.strength = radar_strength(&sensor->amplitude_law, echo->range_m, echo->ercs);
     received.amplitude = received.strength * gain;
+    if (echo->id.path == PATH_WALL_OBJECT || echo->id.path == PATH_OBJECT_WALL)
+        weigh_departure(&sensor->antenna, echo, gain, &received);
     return received;
 }
 

@@ -13,6 +13,7 @@
 #include "documents/vehicle.h"
 #include "frame/frame_order.h"
 #include "ideal/direct_echoes.h"
+#include "ideal/ghost_echoes.h"
 #include "ideal/roadside_echoes.h"
 #include "run/runner.h"
 #include "run/stage.h"
@@ -118,6 +119,35 @@ static inline const struct suite *load_suite(const char *name, struct arena *are
     return suite;
 }
 
+/* Two runs of the chain on one scene. */
+struct runs {
+    struct arena documents;
+    struct random_traffic scene;
+    struct chain before, after;
+};
+
+/* The state of a group of tests: a struct of that size that begins with a struct runs. */
+static inline int make_runs(size_t size, void **state)
+{
+    struct runs *runs = calloc(1, size);
+    assert_non_null(runs);
+    load_models(&runs->scene, &runs->documents);
+    prepare_chain(&runs->before);
+    prepare_chain(&runs->after);
+    *state = runs;
+    return 0;
+}
+
+static inline int remove_runs(void **state)
+{
+    struct runs *runs = *state;
+    free_chain(&runs->before);
+    free_chain(&runs->after);
+    arena_free(&runs->documents);
+    free(runs);
+    return 0;
+}
+
 /* A value's neighbour within the field's bounds, on either side; for zero an ulp of 1 on either
  * side, as a value that is zero by rounding may have. Sizes of zero stay: they stand for those of
  * the class. */
@@ -162,9 +192,8 @@ static inline void step(struct runner *runner, struct frame *frame)
         fail_msg("%s: %s", runner->stage->name, runner->diag.text);
 }
 
-/* Looks at the scene as glint-ideal does for sensors that measure in every frame, without ghosts.
- */
-static inline void see(struct frame *frame, const struct suite *suite)
+/* Looks at the scene as glint-ideal does for sensors that measure in every frame. */
+static inline void see(struct frame *frame, const struct suite *suite, bool ghosts)
 {
     frame->sensors.suite = suite->name;
     frame->sensors.digest = suite->digest;
@@ -178,6 +207,8 @@ static inline void see(struct frame *frame, const struct suite *suite)
         if (look_begin(&look, frame, sensor, &everything, seen_s, &diag) != 0)
             fail_msg("%s", diag.text);
         direct_echoes_add(&look);
+        if (ghosts)
+            ghost_echoes_add(&look);
         roadside_echoes_add(&look);
     }
     frame->present |= PART_SENSORS | PART_ECHOES | PART_LOST | PART_COUNTS;
@@ -195,7 +226,7 @@ static inline void run_chain(struct chain *chain, const struct suite *suite)
     use_suite(&chain->sensor, suite);
     use_suite(&chain->noise, suite);
     step(&chain->extract, &chain->frame);
-    see(&chain->frame, suite);
+    see(&chain->frame, suite, false);
     step(&chain->sensor, &chain->frame);
     step(&chain->noise, &chain->frame);
 }

@@ -34,11 +34,9 @@ static const char *const quantity_names[QUANTITIES] = {
     "one ulp moves amplitude"};
 
 struct bench {
-    struct arena documents;
+    struct runs runs;
     const struct suite *suite;
     struct suite moved;
-    struct random_traffic scene;
-    struct chain before, after;
     double lists, changed, entries, near, values, undecided;
     double
         farthest; /* the farthest of all changed lists: its nearest margin in units of its bound */
@@ -47,23 +45,7 @@ struct bench {
 
 static int make_bench(void **state)
 {
-    struct bench *bench = calloc(1, sizeof *bench);
-    assert_non_null(bench);
-    load_models(&bench->scene, &bench->documents);
-    prepare_chain(&bench->before);
-    prepare_chain(&bench->after);
-    *state = bench;
-    return 0;
-}
-
-static int remove_bench(void **state)
-{
-    struct bench *bench = *state;
-    free_chain(&bench->before);
-    free_chain(&bench->after);
-    arena_free(&bench->documents);
-    free(bench);
-    return 0;
+    return make_runs(sizeof(struct bench), state);
 }
 
 /* Moving the inputs. */
@@ -221,7 +203,7 @@ static void compare_values(struct bench *bench, const struct value *before,
 static void compare_cells(struct bench *bench, const struct sensor *sensor,
                           const struct cell *before, const struct cell *after)
 {
-    struct error error = error_of_cell(&bench->before.frame, sensor, before->members.items,
+    struct error error = error_of_cell(&bench->runs.before.frame, sensor, before->members.items,
                                        before->members.count, before->amplitude);
     double azimuth_rad = azimuth_error_rad(
         sensor, error.pointer, hypot(before->sum_re, before->sum_im), before->azimuth_rad);
@@ -236,8 +218,9 @@ static void compare_cells(struct bench *bench, const struct sensor *sensor,
 static void compare_targets(struct bench *bench, const struct sensor *sensor,
                             const struct target *before, const struct target *after)
 {
-    struct error error = error_of_cell(&bench->before.frame, sensor, before->contributors.items,
-                                       before->contributors.count, before->cell_amplitude);
+    struct error error =
+        error_of_cell(&bench->runs.before.frame, sensor, before->contributors.items,
+                      before->contributors.count, before->cell_amplitude);
     double sum = units_amplitude_from_db(before->amplitude_db);
     double moved = units_amplitude_from_db(after->amplitude_db);
     double azimuth_rad = azimuth_error_rad(sensor, error.pointer, sum, before->azimuth_rad);
@@ -280,7 +263,7 @@ static void compare_fates_of(struct bench *bench, const struct fates *before,
             print_message(
                 "%s of %s, %s scene %d: the %s list changed, %g from its nearest border\n",
                 bench->suite->sensors.items[sensor].name, bench->suite->name,
-                bench->scene.density->name, (int)number, what, least[sensor]);
+                bench->runs.scene.density->name, (int)number, what, least[sensor]);
     }
 }
 
@@ -307,15 +290,15 @@ static void compare_entries(struct bench *bench, const struct fates *before,
 
 static void run_scene(struct bench *bench, int64_t number)
 {
-    struct chain *before = &bench->before, *after = &bench->after;
+    struct chain *before = &bench->runs.before, *after = &bench->runs.after;
     bool sensors = number % 4 == 3;
     uint64_t coin =
         hash_text(hash_text(hash_bytes(HASH_START, &number, sizeof number), bench->suite->name),
-                  bench->scene.density->name);
+                  bench->runs.scene.density->name);
     begin(before, number);
-    random_traffic_fill(&bench->scene, number, &before->frame);
-    if (bench->scene.density == &adversarial_traffic_density)
-        adversarial_traffic_add(&bench->scene, bench->suite, number, &before->frame);
+    random_traffic_fill(&bench->runs.scene, number, &before->frame);
+    if (bench->runs.scene.density == &adversarial_traffic_density)
+        adversarial_traffic_add(&bench->runs.scene, bench->suite, number, &before->frame);
     begin(after, number);
     after->frame.ego = before->frame.ego;
     for (size_t i = 0; i < before->frame.objects.count; i++)
@@ -337,13 +320,13 @@ static void run_scene(struct bench *bench, int64_t number)
 
 static void choose_suite(struct bench *bench, int which)
 {
-    struct suite *suite = arena_get(&bench->documents, sizeof *suite);
-    const struct suite *shipped = load_suite(suites[which].name, &bench->documents);
+    struct suite *suite = arena_get(&bench->runs.documents, sizeof *suite);
+    const struct suite *shipped = load_suite(suites[which].name, &bench->runs.documents);
     size_t count = shipped->sensors.count;
     *suite = bench->moved = *shipped;
     bench->suite = suite;
     bench->moved.sensors.items =
-        arena_get(&bench->documents, count * sizeof *bench->moved.sensors.items);
+        arena_get(&bench->runs.documents, count * sizeof *bench->moved.sensors.items);
     for (size_t i = 0; i < count && suites[which].harder; i++) {
         struct sensor *sensor = &suite->sensors.items[i];
         sensor->pointer_sigma = 0;
@@ -355,7 +338,7 @@ static void choose_suite(struct bench *bench, int which)
 
 static void run_density(struct bench *bench, const struct random_traffic_density *density)
 {
-    bench->scene.density = density;
+    bench->runs.scene.density = density;
     for (int suite = 0; suite < SUITES; suite++) {
         choose_suite(bench, suite);
         for (int64_t number = 0; number < hard_points(SCENES); number++)
@@ -392,5 +375,5 @@ int main(void)
         cmocka_unit_test(lists_change_only_where_a_margin_said_so),
         cmocka_unit_test(values_move_no_farther_than_their_condition_lets_them),
     };
-    return cmocka_run_group_tests(tests, make_bench, remove_bench);
+    return cmocka_run_group_tests(tests, make_bench, remove_runs);
 }

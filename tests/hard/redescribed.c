@@ -1,11 +1,14 @@
 /* One scene, described in two ways: every coordinate one unit in the last place off, turned,
- * mirrored, in UTM coordinates, in the axes of the ego, or with a strip more that lies out of
- * sight. Scenes have a roadside (MODEL 14.23), or slow wheels and limbs (14.11, 14.12).
+ * mirrored, in UTM coordinates, in the axes of the ego, with a strip more that lies out of sight,
+ * or with parked cars that creep at 1e-12 m/s. Scenes have a roadside (MODEL 14.23), slow wheels
+ * and limbs (14.11, 14.12), or parked cars with ghosts (14.1).
  *
  * A row says how many lists changed. That many may that have a margin (11.1) as small as what the
  * other description carries the decision; every changed list is one of these. The plain form of
  * the roadside numbers scatterers through all strips, whose cells are a ceil of a rounded length;
- * that of wheels and limbs adds echoes wherever a rounded speed is not 0. */
+ * that of wheels and limbs adds echoes wherever a rounded speed is not 0; that of ghosts has the
+ * azimuth of departure as a difference and divides by the antenna's gain of the arrival, so that
+ * the levels of a path and of its reverse differ in the last digit. */
 #include "lists.h"
 
 #include <stdio.h>
@@ -24,13 +27,27 @@ static const struct {
 enum { SUITES = sizeof suites / sizeof *suites };
 
 /* What a description changes in a frame. */
-enum change { FAR_STRIP, LAST_PLACE, QUARTER_TURN, TURNED, MIRRORED, UTM, EGO_AXES, CHANGES };
+enum change {
+    CREEPING,
+    FAR_STRIP,
+    LAST_PLACE,
+    QUARTER_TURN,
+    TURNED,
+    MIRRORED,
+    UTM,
+    EGO_AXES,
+    CHANGES
+};
+
+/* What a scene has, and whose echoes are counted. */
+enum subject { PARKED_CARS, ROADSIDE, SLOW_PARTS };
 
 /* UTM coordinates are multiples of 9.3e-10 m; others are at most 1e3 m. */
 static const struct {
     const char *name;
     double carry;
 } changes[CHANGES] = {
+    [CREEPING] = {"parked cars creep at 1e-12 m/s", 0},
     [FAR_STRIP] = {"a strip out of sight is one ulp longer", 0},
     [LAST_PLACE] = {"each coordinate one ulp off", 1},
     [QUARTER_TURN] = {"turned by 90 degrees", 4},
@@ -41,38 +58,20 @@ static const struct {
 };
 
 struct bench {
-    struct arena documents;
+    struct runs runs;
     struct suite suite, moved; /* moved: with mirrored mounts where the scene is mirrored */
-    struct random_traffic scene;
-    struct chain before, after;
     enum change change;
-    bool roadside; /* else wheels and limbs */
+    enum subject subject;
     struct carry carry;
     double lists, changed, near, plain;
-    double seen; /* echoes of the roadside, or of wheels and limbs */
+    double seen; /* echoes of the subject */
     double
         farthest; /* of all changed lists, from the border of a decision, in units of its bound */
 };
 
 static int make_bench(void **state)
 {
-    struct bench *bench = calloc(1, sizeof *bench);
-    assert_non_null(bench);
-    load_models(&bench->scene, &bench->documents);
-    prepare_chain(&bench->before);
-    prepare_chain(&bench->after);
-    *state = bench;
-    return 0;
-}
-
-static int remove_bench(void **state)
-{
-    struct bench *bench = *state;
-    free_chain(&bench->before);
-    free_chain(&bench->after);
-    arena_free(&bench->documents);
-    free(bench);
-    return 0;
+    return make_runs(sizeof(struct bench), state);
 }
 
 /* Other descriptions. */
@@ -177,6 +176,23 @@ static void mirror_reflectors(struct reflector_set *set, struct arena *arena)
     *set = seen;
 }
 
+static bool is_parked(const struct frame *frame, const struct object *object)
+{
+    return object->vx_mps == 0 && object->vy_mps == 0 && strcmp(object->id, frame->ego) != 0;
+}
+
+static void creep(struct frame *frame)
+{
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        struct object *object = &frame->objects.items[i];
+        struct vec2 velocity_mps = vec2_scale(1e-12, vec2_heading(object->yaw_rad));
+        if (!is_parked(frame, object))
+            continue;
+        object->vx_mps = velocity_mps.x;
+        object->vy_mps = velocity_mps.y;
+    }
+}
+
 static void redescribe(struct bench *bench, struct frame *frame, uint64_t *coin)
 {
     struct description as = description_of(bench->change, frame, coin);
@@ -184,7 +200,7 @@ static void redescribe(struct bench *bench, struct frame *frame, uint64_t *coin)
     bool shaken = bench->change == LAST_PLACE;
     for (size_t i = 0; i < frame->objects.count; i++) {
         struct object *one = &frame->objects.items[i];
-        if (bench->change != FAR_STRIP && !bench->roadside) {
+        if (bench->change != FAR_STRIP && bench->subject == SLOW_PARTS) {
             one->vx_mps = never_zero(one->vx_mps, coin);
             one->vy_mps = never_zero(one->vy_mps, coin);
         }
@@ -254,20 +270,33 @@ static void slow_down(struct frame *frame, uint64_t *coin)
     }
 }
 
+/* Every second object stands; the ego drives on. */
+static void park(struct frame *frame)
+{
+    for (size_t i = 0; i < frame->objects.count; i += 2) {
+        struct object *object = &frame->objects.items[i];
+        if (strcmp(object->id, frame->ego) != 0)
+            object->vx_mps = object->vy_mps = object->yaw_rate_radps = 0;
+    }
+}
+
 static void make_scene(struct bench *bench, int64_t number, struct frame *frame, uint64_t *coin)
 {
-    random_traffic_fill(&bench->scene, number, frame);
-    if (bench->scene.density == &adversarial_traffic_density)
-        adversarial_traffic_add(&bench->scene, &bench->suite, number, frame);
+    random_traffic_fill(&bench->runs.scene, number, frame);
+    if (bench->runs.scene.density == &adversarial_traffic_density)
+        adversarial_traffic_add(&bench->runs.scene, &bench->suite, number, frame);
     if (bench->change == FAR_STRIP)
         add_far_strip(frame);
-    if (bench->roadside) {
-        random_traffic_roadside(random_traffic_address(&bench->scene, frame->seed, number), frame);
+    if (bench->subject == PARKED_CARS)
+        park(frame);
+    if (bench->subject == SLOW_PARTS)
+        slow_down(frame, coin);
+    if (bench->subject == ROADSIDE) {
+        random_traffic_roadside(random_traffic_address(&bench->runs.scene, frame->seed, number),
+                                frame);
         widen(frame);
         if (bench->change == MIRRORED)
             drop_wide_strips(frame);
-    } else {
-        slow_down(frame, coin);
     }
 }
 
@@ -304,27 +333,79 @@ static double plain_movers(const struct frame *frame, const char *sensor)
     return movers;
 }
 
+/* The amplitude of a ghost of an ERCS of 1 at the unit distance, by the difference of azimuths. */
+static double plain_level(const struct antenna *antenna, const struct echo *ghost)
+{
+    double turn_rad = ghost->departure_azimuth_rad - ghost->azimuth_rad;
+    double arrival = antenna_gain(antenna, ghost->azimuth_rad);
+    double departure = antenna_gain(antenna, ghost->azimuth_rad + turn_rad);
+    return sqrt(departure / arrival) * arrival;
+}
+
+/* Which ghosts of a sensor are stronger than those of the reverse path by the plain level, as a
+ * hash. */
+static uint64_t plain_order(const struct frame *frame, const struct sensor *sensor)
+{
+    struct echo_span echoes = frame_echoes_of(frame, sensor->name);
+    uint64_t order = HASH_START;
+    for (size_t i = 0; i < echoes.count; i++) {
+        struct echo reverse = echoes.items[i];
+        if (reverse.id.path != PATH_WALL_OBJECT)
+            continue;
+        reverse.id.path = PATH_OBJECT_WALL;
+        const struct echo *other =
+            bsearch(&reverse, echoes.items, echoes.count, sizeof *echoes.items, frame_order_echoes);
+        if (other == NULL)
+            continue;
+        double rise =
+            plain_level(&sensor->antenna, &echoes.items[i]) - plain_level(&sensor->antenna, other);
+        int sign = (rise > 0) - (rise < 0);
+        order = hash_bytes(order, &sign, sizeof sign);
+    }
+    return order;
+}
+
+/* True if the plain form sees another list after than before. */
+static bool plain_differs(const struct bench *bench, const struct sensor *sensor)
+{
+    const struct frame *before = &bench->runs.before.frame, *after = &bench->runs.after.frame;
+    switch (bench->subject) {
+    case PARKED_CARS:
+        return plain_order(before, sensor) != plain_order(after, sensor);
+    case ROADSIDE:
+        return plain_cells(before) != plain_cells(after);
+    case SLOW_PARTS:
+        return plain_movers(before, sensor->name) != plain_movers(after, sensor->name);
+    }
+    return false;
+}
+
 static void compare_plain(struct bench *bench)
 {
-    const struct frame *before = &bench->before.frame, *after = &bench->after.frame;
-    bool counted = plain_cells(before) != plain_cells(after);
-    for (size_t i = 0; i < bench->suite.sensors.count; i++) {
-        const char *sensor = bench->suite.sensors.items[i].name;
-        bool moved = plain_movers(before, sensor) != plain_movers(after, sensor);
-        bench->plain += bench->roadside ? counted : moved;
+    for (size_t i = 0; i < bench->suite.sensors.count; i++)
+        bench->plain += plain_differs(bench, &bench->suite.sensors.items[i]);
+}
+
+static bool is_of(enum subject subject, enum path path)
+{
+    switch (subject) {
+    case PARKED_CARS:
+        return path == PATH_WALL_OBJECT || path == PATH_OBJECT_WALL;
+    case ROADSIDE:
+        return path == PATH_CLUTTER;
+    case SLOW_PARTS:
+        return path == PATH_WHEEL || path == PATH_LIMB;
     }
+    return false;
 }
 
 /* Counts what the scenes are made for. */
 static void count_seen(struct bench *bench)
 {
-    const struct frame *frame = &bench->before.frame;
+    const struct frame *frame = &bench->runs.before.frame;
     for (size_t i = 0; i < frame->cells.count; i++)
-        for (size_t j = 0; j < frame->cells.items[i].members.count; j++) {
-            enum path path = frame->cells.items[i].members.items[j].id.path;
-            bool moves = path == PATH_WHEEL || path == PATH_LIMB;
-            bench->seen += bench->roadside ? path == PATH_CLUTTER : moves;
-        }
+        for (size_t j = 0; j < frame->cells.items[i].members.count; j++)
+            bench->seen += is_of(bench->subject, frame->cells.items[i].members.items[j].id.path);
 }
 
 static double nearest(struct fate_pair pair, struct carry carry)
@@ -359,8 +440,8 @@ static void compare(struct bench *bench, const struct fates *before, const struc
         bench->farthest = fmax(bench->farthest, least[i]);
         if (!(least[i] <= 1))
             fail_msg("%s, %s scene %d, %s: a list changed, %g from its nearest border",
-                     bench->suite.sensors.items[i].name, bench->scene.density->name,
-                     (int)bench->before.frame.frame, changes[bench->change].name, least[i]);
+                     bench->suite.sensors.items[i].name, bench->runs.scene.density->name,
+                     (int)bench->runs.before.frame.frame, changes[bench->change].name, least[i]);
     }
 }
 
@@ -374,7 +455,7 @@ static void run(struct bench *bench, struct chain *chain, bool other)
     step(&chain->extract, &chain->frame);
     for (size_t i = 0; other && bench->change == MIRRORED && i < chain->frame.reflectors.count; i++)
         mirror_reflectors(&chain->frame.reflectors.items[i], &chain->arena);
-    see(&chain->frame, suite);
+    see(&chain->frame, suite, bench->subject == PARKED_CARS);
     step(&chain->sensor, &chain->frame);
     step(&chain->noise, &chain->frame);
     collect(chain, suite);
@@ -382,14 +463,17 @@ static void run(struct bench *bench, struct chain *chain, bool other)
 
 static void run_scene(struct bench *bench, int64_t number)
 {
-    struct chain *before = &bench->before, *after = &bench->after;
+    struct chain *before = &bench->runs.before, *after = &bench->runs.after;
     uint64_t coin = hash_bytes(hash_text(HASH_START, bench->suite.name), &number, sizeof number);
     bool changed[SENSORS] = {false}, near[SENSORS] = {false};
     begin(before, number);
     begin(after, number);
     make_scene(bench, number, &before->frame, &coin);
     copy_scene(&before->frame, &after->frame);
-    redescribe(bench, &after->frame, &coin);
+    if (bench->change == CREEPING)
+        creep(&after->frame);
+    else
+        redescribe(bench, &after->frame, &coin);
     run(bench, before, false);
     run(bench, after, true);
     compare(bench, &before->cells, &after->cells, changed, near);
@@ -406,9 +490,9 @@ static void run_scene(struct bench *bench, int64_t number)
 /* A mirrored level is another one, as its draws go by the aspect. */
 static void choose_suite(struct bench *bench, int which)
 {
-    const struct suite *shipped = load_suite(suites[which].name, &bench->documents);
+    const struct suite *shipped = load_suite(suites[which].name, &bench->runs.documents);
     bool mirrored = bench->change == MIRRORED;
-    struct sensor *sensors = arena_get(&bench->documents, 2 * SENSORS * sizeof *sensors);
+    struct sensor *sensors = arena_get(&bench->runs.documents, 2 * SENSORS * sizeof *sensors);
     bench->suite = bench->moved = *shipped;
     bench->suite.sensors.items = sensors;
     bench->moved.sensors.items = sensors + SENSORS;
@@ -426,6 +510,8 @@ static void choose_suite(struct bench *bench, int which)
     bench->carry = (struct carry){changes[bench->change].carry, suites[which].threshold_carry};
 }
 
+/* Half of the scenes are adversarial, but none for creeping cars: they cross borders by creeping.
+ */
 static void run_change(struct bench *bench, const char *what)
 {
     char unit[40];
@@ -434,8 +520,9 @@ static void run_change(struct bench *bench, const char *what)
     for (int suite = 0; suite < SUITES; suite++) {
         choose_suite(bench, suite);
         for (int64_t number = 0; number < hard_points(SCENES); number++) {
-            bench->scene.density = number % 2 == 0 ? &random_traffic_densities[TRAFFIC_DENSE]
-                                                   : &adversarial_traffic_density;
+            bool dense = bench->change == CREEPING || number % 2 == 0;
+            bench->runs.scene.density =
+                dense ? &random_traffic_densities[TRAFFIC_DENSE] : &adversarial_traffic_density;
             run_scene(bench, number);
         }
     }
@@ -450,24 +537,33 @@ static void run_change(struct bench *bench, const char *what)
 static void a_roadside_is_the_same_in_any_description(void **state)
 {
     struct bench *bench = *state;
-    bench->roadside = true;
-    for (bench->change = 0; bench->change < CHANGES; bench->change++)
+    bench->subject = ROADSIDE;
+    for (bench->change = FAR_STRIP; bench->change < CHANGES; bench->change++)
         run_change(bench, "roadside");
 }
 
 static void slow_wheels_and_limbs_are_the_same_in_any_description(void **state)
 {
     struct bench *bench = *state;
-    bench->roadside = false;
+    bench->subject = SLOW_PARTS;
     for (bench->change = LAST_PLACE; bench->change < CHANGES; bench->change++)
         run_change(bench, "slow wheels");
+}
+
+static void parked_cars_that_creep_have_the_list_of_those_that_stand(void **state)
+{
+    struct bench *bench = *state;
+    bench->subject = PARKED_CARS;
+    bench->change = CREEPING;
+    run_change(bench, "ghosts");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parked_cars_that_creep_have_the_list_of_those_that_stand),
         cmocka_unit_test(a_roadside_is_the_same_in_any_description),
         cmocka_unit_test(slow_wheels_and_limbs_are_the_same_in_any_description),
     };
-    return cmocka_run_group_tests(tests, make_bench, remove_bench);
+    return cmocka_run_group_tests(tests, make_bench, remove_runs);
 }

@@ -149,7 +149,7 @@ def compare_set(bench, where, told, mine, doubtful, what):
 
 def compare_echo(bench, where, told, mine, time):
     for name, value in (("range_m", mine.range), ("azimuth_rad", mine.azimuth), ("range_rate_mps", mine.rate),
-                        ("departure_rad", mine.departure)):
+                        ("departure_azimuth_rad", mine.departure)):
         bench.check(near(told.get(name, 0), value), f"{where} {name}: {told.get(name, 0)!r}, oracle {value!r}")
     bench.check(near(told["ercs"], mine.ercs, FAINT, STEEP), f"{where} ercs: {told['ercs']!r}, oracle {mine.ercs!r}")
     bench.check(near(told["time_s"], time), f"{where} time_s: {told['time_s']!r}, oracle {time!r}")

@@ -18,6 +18,7 @@ LIGHT_MPS = 299792458.0
 NEAR = 1e-9
 DARK = 2 * math.sqrt(2)
 FOG_CELSIUS = 10.0
+ONE_WAY = {"wall_object", "object_wall"}  # paths by a wall in one direction
 
 
 def near(value, bound, scale=1.0):
@@ -533,7 +534,7 @@ def enter_ghost(scene, scan, mirror, body, name, path, legs, ercs, reach, doubtf
     if limit or not out.front or not reach or ercs <= 0:
         return
     scan.echoes[key] = Echo(key, range=distance, azimuth=back.azimuth, rate=(out.rate + back.rate) / 2,
-                            departure=out.azimuth - back.azimuth, ercs=ercs, along=0.0, heights=None)
+                            departure=out.azimuth if path in ONE_WAY else 0.0, ercs=ercs, along=0.0, heights=None)
 
 
 def ghosts_of_point(scene, scan, mirror, direct, point, seen, doubtful):
@@ -759,8 +760,8 @@ class Ray:
         level, self.size = walked(sensor, echo, effects)
         self.strength *= level
         h_s, h_d = antenna.pointers(echo.azimuth)
-        if echo.departure != 0:
-            out = abs(antenna.pointers(echo.azimuth + echo.departure)[0])
+        if self.key[2] in ONE_WAY:
+            out = abs(antenna.pointers(echo.departure)[0])
             scale = math.sqrt(out / abs(h_s)) if h_s != 0 else 0.0
             h_s, h_d = h_s * scale, h_d * scale
         self.total, self.delta = self.strength * h_s, self.strength * h_d

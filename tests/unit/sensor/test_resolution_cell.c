@@ -73,18 +73,24 @@ static void without_superposition_a_cell_is_one_echo_of_the_summed_strength(void
     arena_free(&arena);
 }
 
-static void a_ghost_has_the_root_of_the_pattern_each_way(void **state)
+static struct echo ghost_at(double azimuth_rad, double departure_azimuth_rad)
+{
+    struct echo ghost = echo_at(15, azimuth_rad, 0, 0.5);
+    ghost.id.path = PATH_WALL_OBJECT;
+    ghost.departure_azimuth_rad = departure_azimuth_rad;
+    return ghost;
+}
+
+static void a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_reverse(void **state)
 {
     (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
     for (double azimuth_rad = -1.4; azimuth_rad <= 1.4; azimuth_rad += 0.1) {
-        struct echo out = echo_at(15, azimuth_rad, 0, 0.5);
-        struct echo back = echo_at(15, 0.4, 0, 0.5);
-        out.departure_rad = 0.4 - azimuth_rad;
-        back.departure_rad = azimuth_rad - 0.4;
+        struct echo out = ghost_at(azimuth_rad, 0.4), back = ghost_at(0.4, azimuth_rad);
         struct received_echo echoes[] = {received_echo_in_free_space(&sensor, &out, 0),
                                          received_echo_in_free_space(&sensor, &back, 0)};
+        assert_true(echoes[0].amplitude == echoes[1].amplitude);
         for (size_t i = 0; i < 2; i++) {
             struct cell cell;
             assert_near(echoes[i].amplitude, 5 * sqrt(pattern(azimuth_rad) * pattern(0.4)), 1e-13);
@@ -95,15 +101,13 @@ static void a_ghost_has_the_root_of_the_pattern_each_way(void **state)
     }
     /* A wave that leaves or comes back beyond the side of the array, be it by an ulp, has no
      * amplitude. */
-    struct echo echo = echo_at(15, 0.4, 0, 0.5);
-    echo.departure_rad = 0x1.921fb54442d19p0 - 0.4;
+    struct echo echo = ghost_at(0.4, 0x1.921fb54442d19p0);
     assert_true(received_echo_in_free_space(&sensor, &echo, 0).amplitude >= 0);
     assert_true(received_echo_in_free_space(&sensor, &echo, 0).amplitude < 1e-15);
     static const struct antenna_row rows[] = {{-0.5, 1, -1}, {0.5, 1, 1}};
     sensor.antenna = (struct antenna){.pattern = ANTENNA_TABLE, .rows = rows, .row_count = 2};
     assert_close(received_echo_in_free_space(&sensor, &echo, 0).amplitude, 0, 0);
-    echo.azimuth_rad = 0.6;
-    echo.departure_rad = -0.3;
+    echo = ghost_at(0.6, 0.3);
     assert_close(received_echo_in_free_space(&sensor, &echo, 0).amplitude, 0, 0);
     arena_free(&arena);
 }
@@ -358,7 +362,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pattern),
         cmocka_unit_test(without_superposition_a_cell_is_one_echo_of_the_summed_strength),
-        cmocka_unit_test(a_ghost_has_the_root_of_the_pattern_each_way),
+        cmocka_unit_test(a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_reverse),
         cmocka_unit_test(a_single_echo_is_its_cell),
         cmocka_unit_test(a_single_echo_of_an_array_has_one_cell_with_and_without_superposition),
         cmocka_unit_test(two_echoes_are_weighted_by_amplitude),
