@@ -1,10 +1,8 @@
 #include "noise/beam_cells.h"
 
 #include "base/elementary.h"
+#include "radar/beam_owner.h"
 #include "radar/interferer.h"
-
-/* An echo has its largest part of at least this in one beam, or is masked. */
-static const double LEAST_PART = 0.5;
 
 struct beam_list {
     LIST_OF(struct cell) cells;
@@ -18,10 +16,19 @@ struct parting {
     size_t clean_count, count;
 };
 
-static double part_of(const struct parting *parting, const struct contributor *member, size_t beam)
+/* The part of a member's amplitude that a beam receives. */
+static double part_of(const void *of, size_t member, size_t beam)
 {
+    const struct parting *parting = of;
+    double azimuth_rad = parting->cell->members.items[member].azimuth_rad;
     return array_response(&parting->sensor->beams,
-                          elementary_sin(member->azimuth_rad) - parting->noisy[beam].sine);
+                          elementary_sin(azimuth_rad) - parting->noisy[beam].sine);
+}
+
+static double amplitude_of(const void *of, size_t member)
+{
+    const struct parting *parting = of;
+    return parting->cell->members.items[member].weight;
 }
 
 /* Adds complex Gaussian noise to the samples, whose RMS in a beam is noise. */
@@ -56,59 +63,22 @@ static void find_beams(const struct effect_scan *scan, struct parting *parting)
     parting->count = array_keep(array, threshold, noise, parting->noisy, parting->count);
 }
 
-/* The beam with the largest part of the member; SIZE_MAX: it is masked. */
-static size_t owner_of(const struct parting *parting, const struct contributor *member)
-{
-    size_t owner = SIZE_MAX;
-    double most = LEAST_PART;
-    for (size_t beam = 0; beam < parting->count; beam++) {
-        double part = part_of(parting, member, beam);
-        if (part >= most && (owner == SIZE_MAX || part > most)) {
-            most = part;
-            owner = beam;
-        }
-    }
-    return owner;
-}
-
-/* The number of the member that makes most of a beam's amplitude. */
-static size_t dominant(const struct parting *parting, size_t beam)
-{
-    const struct contributor *members = parting->cell->members.items;
-    size_t most = 0;
-    double strongest = -1;
-    for (size_t i = 0; i < parting->cell->members.count; i++) {
-        double strength = members[i].weight * part_of(parting, &members[i], beam);
-        if (strength > strongest) {
-            most = i;
-            strongest = strength;
-        }
-    }
-    return most;
-}
-
 /* The echoes of a beam, each with its share of the beam's amplitude; returns the part of the whole
- * cell's that this is. A masked echo that makes most of a beam becomes its own. */
-static double add_members(const struct parting *parting, size_t beam, size_t *owner,
-                          struct arena *arena, struct cell *cell)
+ * cell's that this is. The signal has other weights: there the echoes of a beam are a cell, and
+ * share the amplitude as they do in cells (MODEL 11.3). */
+static double add_members(const struct parting *parting, const struct beam_owner *owners,
+                          size_t beam, struct arena *arena, struct cell *cell)
 {
-    const struct contributor *members = parting->cell->members.items;
+    size_t *shown = arena_get(arena, owners->echoes * sizeof *shown);
+    size_t count = beam_owner_shown(owners, beam, 0, shown, &cell->repeats);
     double sum = 0;
-    for (size_t i = 0; i < parting->cell->members.count; i++)
-        if (owner[i] == beam)
-            *list_add(&cell->members, arena) = members[i];
-    if (cell->members.count == 0) {
-        size_t most = dominant(parting, beam);
-        *list_add(&cell->members, arena) = members[most];
-        cell->repeats = owner[most] != SIZE_MAX;
-        owner[most] = cell->repeats ? owner[most] : beam;
-    }
-    for (size_t i = 0; i < cell->members.count; i++) {
-        struct contributor *member = &cell->members.items[i];
-        member->weight *= elementary_max(part_of(parting, member, beam), 1e-300);
+    for (size_t i = 0; i < count; i++) {
+        struct contributor *member = list_add(&cell->members, arena);
+        *member = parting->cell->members.items[shown[i]];
+        member->weight *= elementary_max(part_of(parting, shown[i], beam), 1e-300);
         sum += member->weight;
     }
-    for (size_t i = 0; i < cell->members.count; i++)
+    for (size_t i = 0; i < count; i++)
         cell->members.items[i].weight /= sum;
     return sum;
 }
@@ -143,8 +113,8 @@ static const struct array_maximum *nearest_clean(const struct parting *parting, 
     return nearest;
 }
 
-static struct cell cell_of(const struct parting *parting, size_t beam, size_t *owner,
-                           struct arena *arena)
+static struct cell cell_of(const struct parting *parting, const struct beam_owner *owners,
+                           size_t beam, struct arena *arena)
 {
     const struct cell *whole = parting->cell;
     const struct array_maximum *clean = nearest_clean(parting, beam);
@@ -154,7 +124,7 @@ static struct cell cell_of(const struct parting *parting, size_t beam, size_t *o
     memset(&cell.members, 0, sizeof cell.members);
     *noisy = parting->noisy[beam];
     cell.beam = noisy;
-    cell.amplitude *= add_members(parting, beam, owner, arena, &cell);
+    cell.amplitude *= add_members(parting, owners, beam, arena, &cell);
     add_means(parting->sensor, &whole->members.items[0], whole, -1, &cell);
     add_means(parting->sensor, &whole->members.items[0], &cell, 1, &cell);
     cell.range_m = elementary_max(cell.range_m, 0);
@@ -168,14 +138,20 @@ static void part(struct frame *frame, const char *stage, const struct parting *p
                  struct beam_list *beams)
 {
     const struct cell *cell = parting->cell;
-    size_t *owner = arena_get(frame->arena, cell->members.count * sizeof *owner);
-    for (size_t i = 0; i < cell->members.count; i++)
-        owner[i] = owner_of(parting, &cell->members.items[i]);
+    const struct beam_owner owners = {
+        .beams = parting->count,
+        .echoes = cell->members.count,
+        .part = part_of,
+        .amplitude = amplitude_of,
+        .of = parting,
+        .owner = arena_get(frame->arena, cell->members.count * sizeof *owners.owner),
+    };
+    beam_owner_find(&owners);
     for (size_t beam = 0; beam < parting->count; beam++)
-        *list_add(&beams->cells, frame->arena) = cell_of(parting, beam, owner, frame->arena);
+        *list_add(&beams->cells, frame->arena) = cell_of(parting, &owners, beam, frame->arena);
     for (size_t i = 0; i < cell->members.count; i++) {
         struct lost_echo lost = frame_lost_echo(&cell->members.items[i], &cell->margins);
-        if (owner[i] == SIZE_MAX)
+        if (owners.owner[i] == BEAM_OWNER_NONE)
             frame_lose(frame, stage, parting->sensor->name, LOSS_MASKED, &lost);
     }
 }
