@@ -6,8 +6,8 @@
 double consistency_fold_mps(const struct sensor *sensor)
 {
     const struct waveform *waveform = &sensor->waveform;
-    double folds =
-        elementary_max(1, (double)waveform->stagger + (double)sensor->array.transmit.count);
+    double turns = elementary_max(1, (double)sensor->array.transmit.count);
+    double folds = elementary_max(turns, (double)waveform->stagger);
     return folds * (double)waveform->repetitions * sensor->cell_range_rate_mps / 2;
 }
 
@@ -40,17 +40,6 @@ static size_t add(struct consistency *checks, size_t count, const struct consist
                                       left_value, right_value, member})
 #define LIMIT(...) ADD(LIMIT, __VA_ARGS__, NULL)
 
-/* The beam of the waveform's row of elements (MODEL 11.5), if its sensor has a table of that row's
- * beam. An azimuth_curve may contain the transmitter's. */
-static double row_beam_rad(const struct sensor *sensor)
-{
-    const struct waveform *waveform = &sensor->waveform;
-    if (waveform->elements == 0 || sensor->antenna_pattern != ANTENNA_TABLE ||
-        sensor->azimuth_curve != NULL)
-        return 0;
-    return 0.886 / ((double)waveform->elements * waveform->spacing);
-}
-
 static size_t add_strict(const struct sensor *sensor, struct consistency *checks)
 {
     size_t count = 0;
@@ -65,8 +54,6 @@ static size_t add_strict(const struct sensor *sensor, struct consistency *checks
         "receiver_bandwidth_hz", sensor->receiver_bandwidth_hz, "range_max_m");
     ADD(STRICT, MPS, "false alarms to false_alarm_range_rate_mps", alarm_rate_mps,
         "unambiguous_rate_mps", sensor->unambiguous_rate_mps, "false_alarm_range_rate_mps");
-    ADD(SAME, RAD, "beam of the row, 0.886/(elements spacing)", row_beam_rad(sensor),
-        "antenna_table's beam", antenna_beam_rad(&sensor->antenna), "waveform.elements");
     return count;
 }
 
@@ -134,8 +121,6 @@ bool consistency_holds(const struct consistency *check)
     double ratio = check->left_value / check->right_value;
     if (check->kind == CONSISTENCY_EQUAL)
         return ratio <= 2 && ratio >= 0.5;
-    if (check->kind == CONSISTENCY_SAME)
-        return ratio <= 1.1 && ratio >= 1 / 1.1;
     return ratio <= 1 + 1e-6; /* equal figures may be rounded */
 }
 

@@ -21,7 +21,6 @@ enum consistency_kind {
     CONSISTENCY_LIMIT,  /* left above right is a doubt */
     CONSISTENCY_STRICT, /* left above right is impossible */
     CONSISTENCY_EQUAL,  /* a factor of more than 2 between them is impossible */
-    CONSISTENCY_SAME,   /* a factor of more than 1.1 between them is impossible */
 };
 
 struct consistency {

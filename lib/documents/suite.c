@@ -408,8 +408,8 @@ static int check_limits(const struct sensor *sensor, struct diag *diag)
     return 0;
 }
 
-/* Refuses an array without its pattern and estimator, these without it, and what its transmitters
- * do in a waveform's place. */
+/* Refuses an array without its pattern and estimator, these without it, and a second train beside
+ * transmitters that take turns. */
 static int check_array(const struct sensor *sensor, struct diag *diag)
 {
     const struct array_layout *layout = &sensor->array;
@@ -419,11 +419,11 @@ static int check_array(const struct sensor *sensor, struct diag *diag)
         return diag_fail(diag, DIAG_CONFIG,
                          "array: expected with antenna_pattern \"array\" and angle_estimator "
                          "\"beams\", and only with both");
-    if (array && (sensor->waveform.elements > 0 || sensor->waveform.stagger > 0))
+    if (layout->transmit.count > 1 && sensor->waveform.stagger > 0)
         return diag_fail(diag, DIAG_CONFIG,
-                         "waveform: elements %lld and stagger %lld; expected none beside an array, "
-                         "whose transmitters tell folded range rates apart",
-                         (long long)sensor->waveform.elements, (long long)sensor->waveform.stagger);
+                         "waveform.stagger: %lld; expected none beside an array of %zu "
+                         "transmitters, whose turns tell folded range rates apart",
+                         (long long)sensor->waveform.stagger, layout->transmit.count);
     return array ? antenna_array_check(layout, sensor->field_of_view_rad, diag) : 0;
 }
 

@@ -17,10 +17,6 @@ static const struct field waveform_fields[] = {
     {OPTIONAL_INTEGER(
         struct waveform, stagger, 2, 64,
         "n: a second train, 1 + 1/n as long, tells n folds of range rate apart; absent: none")},
-    {OPTIONAL_INTEGER(struct waveform, elements, 2, 64,
-                      "receivers in a row; absent: the antenna's sum and delta channel")},
-    {OPTIONAL_REAL(struct waveform, spacing, 0.1, 100, "distance between elements, in wavelengths"),
-     .absent = 0.5},
     {OPTIONAL_CHOICE(struct waveform, window, windows, "window of the Fourier transforms")},
     {OPTIONAL_CHOICE(struct waveform, cfar, cfars,
                      "noise level of a cell: the neighbour of cfar_rank, or the mean of all")},
@@ -40,8 +36,20 @@ static const struct field waveform_fields[] = {
     {0},
 };
 
-const struct record waveform_record = {FIELD_TABLE(struct waveform, waveform_fields, "waveform",
-                                                   "How the signal is made and searched.")};
+#define ELEMENTS_NOW                                                                               \
+    "the sensor's array has the elements; write beside the waveform \"antenna_pattern\": "         \
+    "\"array\", \"angle_estimator\": \"beams\", \"array\": {\"transmit\": [{\"place\": 0}], "      \
+    "\"receive\": [{\"place\": 0}, {\"place\": 0.5}]}, with a place in wavelengths for each "      \
+    "receiver, and no antenna_table"
+
+static const struct field_gone gone_fields[] = {
+    {"elements", ELEMENTS_NOW}, {"spacing", ELEMENTS_NOW}, {0}};
+
+const struct record waveform_record = {
+    FIELD_TABLE(struct waveform, waveform_fields, "waveform",
+                "How the signal is made and searched."),
+    .gone = gone_fields,
+};
 
 double waveform_range_step_m(const struct waveform *waveform, double cell_range_m)
 {

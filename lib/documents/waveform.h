@@ -16,8 +16,6 @@ struct waveform {
     int64_t samples;     /* 0: the document describes no waveform */
     int64_t repetitions; /* chirps or pulses of a train */
     int64_t stagger;     /* folds of range rate that a second train resolves; 0: there is none */
-    int64_t elements;    /* 0: the sum and delta channels of the antenna */
-    double spacing;      /* of the elements, in wavelengths */
     enum point_response window;
     enum cfar_kind cfar;
     int64_t cfar_cells, cfar_guard, cfar_rank;

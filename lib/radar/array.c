@@ -181,14 +181,20 @@ struct array array_of(const struct array_layout *layout)
     return array;
 }
 
+struct phasor array_phasor(const struct array *array, double sine, size_t n)
+{
+    struct elementary_sincos turn =
+        elementary_sincos_turns(array->spacing * middle_of(array, n) * sine);
+    return (struct phasor){turn.cos, turn.sin};
+}
+
 void array_receive(const struct array *array, double sine, struct phasor echo,
                    struct phasor *samples)
 {
     for (size_t n = 0; n < array->count; n++) {
-        struct elementary_sincos turn =
-            elementary_sincos_turns(array->spacing * middle_of(array, n) * sine);
-        samples[n].re += echo.re * turn.cos - echo.im * turn.sin;
-        samples[n].im += echo.re * turn.sin + echo.im * turn.cos;
+        struct phasor one = array_phasor(array, sine, n);
+        samples[n].re += echo.re * one.re - echo.im * one.im;
+        samples[n].im += echo.re * one.im + echo.im * one.re;
     }
 }
 

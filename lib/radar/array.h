@@ -53,6 +53,10 @@ struct array_maximum {
 /* The array of a layout with 1 to ARRAY_MOST_ELEMENTS virtual elements. */
 struct array array_of(const struct array_layout *layout);
 
+/* The signal at element n of an echo of amplitude 1 from the sine of an azimuth; its phase is 0 in
+ * the middle of the array. */
+struct phasor array_phasor(const struct array *array, double sine, size_t n);
+
 /* Adds an echo from the sine of an azimuth, with this amplitude and phase in the middle of the
  * array, to the samples of the elements. */
 void array_receive(const struct array *array, double sine, struct phasor echo,

@@ -24,10 +24,11 @@ static int64_t signal_samples(const struct suite *suite)
 {
     int64_t sum = 0;
     for (size_t i = 0; i < suite->sensors.count; i++) {
-        const struct waveform *waveform = &suite->sensors.items[i].waveform;
+        const struct sensor *sensor = &suite->sensors.items[i];
+        const struct waveform *waveform = &sensor->waveform;
         if (waveform->samples == 0)
             return 0;
-        int64_t channels = waveform->elements > 0 ? waveform->elements : 2;
+        int64_t channels = sensor->beams.count > 0 ? (int64_t)sensor->beams.count : 2;
         sum += waveform->samples * waveform->repetitions * channels;
     }
     return sum;

@@ -126,11 +126,12 @@ static void add_ambiguity(const struct sensor *sensor, struct text *text)
 static void add_array(const struct sensor *sensor, struct text *text)
 {
     const struct array *array = &sensor->beams;
+    size_t transmitters = sensor->array.transmit.count;
     text_format(text,
                 "azimuths %.3g degrees apart\n"
-                "  array              %zu transmitters in turn, %zu receivers: %zu elements, %.4g "
+                "  array              %zu transmitter%s, %zu receivers: %zu elements, %.4g "
                 "wavelengths apart\n",
-                DEGREES * array_beam(array), sensor->array.transmit.count,
+                DEGREES * array_beam(array), transmitters, transmitters > 1 ? "s in turn" : "",
                 sensor->array.receive.count, array->count, array->spacing);
 }
 
@@ -141,8 +142,6 @@ static void add_resolution(const struct sensor *sensor, struct text *text)
                 sensor->bin_range_rate_mps);
     if (sensor->beams.count > 0)
         add_array(sensor, text);
-    else if (sensor->waveform.elements > 0)
-        text_add_word(text, "separation in angle in glint-sensor-signal only\n");
     else
         text_add_word(text, "no separation in angle\n");
     text_format(text, "  resolution         %.3g m or %.3g m/s from a stronger echo\n",
@@ -308,9 +307,8 @@ static void add_checks(const struct sensor *sensor, struct text *text)
         text_format(text, "  %s %s, %.4g%s, %s %s, %.4g%s\n",
                     consistency_holds(check) ? "holds:" : "doubt:", check->left,
                     per_unit * check->left_value, unit,
-                    check->kind == CONSISTENCY_EQUAL || check->kind == CONSISTENCY_SAME ? "about"
-                                                                                        : "at most",
-                    check->right, per_unit * check->right_value, unit);
+                    check->kind == CONSISTENCY_EQUAL ? "about" : "at most", check->right,
+                    per_unit * check->right_value, unit);
     }
 }
 

@@ -332,8 +332,24 @@ int field_refuse(const struct field *field, const char *found, struct diag *diag
     return diag_fail(diag, DIAG_DATA, "%s: %s; expected %s", field->name, found, expected);
 }
 
+/* The record's former member of that name, or NULL. */
+static const struct field_gone *find_gone(const struct record *record, const char *name,
+                                          size_t length)
+{
+    const struct field_gone *gone = record->gone;
+    if (gone == NULL)
+        return NULL;
+    for (; gone->name != NULL; gone++)
+        if (strlen(gone->name) == length && memcmp(gone->name, name, length) == 0)
+            return gone;
+    return NULL;
+}
+
 int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag)
 {
+    const struct field_gone *gone = find_gone(record, name, length);
+    if (gone != NULL)
+        return diag_fail(diag, DIAG_DATA, "%s: %s", gone->name, gone->instead);
     char known[1536] = "";
     size_t used = 0;
     struct suggestion meant = suggestion_begin(name, length);

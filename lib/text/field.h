@@ -53,6 +53,11 @@ struct field {
     const char *word; /* name of the value in --help, if not NUMBER, NAME, ... */
 };
 
+/* A member that a record had once, and what to write instead. */
+struct field_gone {
+    const char *name, *instead;
+};
+
 /* Tables end with a field without a name. Members that are present or absent together are a group.
  * A record with groups has their bits in an unsigned member at present_offset: the members of a
  * group are absent unless its bit is set. A member for which 0 is a value like any other needs a
@@ -65,6 +70,7 @@ struct record {
     const struct field *fields;
     size_t present_offset;
     size_t document_offset;
+    const struct field_gone *gone; /* ends without a name; NULL: none */
 };
 
 /* The most members of a record: readers note in a set of 64-bit words which ones they have seen. A
@@ -177,6 +183,8 @@ void field_expectation(const struct field *field, char *text, size_t size);
 /* Refuses the value of a member with "name: FOUND; expected a number in ...", where found is the
  * JSON kind that was found, or "missing". */
 int field_refuse(const struct field *field, const char *found, struct diag *diag);
+
+/* Refuses a key that no member has: says what to write instead, or names the members. */
 int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag);
 int field_twice(const struct field *field, struct diag *diag);
 int field_out_of_bounds(const struct field *field, double value, struct diag *diag);

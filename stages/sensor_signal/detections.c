@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "noise/false_alarm_cells.h"
 #include "noise/target_list.h"
+#include "radar/beam_owner.h"
 #include "radar/folding.h"
 #include "radar/interferer.h"
 #include "radar/measurement_sigma.h"
@@ -21,14 +22,6 @@ static const double factors[] = {
     [POINT_RESPONSE_PULSE] = 0.300281,
 };
 
-static double element_sigma_rad(const struct element_row *array, double azimuth_rad, double snr)
-{
-    double count = (double)array->elements;
-    struct measurement_sigma sine = {.cell = 1 / (count * array->spacing), .factor = CRAMER_RAO};
-    return measurement_sigma_at_snr(&sine, snr * (1 - 1 / (count * count))) /
-           elementary_cos(azimuth_rad);
-}
-
 /* Signal-to-noise ratio, as a ratio of powers, of an amplitude that contains noise. */
 static double snr_of(double amplitude, double noise)
 {
@@ -36,42 +29,43 @@ static double snr_of(double amplitude, double noise)
     return elementary_max(ratio * ratio - 1, 0);
 }
 
+/* The standard deviation of the azimuth by the elements of an array, or by sum and delta. */
+static double azimuth_sigma_rad(const struct signal_cube *signal, double noise,
+                                struct effect_measurement *measurement)
+{
+    double azimuth_rad = measurement->azimuth_rad;
+    if (signal->array->count > 0)
+        return measurement->cell->beam->sigma * noise / elementary_cos(azimuth_rad);
+    double widening = detection_quality_widening(measurement, noise);
+    double snr = snr_of(measurement->amplitude, noise);
+    return widening * suite_azimuth_sigma_rad(signal->sensor, azimuth_rad, snr);
+}
+
 void detections_estimate(const struct signal_cube *signal, double peak, double noise,
                          struct effect_measurement *measurement)
 {
     const struct sensor *sensor = signal->sensor;
-    double azimuth_rad = measurement->azimuth_rad;
-    double peak_snr = snr_of(peak, noise), beam_snr = snr_of(measurement->amplitude, noise);
+    double peak_snr = snr_of(peak, noise);
     struct measurement_sigma range = {.cell = sensor->cell_range_m,
                                       .factor = factors[signal->range_response]};
     struct measurement_sigma rate = {.cell = sensor->cell_range_rate_mps,
                                      .factor = factors[sensor->waveform.window]};
     double rate_mps = measurement_sigma_at_snr(&rate, peak_snr);
     double coupled_m = signal->coupling * signal->range_step_m * rate_mps;
-    double sigma_rad = sensor->beams.count > 0
-                           ? measurement->cell->beam->sigma * noise / elementary_cos(azimuth_rad)
-                       : signal->array.elements > 0
-                           ? element_sigma_rad(&signal->array, azimuth_rad, beam_snr)
-                           : detection_quality_widening(measurement, noise) *
-                                 suite_azimuth_sigma_rad(sensor, azimuth_rad, beam_snr);
     measurement->range_sigma_m =
         elementary_hypot(measurement_sigma_at_snr(&range, peak_snr), coupled_m);
     measurement->range_rate_sigma_mps = rate_mps;
-    measurement->azimuth_sigma_rad =
-        elementary_min(sigma_rad, sensor->field_of_view_rad / sqrt(12));
+    measurement->azimuth_sigma_rad = elementary_min(azimuth_sigma_rad(signal, noise, measurement),
+                                                    sensor->field_of_view_rad / sqrt(12));
 }
 
 double detections_noise_bins(const struct signal_cube *signal)
 {
     const struct sensor *sensor = signal->sensor;
     double ranges = (sensor->range_max_m - sensor->range_min_m) / sensor->cell_range_m;
-    double beams = signal->array.elements > 0 ? (double)signal->array.elements : 1;
-    beams *= (double)signal->turns;
+    double beams = elementary_max((double)signal->array->count, 1) * (double)signal->turns;
     return ranges * (double)signal->repetitions * beams;
 }
-
-#define NONE SIZE_MAX
-#define LEAST_PART 0.5
 
 static struct detection *add(struct detections *detections, const struct range_doppler_peak *peak,
                              const struct unfolding_reading *reading, double amplitude,
@@ -86,19 +80,6 @@ static struct detection *add(struct detections *detections, const struct range_d
     return detection;
 }
 
-/* Adds a detection of this amplitude and azimuth, if a range rate puts it within the sensor's
- * ranges. */
-static struct detection *add_unfolded(struct detections *detections,
-                                      const struct range_doppler_peak *peak, double amplitude,
-                                      double azimuth_rad, struct arena *arena)
-{
-    struct unfolding_reading reading;
-    if (!unfolding_choose(detections->signal, peak, amplitude, elementary_sin(azimuth_rad),
-                          &reading))
-        return NULL;
-    return add(detections, peak, &reading, amplitude, azimuth_rad, arena);
-}
-
 /* Adds a detection with the azimuth from sum and delta, as in glint-noise. */
 static void add_monopulse(struct detections *detections, const struct range_doppler_peak *peak,
                           const struct phasor *at, size_t stride, struct arena *arena)
@@ -111,69 +92,83 @@ static void add_monopulse(struct detections *detections, const struct range_dopp
     };
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
-    struct detection *detection =
-        add_unfolded(detections, peak, peak->amplitude, angle.azimuth_rad, arena);
-    if (detection == NULL)
+    struct unfolding_reading reading;
+    if (!unfolding_choose(detections->signal, peak, peak->amplitude, 0, &reading))
         return;
+    struct detection *detection =
+        add(detections, peak, &reading, peak->amplitude, angle.azimuth_rad, arena);
     detection->pointers = pointers;
     detection->sign_undecided = angle.sign_undecided;
 }
 
-static void add_beams(struct detections *detections, const struct range_doppler_peak *peak,
-                      const struct phasor *at, size_t stride, struct arena *arena)
+/* The samples of the elements at a cell, without the phases that this range rate makes between
+ * transmitters that take turns. */
+static void turn_back(const struct signal_cube *signal, const struct phasor *at, size_t stride,
+                      double rate_mps, struct phasor *samples)
 {
-    const struct signal_cube *signal = detections->signal;
-    struct element_row_peak beams[ELEMENT_ROW_MOST_PEAKS];
-    double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
-    double least = elementary_max(peak->threshold, detections->least) * peak->gain;
-    size_t count = element_row_peaks(&signal->array, at, stride, limit, least, beams);
-    for (size_t i = 0; i < count; i++)
-        add_unfolded(detections, peak, beams[i].amplitude / peak->gain,
-                     elementary_asin(beams[i].sine), arena);
+    for (size_t n = 0; n < signal->array->count; n++) {
+        struct elementary_sincos turn =
+            elementary_sincos_turns(-signal_cube_turn_phase(signal, n, rate_mps));
+        struct phasor here = at[n * stride];
+        samples[n].re = here.re * turn.cos - here.im * turn.sin;
+        samples[n].im = here.re * turn.sin + here.im * turn.cos;
+    }
 }
 
-/* Adds the beams of an array. Range rates that fold alike have other phases between transmitters
- * that take turns; the one of the largest maximum is taken. */
-static void add_array(struct detections *detections, const struct range_doppler_peak *peak,
-                      const struct phasor *at, size_t stride, struct arena *arena)
+/* Finds the maxima of an array at a peak. Range rates that fold alike have other phases between
+ * transmitters that take turns; the rate of the largest maximum is taken. */
+static size_t find_maxima(const struct signal_cube *signal, const struct range_doppler_peak *peak,
+                          const struct phasor *at, size_t stride, double *best_mps,
+                          struct array_maximum *best)
 {
-    const struct signal_cube *signal = detections->signal;
-    const struct array *array = &signal->sensor->beams;
-    double half_mps = (double)signal->turns * signal->fold_mps / 2, best_mps = 0;
-    struct array_maximum best[ARRAY_MOST_ELEMENTS] = {{0}};
-    struct unfolding_reading reading;
+    double half_mps = (double)signal->turns * signal->fold_mps / 2, most = 0;
     size_t count = 0;
     for (size_t fold = 0; fold < signal->turns; fold++) {
         double rate_mps = folding_range_rate_mps(
             peak->rate * signal->rate_step_mps + (double)fold * signal->fold_mps, 0, half_mps);
         struct phasor samples[ARRAY_MOST_ELEMENTS];
         struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
-        for (size_t n = 0; n < array->count; n++) {
-            struct elementary_sincos turn =
-                elementary_sincos_turns(-signal_cube_turn_phase(signal, n, rate_mps));
-            struct phasor here = at[n * stride];
-            samples[n] = (struct phasor){here.re * turn.cos - here.im * turn.sin,
-                                         here.re * turn.sin + here.im * turn.cos};
-        }
-        size_t found = array_maxima(array, samples, maxima);
-        if (found == 0 || maxima[0].amplitude <= best[0].amplitude)
+        turn_back(signal, at, stride, rate_mps, samples);
+        size_t found = array_maxima(signal->array, samples, maxima);
+        if (found == 0 || maxima[0].amplitude <= most)
             continue;
-        memcpy(best, maxima, sizeof best);
+        memcpy(best, maxima, sizeof maxima);
+        most = maxima[0].amplitude;
         count = found;
-        best_mps = rate_mps;
+        *best_mps = rate_mps;
     }
-    double least = elementary_max(peak->threshold, detections->least) * peak->gain;
-    count = array_keep(array, least, detections->noise, best, count);
-    if (!unfolding_read(signal, peak, best_mps, &reading))
+    return count;
+}
+
+/* Adds a beam of an array as a detection. Transmitters that take turns have told its range rate;
+ * otherwise the second train tells it. */
+static void add_beam(struct detections *detections, const struct range_doppler_peak *peak,
+                     const struct array_maximum *maximum, double rate_mps, struct arena *arena)
+{
+    const struct signal_cube *signal = detections->signal;
+    double amplitude = maximum->amplitude / peak->gain;
+    struct unfolding_reading reading;
+    bool measured = signal->turns > 1
+                        ? unfolding_read(signal, peak, rate_mps, &reading)
+                        : unfolding_choose(signal, peak, amplitude, maximum->sine, &reading);
+    if (!measured)
         return;
-    for (size_t i = 0; i < count && best[i].amplitude >= least; i++) {
-        struct array_maximum *beam = arena_get(arena, sizeof *beam);
-        *beam = best[i];
-        beam->sigma *= peak->gain;
-        add(detections, peak, &reading, best[i].amplitude / peak->gain,
-            elementary_asin(best[i].sine), arena)
-            ->beam = beam;
-    }
+    struct array_maximum *beam = arena_get(arena, sizeof *beam);
+    *beam = *maximum;
+    beam->sigma *= peak->gain;
+    double azimuth_rad = elementary_asin(maximum->sine);
+    add(detections, peak, &reading, amplitude, azimuth_rad, arena)->beam = beam;
+}
+
+static void add_beams(struct detections *detections, const struct range_doppler_peak *peak,
+                      const struct phasor *at, size_t stride, struct arena *arena)
+{
+    struct array_maximum beams[ARRAY_MOST_ELEMENTS];
+    double least = elementary_max(peak->threshold, detections->least) * peak->gain, rate_mps = 0;
+    size_t count = find_maxima(detections->signal, peak, at, stride, &rate_mps, beams);
+    count = array_keep(detections->signal->array, least, detections->noise, beams, count);
+    for (size_t i = 0; i < count && beams[i].amplitude >= least; i++)
+        add_beam(detections, peak, &beams[i], rate_mps, arena);
 }
 
 struct detections detections_of(const struct signal_cube *signal,
@@ -191,23 +186,32 @@ struct detections detections_of(const struct signal_cube *signal,
         .time_s = context->time_s,
     };
     struct range_doppler_peak *peaks;
-    bool row = signal->array.elements > 0, array = signal->sensor->beams.count > 0;
     size_t count = range_doppler_peaks(spectrum, &detections.cfar, detections.least, arena, &peaks);
     size_t width = spectrum->range_cells, stride = width * spectrum->rate_cells;
     for (size_t i = 0; i < count; i++) {
         const struct phasor *at =
             signal->spectrum + peaks[i].rate_cell * width + peaks[i].range_cell;
-        (array ? add_array
-         : row ? add_beams
-               : add_monopulse)(&detections, &peaks[i], at, stride, arena);
+        if (signal->array->count > 0)
+            add_beams(&detections, &peaks[i], at, stride, arena);
+        else
+            add_monopulse(&detections, &peaks[i], at, stride, arena);
     }
     return detections;
 }
 
+/* The detections and the echoes that may label them. */
+struct labelling {
+    const struct detections *detections;
+    const struct received_echo *echoes;
+};
+
 /* The part of the echo's amplitude at the detection's place and in its beam. */
-static double part_of(const struct detections *detections, const struct received_echo *received,
-                      const struct detection *detection)
+static double part_of(const void *of, size_t echo, size_t number)
 {
+    const struct labelling *labelling = of;
+    const struct detections *detections = labelling->detections;
+    const struct received_echo *received = &labelling->echoes[echo];
+    const struct detection *detection = &detections->list.items[number];
     const struct signal_cube *signal = detections->signal;
     const struct range_doppler *spectrum = detections->spectrum;
     double range, rate;
@@ -215,46 +219,17 @@ static double part_of(const struct detections *detections, const struct received
     range_doppler_away(spectrum, detection->peak, &range, &rate);
     double part = fabs(point_response_value(spectrum->range_response, range) *
                        point_response_value(spectrum->rate_response, rate));
+    if (signal->array->count == 0)
+        return part;
     double distance =
         elementary_sin(received->echo.azimuth_rad) - elementary_sin(detection->azimuth_rad);
-    if (detection->beam != NULL)
-        return part * array_response(&signal->sensor->beams, distance);
-    if (signal->array.elements > 0)
-        part *= element_row_factor(&signal->array, distance);
-    return part;
+    return part * array_response(signal->array, distance);
 }
 
-static size_t detection_of(const struct detections *detections,
-                           const struct received_echo *received)
+static double amplitude_of(const void *of, size_t echo)
 {
-    size_t owner = NONE;
-    double most = 0;
-    for (size_t i = 0; i < detections->list.count; i++) {
-        double part = part_of(detections, received, &detections->list.items[i]);
-        if (part >= LEAST_PART && part > most) {
-            most = part;
-            owner = i;
-        }
-    }
-    return owner;
-}
-
-/* The received echo that makes at least half of the detection's amplitude, or NONE. */
-static size_t dominant_echo_of(const struct detections *detections,
-                               const struct detection *detection,
-                               const struct received_echo *received_echoes, size_t count)
-{
-    size_t dominant = NONE;
-    double most = LEAST_PART * detection->amplitude;
-    for (size_t i = 0; i < count; i++) {
-        double amplitude =
-            received_echoes[i].amplitude * part_of(detections, &received_echoes[i], detection);
-        if (amplitude >= most) {
-            most = amplitude;
-            dominant = i;
-        }
-    }
-    return dominant;
+    const struct labelling *labelling = of;
+    return labelling->echoes[echo].amplitude;
 }
 
 /* Labels a detection with its echoes; their range rates are moved into the fold of the strongest.
@@ -308,39 +283,38 @@ static void lose_echo(const struct detections *detections, struct frame *frame, 
 void detections_label(struct detections *detections, struct frame *frame, const char *stage,
                       const struct clustered_echoes *resolved)
 {
-    const struct received_echo *received_echoes = resolved->echoes;
-    size_t count = resolved->count;
     const struct sensor *sensor = detections->signal->sensor;
     struct arena *arena = frame->arena;
-    size_t *owner = arena_get(arena, (count + 1) * sizeof *owner);
-    struct received_echo *members = arena_get(arena, (count + 1) * sizeof *members);
+    struct labelling labelling = {detections, resolved->echoes};
+    struct beam_owner owners = {
+        .beams = detections->list.count,
+        .echoes = resolved->count,
+        .part = part_of,
+        .amplitude = amplitude_of,
+        .of = &labelling,
+        .owner = arena_get(arena, (resolved->count + 1) * sizeof *owners.owner),
+    };
+    size_t *shown = arena_get(arena, (resolved->count + 1) * sizeof *shown);
+    struct received_echo *members = arena_get(arena, (resolved->count + 1) * sizeof *members);
     int64_t alarms = 0;
-    for (size_t i = 0; i < count; i++)
-        owner[i] = detection_of(detections, &received_echoes[i]);
+    beam_owner_find(&owners);
     for (size_t number = 0; number < detections->list.count; number++) {
         struct detection *detection = &detections->list.items[number];
-        size_t own = 0;
+        double least = BEAM_OWNER_LEAST_PART * detection->amplitude;
+        bool repeats;
+        size_t count = beam_owner_shown(&owners, number, least, shown, &repeats);
         for (size_t i = 0; i < count; i++)
-            if (owner[i] == number)
-                members[own++] = received_echoes[i];
-        size_t dominant =
-            own == 0 ? dominant_echo_of(detections, detection, received_echoes, count) : NONE;
-        if (dominant != NONE) {
-            members[own++] = received_echoes[dominant];
-        }
-        if (own > 0)
-            label(detections->signal, detection, members, own, arena);
+            members[i] = resolved->echoes[shown[i]];
+        if (count > 0)
+            label(detections->signal, detection, members, count, arena);
         else
             label_false_alarm(sensor, detection, ++alarms, detections->time_s, arena);
-        if (dominant != NONE) {
-            detection->cell.repeats = owner[dominant] != NONE;
-            owner[dominant] = detection->cell.repeats ? owner[dominant] : number;
-        }
+        detection->cell.repeats = repeats;
         detection->cell.beam = detection->beam;
     }
-    for (size_t i = 0; i < count; i++)
-        if (owner[i] == NONE)
-            lose_echo(detections, frame, stage, &received_echoes[i]);
+    for (size_t i = 0; i < resolved->count; i++)
+        if (owners.owner[i] == BEAM_OWNER_NONE)
+            lose_echo(detections, frame, stage, &resolved->echoes[i]);
     if (alarms > 0)
         frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, alarms);
 }
@@ -382,7 +356,7 @@ void detections_list(const struct detections *detections, struct frame *frame, c
         .scan = noise,
         .range_rate_interval_mps = detections->signal->fold_mps,
         .noise = detections->noise,
-        .channels = detections->noise > 0 && detections->signal->array.elements == 0,
+        .channels = detections->noise > 0 && detections->signal->array->count == 0,
         .existence = {.false_alarms = detections_noise_bins(detections->signal), .rise = 1},
     };
     target_list_make(frame, stage, &source, measurements, count);

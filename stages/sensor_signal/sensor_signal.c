@@ -141,7 +141,8 @@ const struct stage stage_sensor_signal = {
     .details =
         "Stands in for glint-sensor and glint-noise, accurate and slow. It makes the samples of "
         "chirps or pulses, by the sensor's waveform: every echo with its phase, in a sum and a "
-        "delta channel or in a row of elements, and thermal noise. It applies windows and the "
+        "delta channel or in the elements of an array, and thermal noise. It applies windows and "
+        "the "
         "range-Doppler transform, finds peaks by CFAR, and interpolates their places between the "
         "bins. The angle comes from the channels. A second train of chirps or pulses resolves "
         "folded range rates. Noise and amplitudes are those of the two stages; the threshold is "

@@ -76,20 +76,18 @@ struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *are
         .sensor = sensor,
         .samples = (size_t)waveform->samples,
         .repetitions = (size_t)waveform->repetitions,
-        .channels = waveform->elements > 0 ? (size_t)waveform->elements : 2,
+        .channels = 2,
         .range_response = waveform_range_response(waveform),
         .range_step_m = waveform_range_step_m(waveform, sensor->cell_range_m),
         .rate_step_mps = sensor->cell_range_rate_mps,
-        .folds = waveform->stagger > 0 ? (size_t)waveform->stagger : 1,
-        .array = {(size_t)waveform->elements, waveform->spacing},
+        .array = &sensor->beams,
         .turns = 1,
-        .turn = sensor->beams.turn,
     };
-    if (sensor->beams.count > 0) {
-        signal.channels = sensor->beams.count;
-        signal.array = (struct element_row){sensor->beams.count, sensor->beams.spacing};
-        signal.folds = signal.turns = sensor->array.transmit.count;
+    if (signal.array->count > 0) {
+        signal.channels = signal.array->count;
+        signal.turns = sensor->array.transmit.count;
     }
+    signal.folds = waveform->stagger > 0 ? (size_t)waveform->stagger : signal.turns;
     set_times(&signal);
     set_cells(&signal);
     set_memory(&signal, arena);
@@ -98,7 +96,8 @@ struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *are
 
 double signal_cube_turn_phase(const struct signal_cube *signal, size_t channel, double rate_mps)
 {
-    double later_s = signal->repetition_s * (double)signal->turn[channel] / (double)signal->turns;
+    double later_s =
+        signal->repetition_s * (double)signal->array->turn[channel] / (double)signal->turns;
     return -2 * rate_mps * later_s / units_wavelength_m(signal->sensor->carrier_hz);
 }
 
@@ -132,7 +131,7 @@ static struct phasor times(struct phasor a, struct phasor b)
 /* An echo as the channels receive it: its delay at the instant of the measurement, and by how much
  * that grows in a second. */
 struct signal_source {
-    struct phasor weight[ELEMENT_ROW_MOST_ELEMENTS];
+    struct phasor weight[ARRAY_MOST_ELEMENTS];
     double turns, delay_s, stretch;
 };
 
@@ -146,10 +145,9 @@ static void weigh_channels(const struct signal_cube *signal, const struct receiv
                                 received->strength * cimag(pointers.sum)};
     weight[1] = (struct phasor){received->strength * creal(pointers.delta),
                                 received->strength * cimag(pointers.delta)};
-    for (size_t element = 0; element < signal->array.elements; element++) {
-        struct phasor response = element_row_response(&signal->array, sine, element);
-        weight[element] =
-            (struct phasor){received->amplitude * response.re, received->amplitude * response.im};
+    for (size_t n = 0; n < signal->array->count; n++) {
+        struct phasor one = array_phasor(signal->array, sine, n);
+        weight[n] = (struct phasor){received->amplitude * one.re, received->amplitude * one.im};
     }
 }
 
@@ -243,7 +241,7 @@ static void add_source(const struct signal_cube *signal, const struct signal_sou
         chirp(signal->tone, signal->samples, chirp_phase_of(signal, source, instant_s));
     }
     for (size_t channel = 0; channel < signal->channels; channel++)
-        if (signal->turn[channel] == turn)
+        if (signal->array->turn[channel] == turn)
             add(signal->rows + channel * signal->row_cells, signal->tone, signal->samples,
                 source->weight[channel]);
 }
@@ -265,16 +263,15 @@ static void filter(struct phasor *row, const struct phasor *noise, size_t count)
     }
 }
 
-/* The deviation of each part of a sample's noise that gives a cell the RMS sigma. */
+/* The deviation of each part of a sample's noise that gives a cell, in a beam of an array, the RMS
+ * sigma. */
 static double sample_sigma(const struct signal_cube *signal, double sigma)
 {
     double gain =
         point_response_noise(signal->sensor->waveform.window, signal->repetitions) *
         (is_pulsed(signal) ? 1 : point_response_noise(signal->range_response, signal->samples));
-    double elements = signal->array.elements > 0 ? (double)signal->array.elements : 1;
-    if (signal->sensor->beams.count > 0)
-        return sigma * sqrt(0.5) / signal->sensor->beams.noise / gain;
-    return sigma * sqrt(elements / 2) / gain;
+    double beam = signal->array->count > 0 ? signal->array->noise : 1;
+    return sigma * sqrt(0.5) / beam / gain;
 }
 
 static void add_noise(const struct signal_cube *signal, const struct signal_input *input,
@@ -369,20 +366,15 @@ static void form_beam(const struct signal_cube *signal, double sine, size_t rate
 {
     double rate_mps = (double)rate_cell / SIGNAL_CUBE_PADDING * signal->rate_step_mps +
                       (double)fold * signal->fold_mps;
-    const double *taper = signal->sensor->beams.count > 0 ? signal->sensor->beams.weight : NULL;
     size_t kept = signal->range_cells, size = SIGNAL_CUBE_PADDING * signal->repetitions * kept;
-    double part = 1 / (double)signal->channels;
     struct phasor *sum = signal->rows;
     memset(sum, 0, kept * sizeof *sum);
-    for (size_t element = 0; element < signal->channels; element++) {
-        struct phasor response = element_row_response(&signal->array, sine, element);
-        if (taper != NULL) {
-            response =
-                times(response, phasor_of(signal_cube_turn_phase(signal, element, rate_mps)));
-            part = taper[element];
-        }
-        add(sum, signal->spectrum + element * size + rate_cell * kept, kept,
-            (struct phasor){part * response.re, -part * response.im});
+    for (size_t n = 0; n < signal->channels; n++) {
+        double weight = signal->array->weight[n];
+        struct phasor turn = phasor_of(signal_cube_turn_phase(signal, n, rate_mps));
+        struct phasor one = times(array_phasor(signal->array, sine, n), turn);
+        add(sum, signal->spectrum + n * size + rate_cell * kept, kept,
+            (struct phasor){weight * one.re, -weight * one.im});
     }
     for (size_t n = 0; n < kept; n++)
         power[n] = sum[n].re * sum[n].re + sum[n].im * sum[n].im;
@@ -407,10 +399,10 @@ static void form_beams(const struct signal_cube *signal, const struct range_dopp
 
 static size_t beams_of(const struct signal_cube *signal)
 {
-    if (signal->array.elements == 0)
+    if (signal->array->count == 0)
         return 1;
     double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
-    double width = 1 / (signal->array.spacing * (double)signal->array.elements);
+    double width = 1 / (signal->array->spacing * (double)signal->array->count);
     return signal->turns * (2 + (size_t)(2 * limit / (width / 2)));
 }
 

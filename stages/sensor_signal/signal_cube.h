@@ -8,16 +8,15 @@
  *
  * Every echo has the amplitude of the received echo in glint-sensor, and the exact phase of its
  * delay at the sample's instant. Channels weight it with the antenna's sum and delta pointers at
- * its azimuth, or, for a row of elements, with the magnitude of the sum pointer and the phase of
- * the element's place. Transmitters of an array send one after another in a repetition.
- * pointer_sigma is the RMS noise of a cell after windows and transforms, over all elements
- * together, as in glint-noise. Noise of pulses has passed a matched receiver: its correlation over
+ * its azimuth, or, for an array (radar/array.h), with the magnitude of the sum pointer and the
+ * phase of the element's place. Transmitters of an array send one after another in a repetition.
+ * pointer_sigma is the RMS noise of a cell after windows and transforms, in a beam of an array, as
+ * in glint-noise. Noise of pulses has passed a matched receiver: its correlation over
  * range is their point response. */
 #pragma once
 
 #include "base/random.h"
 #include "documents/suite.h"
-#include "element_row.h"
 #include "range_doppler.h"
 
 struct received_echo;
@@ -36,10 +35,9 @@ struct signal_cube {
     double chirp_s;                     /* its length, < 0 if the frequency falls; 0 for pulses */
     double coupling;                    /* bins of range that a rate of 1 m/s adds; 0 for pulses */
     double fold_mps;                    /* range rates this far apart share a bin */
-    size_t folds;                       /* folds that the second train resolves; 1: no train */
-    struct element_row array;           /* elements 0: the channels are sum and delta */
+    size_t folds;                       /* folds that the second train or the turns tell apart */
+    const struct array *array;          /* count 0: the channels are sum and delta */
     size_t turns;                       /* transmitters that take turns in a repetition, or 1 */
-    const size_t *turn;                 /* of the transmitter of each channel */
     size_t range_padding, row_cells;    /* cells to a bin; cells of a transformed row */
     ptrdiff_t first_cell;               /* first cell kept; below 0: from the row's end on */
     size_t range_cells;                 /* number of cells kept */

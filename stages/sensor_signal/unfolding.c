@@ -6,18 +6,18 @@
 /* A beam's weights of the channels. */
 struct beam {
     size_t channels;
-    struct phasor weight[ELEMENT_ROW_MOST_ELEMENTS];
+    struct phasor weight[ARRAY_MOST_ELEMENTS];
 };
 
 static struct beam beam_at(const struct signal_cube *signal, double sine)
 {
-    size_t elements = signal->array.elements;
-    struct beam beam = {.channels = 1, .weight = {{1, 0}}};
-    for (size_t element = 0; element < elements; element++) {
-        struct phasor response = element_row_response(&signal->array, sine, element);
-        double part = 1 / (double)elements;
-        beam.weight[element] = (struct phasor){part * response.re, -part * response.im};
-        beam.channels = elements;
+    const struct array *array = signal->array;
+    if (array->count == 0)
+        return (struct beam){.channels = 1, .weight = {{1, 0}}};
+    struct beam beam = {.channels = array->count};
+    for (size_t n = 0; n < array->count; n++) {
+        struct phasor one = array_phasor(array, sine, n);
+        beam.weight[n] = (struct phasor){array->weight[n] * one.re, -array->weight[n] * one.im};
     }
     return beam;
 }

@@ -356,11 +356,11 @@ def marks(bench):
         print(f"  {apart} degrees apart, {snr_db} dB: {share:.4f} +- {error:.4f} look merged")
 
 
-WAVEFORMS = {
-    "chirp, hann": {"window": "hann"},
-    "chirp, rectangular": {"window": "rectangular"},
-    "pulse": {"kind": "pulse", "samples": 4 * signal.BINS},
-    "array": {"elements": 8, "spacing": 0.5, "window": "hann"},
+SIGNALS = {
+    "chirp, hann": {"waveform": {"window": "hann"}},
+    "chirp, rectangular": {"waveform": {"window": "rectangular"}},
+    "pulse": {"waveform": {"kind": "pulse", "samples": 4 * signal.BINS}},
+    "array": {"waveform": {"window": "hann"}, **signal.row_of(8)},
 }
 
 
@@ -369,10 +369,10 @@ def of_the_signal(bench):
     if not (bench.bin / "glint-sensor-signal").exists():
         print("skipped  the signal's errors: there is no glint-sensor-signal")
         return
-    for name, waveform in WAVEFORMS.items():
+    for name, members in SIGNALS.items():
         frames = signal.spread(800, 2.0)
         text = "".join(json.dumps(one) + "\n" for one in frames)
-        suite = bench.write_suite(suite_of(signal.radar(waveform=waveform)))
+        suite = bench.write_suite(suite_of(signal.radar(**members)))
         for words in (["glint-extract"], ["glint-ideal", *ASKED, "--sensors", suite], ["glint-sensor-signal"]):
             text = bench.stage(words, text)
         targets = signal.made(json.loads(line) for line in text.splitlines())

@@ -243,8 +243,8 @@ class Program:
 def shipped(name):
     """The first sensor of a shipped suite, whose amplitudes hardly depend on range here, without false alarms."""
     sensor = json.loads((ROOT / f"data/sensors/{name}.json").read_text())["sensors"][0]
-    if "antenna_table" in sensor:
-        sensor["antenna_table"] = str(ROOT / "data/sensors" / sensor["antenna_table"])
+    for table in {"antenna_table", "azimuth_curve"} & sensor.keys():
+        sensor[table] = str(ROOT / "data/sensors" / sensor[table])
     return dict(sensor, exponent=0.1, cell_phase="random", list_limit=0, false_alarms=0)
 
 

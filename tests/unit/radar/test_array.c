@@ -39,6 +39,39 @@ static void one_echo_has_one_maximum_of_its_amplitude_at_its_sine(void **state)
             }
 }
 
+/* A pair at 5 degrees to both sides, in phase at the first element and so not in the middle; in
+ * phase there, it is one maximum, at 0. */
+static void a_pair_in_phase_at_the_first_element_has_two_maxima(void **state)
+{
+    (void)state;
+    struct array array = row(8, TAPER_RECTANGULAR);
+    struct phasor first[8] = {{0, 0}}, middle[8] = {{0, 0}};
+    struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
+    for (int side = -1; side <= 1; side += 2) {
+        double sine = side * sin(5 * PI / 180), phase = PI * 3.5 * sine;
+        array_receive(&array, sine, (struct phasor){cos(phase), sin(phase)}, first);
+        array_receive(&array, sine, (struct phasor){1, 0}, middle);
+    }
+    assert_int_equal(array_keep(&array, 0.5, 0.01, maxima, array_maxima(&array, first, maxima)), 2);
+    for (size_t i = 0; i < 2; i++) {
+        assert_close(fabs(asin(maxima[i].sine)) * 180 / PI, 4.05, 0.005);
+        assert_close(maxima[i].amplitude, 0.9432, 5e-5);
+    }
+    assert_close(maxima[0].sine + maxima[1].sine, 0, 1e-7);
+    assert_int_equal(array_keep(&array, 0.5, 0.01, maxima, array_maxima(&array, middle, maxima)),
+                     1);
+    assert_close(maxima[0].sine, 0, 1e-9);
+}
+
+static void a_beam_repeats_at_its_grating_lobes(void **state)
+{
+    (void)state;
+    struct array array = row(4, TAPER_RECTANGULAR);
+    assert_close(array_response(&array, 0), 1, 1e-15);
+    assert_close(array_response(&array, 1 / 0.5), 1, 1e-9);
+    assert_close(array_response(&array, 1 / (4 * 0.5)), 0, 1e-15);
+}
+
 /* Without a taper 0.886/D and -13.26 dB (Van Trees 2002, table 2.1 for long arrays); Hann's 1.44/D
  * and -31.5 dB; Taylor's and Chebyshev's side lobes are what they are made for. */
 static void beams_have_the_published_widths_and_side_lobes(void **state)
@@ -139,6 +172,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_echo_has_one_maximum_of_its_amplitude_at_its_sine),
+        cmocka_unit_test(a_pair_in_phase_at_the_first_element_has_two_maxima),
+        cmocka_unit_test(a_beam_repeats_at_its_grating_lobes),
         cmocka_unit_test(beams_have_the_published_widths_and_side_lobes),
         cmocka_unit_test(the_sine_of_one_echo_is_as_accurate_as_the_bound),
         cmocka_unit_test(noise_moves_the_maximum_as_far_as_its_sigma),

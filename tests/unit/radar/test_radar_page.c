@@ -190,27 +190,43 @@ static void conditioning(void **state)
             sigma_degrees(MONOPULSE_RATIO, 20, 1e3), sigma_degrees(MONOPULSE_RATIO, 40, 1e3));
 }
 
-/* A transmitter and eight receivers half a wavelength apart; values times N d. */
-static struct array eight(enum array_taper taper)
+/* A transmitter and at most 16 receivers half a wavelength apart. */
+static struct array row_of(size_t count, enum array_taper taper)
 {
-    struct array_element sender = {0}, receivers[8];
-    for (int i = 0; i < 8; i++)
-        receivers[i] = (struct array_element){0.5 * i};
+    struct array_element sender = {0}, receivers[16];
+    for (size_t i = 0; i < count; i++)
+        receivers[i].place = 0.5 * (double)i;
     struct array_layout layout = {.taper = taper};
     layout.transmit.items = &sender;
     layout.transmit.count = 1;
     layout.receive.items = receivers;
-    layout.receive.count = 8;
+    layout.receive.count = count;
     return array_of(&layout);
 }
 
+static double beam_degrees(size_t count)
+{
+    struct array array = row_of(count, TAPER_RECTANGULAR);
+    return 2 * asin(array_beam(&array) / 2) / DEGREE;
+}
+
+/* Values of eight elements are times N d. */
 static void arrays(void **state)
 {
     (void)state;
-    struct array plain = eight(TAPER_RECTANGULAR), hann = eight(TAPER_HANN);
+    struct array plain = row_of(8, TAPER_RECTANGULAR), hann = row_of(8, TAPER_HANN);
+    struct phasor pair[8];
+    struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
     PRINTED("7.5", "#/(N d sqrt SNR) without a taper", 4 * array_sigma(&plain, 1));
     PRINTED("7.5", "#/(N d) without a taper, #/(N d) with Hann's", 4 * array_beam(&plain),
             4 * array_beam(&hann));
+    PRINTED("7.5", "at d = 1/2 are #, #, # deg wide", beam_degrees(4), beam_degrees(8),
+            beam_degrees(16));
+    for (int i = 0; i < 8; i++)
+        pair[i] = (struct phasor){2 * cos(PI * i * sin(5 * DEGREE)), 0};
+    assert_true(array_maxima(&plain, pair, maxima) >= 2);
+    PRINTED("7.5", "has its maxima at ±# deg, of #", fabs(asin(maxima[0].sine)) / DEGREE,
+            maxima[0].amplitude);
 }
 
 static double by_snr(double cell, double db)

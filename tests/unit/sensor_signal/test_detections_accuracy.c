@@ -2,13 +2,14 @@
 
 #include "base/units.h"
 #include "sensor_signal/detections.h"
+#include "support/array_sensor.h"
 
 #define DEGREE (PI / 180)
 
 static struct arena arena;
 
 /* A radar of cells of 2 m and 0.25 m/s that sees 100 m and 90 degrees. */
-static struct sensor radar(enum point_response window, int64_t elements)
+static struct sensor radar(enum point_response window, size_t elements)
 {
     struct sensor sensor = {.carrier_hz = 76.5e9,
                             .range_max_m = 100,
@@ -21,18 +22,25 @@ static struct sensor radar(enum point_response window, int64_t elements)
     sensor.waveform.samples = 64;
     sensor.waveform.repetitions = 32;
     sensor.waveform.window = window;
-    sensor.waveform.elements = elements;
-    sensor.waveform.spacing = 0.5;
+    if (elements > 0)
+        array_sensor_add(&sensor, elements, 0.5);
     return sensor;
 }
 
-/* Found at this ratio of powers, with another one in the beam. */
+/* Found at this ratio of powers, with another one in the beam. A beam of an array has the maximum
+ * of one echo. */
 static struct effect_measurement accuracy_of(const struct sensor *sensor, double azimuth_rad,
                                              double found, double in_beam)
 {
     struct signal_cube signal = signal_cube_of(sensor, &arena);
-    struct effect_measurement measurement = {.azimuth_rad = azimuth_rad,
-                                             .amplitude = sqrt(in_beam + 1)};
+    struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
+    struct array_maximum maxima[ARRAY_MOST_ELEMENTS] = {{0}};
+    array_receive(&sensor->beams, sin(azimuth_rad), (struct phasor){sqrt(in_beam), 0}, samples);
+    if (sensor->beams.count > 0)
+        array_maxima(&sensor->beams, samples, maxima);
+    struct cell cell = {.beam = &maxima[0]};
+    struct effect_measurement measurement = {
+        .cell = &cell, .azimuth_rad = azimuth_rad, .amplitude = sqrt(in_beam + 1)};
     detections_estimate(&signal, sqrt(found + 1), 1, &measurement);
     return measurement;
 }

@@ -4,6 +4,7 @@
 
 #include "sensor/scan.h"
 #include "sensor_signal/signal_cube.h"
+#include "support/array_sensor.h"
 
 #define PI 3.14159265358979323846
 #define DEGREE (PI / 180)
@@ -12,9 +13,9 @@ enum { SAMPLES = 32, REPETITIONS = 16 };
 
 /* A sensor at 76.5 GHz with cells of 1 m and 0.5 m/s; A_ref is 1 at every range, so that amplitude
  * is ERCS. */
-static struct sensor radar(enum waveform_kind kind, enum point_response window, int64_t elements)
+static struct sensor radar(enum waveform_kind kind, enum point_response window, size_t elements)
 {
-    return (struct sensor){
+    struct sensor sensor = {
         .name = "front",
         .carrier_hz = 76.5e9,
         .range_max_m = SAMPLES,
@@ -24,10 +25,11 @@ static struct sensor radar(enum waveform_kind kind, enum point_response window, 
         .waveform = {.kind = kind,
                      .samples = SAMPLES,
                      .repetitions = REPETITIONS,
-                     .elements = elements,
-                     .spacing = 0.5,
                      .window = window},
     };
+    if (elements > 0)
+        array_sensor_add(&sensor, elements, 0.5);
+    return sensor;
 }
 
 static struct received_echo ray_at(const struct sensor *sensor, double range_m, double rate_mps,
@@ -79,6 +81,18 @@ static struct phasor bin(const struct bench *bench, const struct phasor *samples
             sum.re += sample.re * c - sample.im * s;
             sum.im += sample.re * s + sample.im * c;
         }
+    return sum;
+}
+
+/* Point k of a transform of twice as many points. */
+static struct phasor sum_of(const struct phasor *samples, size_t count, size_t k)
+{
+    struct phasor sum = {0, 0};
+    for (size_t n = 0; n < count; n++) {
+        double angle = PI * (double)(k * n) / (double)count;
+        sum.re += samples[n].re * cos(angle) - samples[n].im * sin(angle);
+        sum.im += samples[n].re * sin(angle) + samples[n].im * cos(angle);
+    }
     return sum;
 }
 
@@ -238,18 +252,70 @@ static void a_fast_echo_moves_through_the_range_bins(void **state)
     arena_free(&bench.arena);
 }
 
-static void elements_of_a_row_have_the_sum_pattern_and_their_phase(void **state)
+/* The curve of an element halves the amplitude 0.4 rad aside. */
+static void elements_have_the_curve_of_the_antenna_and_the_phase_of_their_place(void **state)
+{
+    (void)state;
+    static const struct receiver_curve_row rows[] = {{-0.4, -6.0206}, {0, 0}, {0.4, -6.0206}};
+    struct bench bench;
+    struct sensor sensor = radar(WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 4);
+    sensor.antenna.curve = (struct receiver_curve){.rows = rows, .count = 3};
+    begin(&bench, sensor);
+    struct signal_input input = echo(&bench, ray_at(&bench.sensor, 10, 0, 0.4, 0));
+    for (size_t element = 0; element < 4; element++) {
+        struct phasor shown = bin_of(&bench, &input, element, 10, 0);
+        double turns = 0.5 * ((double)element - 1.5) * sin(0.4);
+        assert_close(shown.re, 1.5 * cos(2 * PI * turns), 1e-6);
+        assert_close(shown.im, 1.5 * sin(2 * PI * turns), 1e-6);
+    }
+    arena_free(&bench.arena);
+}
+
+/* Makes the spectrum of the first train by the sums that define its transforms. */
+static void transform(const struct signal_cube *signal, const struct signal_input *input)
+{
+    size_t rows = SIGNAL_CUBE_PADDING * REPETITIONS, kept = signal->range_cells;
+    struct phasor at[REPETITIONS];
+    for (size_t m = 0; m < REPETITIONS; m++) {
+        signal_cube_receive(signal, input, 0, m);
+        for (size_t channel = 0; channel < signal->channels; channel++) {
+            struct phasor *row = signal->rows + channel * signal->row_cells, samples[SAMPLES];
+            memcpy(samples, row, sizeof samples);
+            for (size_t k = 0; k < signal->row_cells; k++)
+                row[k] = sum_of(samples, SAMPLES, k);
+        }
+        signal_cube_store(signal, 0, m);
+    }
+    for (size_t channel = 0; channel < signal->channels; channel++)
+        for (size_t k = 0; k < kept; k++) {
+            struct phasor *cells = signal->spectrum + channel * rows * kept + k;
+            for (size_t m = 0; m < REPETITIONS; m++)
+                at[m] = cells[m * kept];
+            for (size_t l = 0; l < rows; l++)
+                cells[l * kept] = sum_of(at, REPETITIONS, l);
+        }
+}
+
+/* Of N elements d apart the beam towards another sine, x/(pi d) away, receives sin(N x)/(N sin x)
+ * of an echo. */
+static void the_beams_of_the_spectrum_have_the_array_factor(void **state)
 {
     (void)state;
     struct bench bench;
-    begin(&bench, radar(WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 4));
-    struct signal_input input = echo(&bench, ray_at(&bench.sensor, 10, 0, 0.3, 0));
-    double amplitude = 3 * antenna_gain(&bench.sensor.antenna, 0.3);
-    for (size_t element = 0; element < 4; element++) {
-        struct phasor shown = bin_of(&bench, &input, element, 10, 0);
-        double turns = 0.5 * ((double)element - 1.5) * sin(0.3);
-        assert_close(shown.re, amplitude * cos(2 * PI * turns), 1e-12);
-        assert_close(shown.im, amplitude * sin(2 * PI * turns), 1e-12);
+    struct sensor sensor = radar(WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 8);
+    sensor.field_of_view_rad = PI / 2;
+    begin(&bench, sensor);
+    const double azimuth_rad = 0.21, limit = sin(PI / 4);
+    struct signal_input input = echo(&bench, ray_at(&bench.sensor, 10, 0, azimuth_rad, 0.7));
+    transform(&bench.signal, &input);
+    struct range_doppler spectrum = signal_cube_spectrum(&bench.signal, &bench.arena);
+    size_t cells = spectrum.range_cells * spectrum.rate_cells, cell = 20;
+    assert_true(spectrum.beams > 8 && spectrum.first_cell == 0);
+    for (size_t beam = 0; beam < spectrum.beams; beam++) {
+        double sine = limit * (2 * (double)beam / (double)(spectrum.beams - 1) - 1);
+        double x = PI * 0.5 * (sine - sin(azimuth_rad));
+        double factor = sin(8 * x) / (8 * sin(x));
+        assert_close(sqrt(spectrum.power[beam * cells + cell]), 3 * fabs(factor), 1e-9);
     }
     arena_free(&bench.arena);
 }
@@ -259,15 +325,15 @@ static struct signal_input noise(uint64_t frame, double sigma)
     return (struct signal_input){.address = {1, 2, frame, 3, 4}, .sigma = sigma};
 }
 
-/* The mean power of many bins far apart is sigma^2 in each channel, times the elements of a row. 5
- * % are five standard errors of 10,000 independent values. */
+/* The mean power of many bins far apart is sigma^2 in each channel, times the elements of an array.
+ * 5 % are five standard errors of 10,000 independent values. */
 static void noise_has_the_sensors_rms_after_windows_and_transforms(void **state)
 {
     (void)state;
     static const struct {
         enum waveform_kind kind;
         enum point_response window;
-        int64_t elements;
+        size_t elements;
     } cases[] = {{WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 0},
                  {WAVEFORM_CHIRP, POINT_RESPONSE_RECTANGULAR, 0},
                  {WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 4},
@@ -324,7 +390,8 @@ int main(void)
         cmocka_unit_test(every_sample_has_the_exact_phase_of_its_delay),
         cmocka_unit_test(a_moving_echo_is_at_its_place_at_mid_scan),
         cmocka_unit_test(a_fast_echo_moves_through_the_range_bins),
-        cmocka_unit_test(elements_of_a_row_have_the_sum_pattern_and_their_phase),
+        cmocka_unit_test(elements_have_the_curve_of_the_antenna_and_the_phase_of_their_place),
+        cmocka_unit_test(the_beams_of_the_spectrum_have_the_array_factor),
         cmocka_unit_test(noise_has_the_sensors_rms_after_windows_and_transforms),
         cmocka_unit_test(the_noise_of_pulses_is_correlated_as_their_point_response),
     };

@@ -4,9 +4,6 @@
 #include "base/units.h"
 #include "radar/cfar.h"
 #include "radar/point_response.h"
-#include "sensor_signal/element_row.h"
-
-#define DEGREE (PI / 180)
 
 /* The greatest error of a place between cells, two to a bin, or of the amplitude there, where it is
  * off on both axes. */
@@ -52,40 +49,11 @@ static void thresholds(void **state)
             mean_factor(1e-6), ordered_factor(1e-3), ordered_factor(1e-4), ordered_factor(1e-6));
 }
 
-/* The 3 dB width of a beam on boresight. */
-static double beam_degrees(size_t elements)
-{
-    const struct element_row row = {elements, 0.5};
-    double low = 0, high = 1 / (0.5 * (double)elements);
-    for (int i = 0; i < 60; i++) {
-        double middle = (low + high) / 2;
-        *(element_row_factor(&row, middle) > sqrt(0.5) ? &low : &high) = middle;
-    }
-    return 2 * asin(low) / DEGREE;
-}
-
-static void beams(void **state)
-{
-    (void)state;
-    const struct element_row row = {8, 0.5};
-    double sine = sin(5 * DEGREE);
-    struct phasor samples[8];
-    struct element_row_peak peaks[ELEMENT_ROW_MOST_PEAKS];
-    PRINTED("11.5", "at d = 1/2 are #, #, # deg wide", beam_degrees(4), beam_degrees(8),
-            beam_degrees(16));
-    for (int i = 0; i < 8; i++)
-        samples[i] = (struct phasor){2 * cos(PI * i * sine), 0};
-    assert_int_equal(element_row_peaks(&row, samples, 1, 1, 0, peaks), 2);
-    PRINTED("11.5", "has its peaks at ±# deg, of #", fabs(asin(peaks[0].sine)) / DEGREE,
-            peaks[0].amplitude);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_signal),
         cmocka_unit_test(thresholds),
-        cmocka_unit_test(beams),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
