@@ -8,39 +8,32 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The purpose of a draw. New purposes go at the end, because their numbers are part of every data
- * set made. Numbers from RANDOM_OWN on are free for stages outside this tree: glint's own stay
- * below. */
+/* The purpose of a draw: a number that is part of every data set made, so that it never changes and
+ * no two purposes share one. Numbers below RANDOM_OWN are glint's: those here, and those that only
+ * one effect draws for, which stand in its file (effects/effect.h).
+ * tests/unit/effects/test_effect.c finds a number that is taken twice, and names the next free one.
+ */
 enum random_purpose {
     RANDOM_POINTERS = 1,        /* complex noise on sum and delta: four Gaussians */
     RANDOM_RANGE_RATE = 2,      /* noise on range and range rate */
     RANDOM_AZIMUTH = 3,         /* noise on the azimuth itself, not on the pointers */
-    RANDOM_PHASE = 4,           /* relative phase of an echo */
     RANDOM_TRAFFIC = 5,         /* road users of random traffic: classes, places and speeds */
-    RANDOM_REFLECTOR_PHASE = 7, /* phase that a reflector adds to that of its path */
-    RANDOM_FLUCTUATION = 8,     /* fluctuation of an echo's amplitude in a scan */
     RANDOM_FALSE_ALARMS = 9,    /* per scan: block 0 the number of false alarms, block n the place
                                  * of the n-th */
     RANDOM_CONDITIONS = 10,     /* road, weather and other radars of random traffic */
-    RANDOM_WHEELS = 11,         /* per wheel house: number and rates of the points on its wheel */
-    RANDOM_LIMBS = 12,          /* per person: number and rates of arms and legs */
-    RANDOM_CLUTTER = 13,        /* per scan: number and places of the points on the ground */
     RANDOM_SIGNAL = 14,         /* per scan: noise on two samples of its signal */
     RANDOM_BOOTSTRAP = 15,      /* which scenes a resample has (glint-score --ensemble) */
     RANDOM_SAMPLE = 16,         /* which frame of a stretch is in a sample; which targets a list
                                  * loses to give errors a scale (glint-cost) */
     RANDOM_VARIATION = 17,      /* values of a scenario that are distributions */
     RANDOM_ARRIVALS = 18,       /* vehicles that come to a lane: class, size, driver, when */
-    RANDOM_LEVEL = 19,          /* the part of a body's level that stays */
-    RANDOM_LEVEL_SLOW = 20,     /* knots of the part that changes as body and ego drive */
-    RANDOM_LEVEL_FAST = 21,     /* knots of the part that changes with aspect and range */
     RANDOM_ROADSIDE = 22,       /* per scene, strip and cell: what stands beside the road, with the
                                  * strip and the cell in place of frame, sensor and item */
     RANDOM_ROADSIDE_LEVEL = 23, /* per scene and scatterer beside the road: knots of its level */
     RANDOM_STRIPS = 24,         /* per snapshot: the strips beside its road */
     RANDOM_ELEMENTS = 25,       /* per cell: complex noise on the elements of an array */
-    RANDOM_OWN = 1 << 16,       /* any number from here to 2^31 - 1, one for each purpose of the
-                                 * stages that run together */
+    RANDOM_OWN = 1 << 16,       /* any number from here to 2^31 - 1 is free for stages outside this
+                                 * tree, one for each purpose of the stages that run together */
 };
 
 struct random_address {

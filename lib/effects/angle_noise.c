@@ -60,6 +60,7 @@ const struct effect effect_angle_noise = {
     .cost = "four draws and an angle per cell, and two draws for the floor",
     .home = EFFECT_HOME_NOISE,
     .members = {{EFFECT_SENSOR(pointer_sigma)}, {EFFECT_SENSOR(azimuth_floor_rad)}},
+    .purposes = {RANDOM_POINTERS, RANDOM_AZIMUTH, RANDOM_ELEMENTS},
     .measure[EFFECT_STEP_POINTERS] = add_noise_to_pointers,
     .measure[EFFECT_STEP_NOISE] = add_noise_to_azimuth,
 };

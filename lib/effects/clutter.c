@@ -70,7 +70,7 @@ static void add_ring(const struct effect_scan *scan, const struct ring *ring, in
     double waited = 0;
     for (uint32_t rank = 0;; rank++) {
         double uniform[4];
-        random_uniform(&address, RANDOM_CLUTTER, rank, uniform);
+        random_uniform(&address, effect_clutter.purposes[0], rank, uniform);
         waited -= elementary_log(uniform[2]);
         double share = waited / ring->mean;
         if (!(share < 1))
@@ -96,7 +96,7 @@ static double density_per_m2(const struct effect_scan *scan)
     const struct sensor *sensor = scan->sensor;
     double area_m2 =
         ground_return_area_m2(sensor->range_min_m, sensor->range_max_m, sensor->field_of_view_rad);
-    struct random_sequence sequence = random_sequence_at(scan->address, RANDOM_CLUTTER);
+    struct random_sequence sequence = random_sequence_at(scan->address, effect_clutter.purposes[0]);
     return random_gamma(&sequence, conditions->clutter_per_m2 * area_m2 / more) * more / area_m2;
 }
 
@@ -122,6 +122,7 @@ const struct effect effect_clutter = {
     .members = {{EFFECT_CONDITION(clutter_per_m2), {5, 0.2, EFFECT_BY_LOGARITHM, 1e-5, 3e-3}},
                 {EFFECT_CONDITION(clutter_ercs), {6, 0, EFFECT_BY_LOGARITHM, 0.01, 1}},
                 {EFFECT_CONDITION(clutter_overdispersion), {7, 0, EFFECT_EVENLY, 0, 4}}},
+    .purposes = {13}, /* per scan: number and places of the points */
     .described = described,
     .add_echoes = add_echoes,
 };

@@ -5,6 +5,9 @@
 #include "base/units.h"
 #include "propagation/carrier.h"
 
+/* The purposes of its draws. */
+enum { OF_FRAME, OF_REFLECTOR };
+
 /* A random phase is drawn anew in each frame. A phase by path is that of the way there and back,
  * plus one of the reflector that is drawn once for all frames. */
 static double phase_rad(const struct effect_scan *scan, const struct echo *echo)
@@ -13,11 +16,11 @@ static double phase_rad(const struct effect_scan *scan, const struct echo *echo)
     struct random_address address = frame_draw_address_in(scan->address, echo->id);
     double uniform[4];
     if (sensor->cell_phase == CELL_RANDOM_PHASE) {
-        random_uniform(&address, RANDOM_PHASE, 0, uniform);
+        random_uniform(&address, effect_coherence.purposes[OF_FRAME], 0, uniform);
         return 2 * PI * uniform[0];
     }
     address.frame = 0;
-    random_uniform(&address, RANDOM_REFLECTOR_PHASE, 0, uniform);
+    random_uniform(&address, effect_coherence.purposes[OF_REFLECTOR], 0, uniform);
     return 2 * PI * (uniform[0] - carrier_phase_turns(echo->range_m, sensor->carrier_hz));
 }
 
@@ -35,5 +38,6 @@ const struct effect effect_coherence = {
     .scene = "{object} shares a cell",
     .home = EFFECT_HOME_SENSOR,
     .members = {{EFFECT_SENSOR(cell_phase)}},
+    .purposes = {[OF_FRAME] = 4, [OF_REFLECTOR] = 7},
     .receive = receive,
 };

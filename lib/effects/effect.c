@@ -5,9 +5,6 @@
 #include "propagation/micro_doppler.h"
 #include "radar/scan_timing.h"
 
-#define EFFECT(id, name) extern const struct effect effect_##name;
-#include "frame/effects.def"
-
 const struct effect *const effect_table[EFFECT_COUNT] = {
 #define EFFECT(id, name) &effect_##name,
 #include "frame/effects.def"

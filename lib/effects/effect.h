@@ -118,6 +118,9 @@ struct effect {
      * set; with the hook `described` if that returns true. Ideal decides for its own effects. */
     struct effect_member members[4];
     bool (*described)(const struct effect_scan *scan);
+    /* The purposes of its draws, at most 3: numbers of its own, or those of base/random.h. */
+    enum random_purpose purposes[4];
+
     /* Works out constants of the scan, which lie in the frame's arena. The hook receive finds them
      * in reception->constants. */
     const double *(*begin)(const struct effect_scan *scan);
@@ -133,6 +136,10 @@ struct effect {
     bool (*measure[EFFECT_STEPS])(const struct effect_scan *scan,
                                   struct effect_measurement *measurement);
 };
+
+/* effect_rain and all others. */
+#define EFFECT(id, name) extern const struct effect effect_##name;
+#include "frame/effects.def"
 
 extern const struct effect *const effect_table[EFFECT_COUNT];
 extern const char *const effect_homes[]; /* names of stages, by enum effect_home */

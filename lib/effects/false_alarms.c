@@ -8,4 +8,5 @@ const struct effect effect_false_alarms = {
     .cost = "four draws per false alarm",
     .home = EFFECT_HOME_NOISE,
     .members = {{EFFECT_SENSOR(false_alarms)}},
+    .purposes = {RANDOM_FALSE_ALARMS},
 };

@@ -8,7 +8,7 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
         return false; /* roadside echoes have a level of their own */
     struct random_address address = frame_draw_address_in(scan->address, reception->echo->id);
     double uniform[4];
-    random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
+    random_uniform(&address, effect_fluctuation.purposes[0], 0, uniform);
     return effect_scale(reception, detection_fluctuation(sensor->fluctuation,
                                                          sensor->fluctuation_sigma_db, uniform));
 }
@@ -20,5 +20,6 @@ const struct effect effect_fluctuation = {
     .cost = "a draw per echo",
     .home = EFFECT_HOME_SENSOR,
     .members = {{EFFECT_SENSOR(fluctuation)}},
+    .purposes = {8},
     .receive = receive,
 };

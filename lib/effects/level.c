@@ -15,6 +15,9 @@
 #define KNOT_FRINGE 0.7
 #define KNOT_RANGE_M 0.23
 
+/* The purposes of its draws: the part itself, or the knots of one that changes. */
+enum { CONSTANT, SLOW, FAST };
+
 static struct class_level widths_of(const struct effect_scan *scan, const char *class)
 {
     const struct sensor *sensor = scan->sensor;
@@ -56,7 +59,7 @@ static double slow_part(const struct effect_scan *scan, const struct object *bod
                         const struct random_address *address)
 {
     const struct object *ego = frame_object(scan->frame, scan->frame->ego);
-    return level_on_line(address, RANDOM_LEVEL_SLOW,
+    return level_on_line(address, effect_level.purposes[SLOW],
                          (driven_m(scan, body) + driven_m(scan, ego)) / scan->sensor->level_slow_m);
 }
 
@@ -71,7 +74,8 @@ static double fast_part(const struct effect_scan *scan, const struct object *bod
     double knots_a_turn = 4 * PI * elementary_min(body->length_m, LONGEST_M) /
                           (KNOT_FRINGE * units_wavelength_m(scan->sensor->carrier_hz));
     double knots = elementary_max(2, floor(knots_a_turn + 0.5));
-    return level_on_turn(address, RANDOM_LEVEL_FAST, knots * (turns < 0 ? turns + 1 : turns),
+    return level_on_turn(address, effect_level.purposes[FAST],
+                         knots * (turns < 0 ? turns + 1 : turns),
                          vec2_length(sensor_m) / KNOT_RANGE_M, (int64_t)knots);
 }
 
@@ -86,7 +90,7 @@ static double level_db(const struct effect_scan *scan, const struct object *body
                       width.fast_db * width.fast_db;
     double db = level_centre_db(scan->sensor->level_keeps, sqrt(variance));
     double constant[2];
-    random_gaussian_pair(&address, RANDOM_LEVEL, 0, constant);
+    random_gaussian_pair(&address, effect_level.purposes[CONSTANT], 0, constant);
     db += width.constant_db * constant[0];
     if (width.slow_db > 0)
         db += width.slow_db * slow_part(scan, body, &address);
@@ -128,6 +132,7 @@ const struct effect effect_level = {
     .members = {{EFFECT_SENSOR(level_constant_db)},
                 {EFFECT_SENSOR(level_slow_db)},
                 {EFFECT_SENSOR(level_fast_db)}},
+    .purposes = {[CONSTANT] = 19, [SLOW] = 20, [FAST] = 21},
     .described = described,
     .begin = begin,
     .receive = receive,

@@ -24,12 +24,12 @@ static void add_limbs(const struct effect_scan *scan, const struct echo *torso,
 {
     struct random_address address = frame_draw_address_in(scan->address, torso->id);
     double uniform[4];
-    random_uniform(&address, RANDOM_LIMBS, 0, uniform);
+    random_uniform(&address, effect_limbs.purposes[0], 0, uniform);
     int64_t count = random_poisson(MICRO_DOPPLER_LIMB_COUNT, uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
         struct echo part =
             effect_part_of_echo(torso, PATH_LIMB, number, MICRO_DOPPLER_LIMB_FACTOR, EFFECT_LIMBS);
-        random_uniform(&address, RANDOM_LIMBS, (uint32_t)number, uniform);
+        random_uniform(&address, effect_limbs.purposes[0], (uint32_t)number, uniform);
         struct limb limb = micro_doppler_limb(uniform);
         part.range_rate_mps =
             micro_doppler_limb_rate_mps(torso->range_rate_mps, torso->ground_rate_mps, limb);
@@ -54,6 +54,7 @@ const struct effect effect_limbs = {
     .scene = "limbs of {object} swing",
     .home = EFFECT_HOME_SENSOR,
     .members = {{EFFECT_SENSOR(micro_motion)}},
+    .purposes = {12}, /* per person: number and rates of arms and legs */
     .described = described,
     .add_echoes = add_echoes,
 };

@@ -33,5 +33,6 @@ const struct effect effect_range_noise = {
                 {EFFECT_SENSOR(range_rate_sigma_mps)},
                 {EFFECT_SENSOR(sigma_law)}},
     .described = described,
+    .purposes = {RANDOM_RANGE_RATE},
     .measure[EFFECT_STEP_NOISE] = add_noise,
 };

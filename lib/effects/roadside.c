@@ -8,4 +8,5 @@ const struct effect effect_roadside = {
     .cost = "a draw per cell in view, and a sight line per scatterer",
     .home = EFFECT_HOME_IDEAL,
     .members = {{EFFECT_FRAME(roadside)}},
+    .purposes = {RANDOM_ROADSIDE, RANDOM_ROADSIDE_LEVEL},
 };

@@ -13,12 +13,12 @@ static void add_points(const struct effect_scan *scan, const struct echo *hub,
 {
     struct random_address address = frame_draw_address_in(scan->address, hub->id);
     double uniform[4];
-    random_uniform(&address, RANDOM_WHEELS, 0, uniform);
+    random_uniform(&address, effect_wheels.purposes[0], 0, uniform);
     int64_t count = random_poisson(MICRO_DOPPLER_WHEEL_COUNT, uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
         struct echo point =
             effect_part_of_echo(hub, PATH_WHEEL, number, MICRO_DOPPLER_WHEEL_FACTOR, EFFECT_WHEELS);
-        random_uniform(&address, RANDOM_WHEELS, (uint32_t)number, uniform);
+        random_uniform(&address, effect_wheels.purposes[0], (uint32_t)number, uniform);
         point.range_rate_mps = micro_doppler_wheel_rate_mps(
             hub->range_rate_mps, hub->ground_rate_mps, micro_doppler_wheel_point(uniform));
         effect_add(scan, echoes, &point);
@@ -41,6 +41,7 @@ const struct effect effect_wheels = {
     .scene = "wheels of {object} roll",
     .home = EFFECT_HOME_SENSOR,
     .members = {{EFFECT_SENSOR(micro_motion)}},
+    .purposes = {11}, /* per wheel house: number and rates of the points on its wheel */
     .described = described,
     .add_echoes = add_echoes,
 };

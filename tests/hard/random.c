@@ -13,7 +13,7 @@ enum { PRECISION = 200 };
 static double any_uniform(struct random_address *address, uint32_t index)
 {
     double uniform[4];
-    random_uniform(address, RANDOM_PHASE, index, uniform);
+    random_uniform(address, RANDOM_OWN, index, uniform);
     return uniform[0];
 }
 

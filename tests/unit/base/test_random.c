@@ -50,7 +50,7 @@ static void the_same_address_draws_the_same(void **state)
     double first[4];
     double again[4];
     random_gaussian(&ADDRESS, RANDOM_POINTERS, 7, first);
-    random_uniform(&ADDRESS, RANDOM_PHASE, 0, again);
+    random_uniform(&ADDRESS, RANDOM_TRAFFIC, 0, again);
     random_gaussian(&ADDRESS, RANDOM_POINTERS, 7, again);
     assert_memory_equal(first, again, sizeof first);
     random_gaussian_pair(&ADDRESS, RANDOM_POINTERS, 7, again);
@@ -84,7 +84,7 @@ static void purposes_and_indices_draw_different_numbers(void **state)
 {
     (void)state;
     static const enum random_purpose purposes[] = {
-        RANDOM_POINTERS, RANDOM_RANGE_RATE, RANDOM_AZIMUTH, RANDOM_PHASE,
+        RANDOM_POINTERS, RANDOM_RANGE_RATE, RANDOM_AZIMUTH, RANDOM_TRAFFIC,
         RANDOM_OWN,      RANDOM_OWN + 1,    INT32_MAX};
     enum { PURPOSES = sizeof purposes / sizeof *purposes, ALL = 3 * PURPOSES };
     double drawn[ALL][4];
@@ -102,7 +102,7 @@ static void uniform_draws_fill_the_open_interval_evenly(void **state)
     double hits[100] = {0};
     for (uint32_t i = 0; i < DRAWS; i++) {
         double uniform[4];
-        random_uniform(&ADDRESS, RANDOM_PHASE, i, uniform);
+        random_uniform(&ADDRESS, RANDOM_TRAFFIC, i, uniform);
         for (int k = 0; k < 4; k++) {
             assert_true(uniform[k] > 0 && uniform[k] < 1);
             hits[(int)(100 * uniform[k])]++;

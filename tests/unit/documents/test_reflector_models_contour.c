@@ -147,7 +147,7 @@ static double coherent_over_incoherent(const struct reflector_set *set, struct v
     for (size_t i = 0; i < count; i++) {
         const struct random_address address = {.seed = seed, .item = i};
         double uniform[4];
-        random_uniform(&address, RANDOM_REFLECTOR_PHASE, 0, uniform);
+        random_uniform(&address, RANDOM_OWN, 0, uniform);
         double turns = (rough ? uniform[0] : 0) - carrier_phase_turns(posts[i].range_m, 77e9);
         sum += posts[i].amplitude * cexp(2 * PI * turns * (double _Complex)I);
         total_m2 += posts[i].amplitude * posts[i].amplitude;

@@ -50,7 +50,7 @@ static void points_lie_where_their_draws_put_them(void **state)
         if (point->id.number % 16 != 2)
             continue;
         double uniform[4];
-        random_uniform(&address, RANDOM_CLUTTER, rank, uniform);
+        random_uniform(&address, effect_clutter.purposes[0], rank, uniform);
         waited -= log(uniform[2]);
         assert_int_equal(point->id.number, 2 + 16 * rank++);
         assert_near(point->range_m, sqrt(625 + 625 * uniform[0]), 1e-14);

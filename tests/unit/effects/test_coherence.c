@@ -10,7 +10,7 @@ static void a_phase_by_path_turns_with_range_and_stays_from_scan_to_scan(void **
     for (int eighths = 0; eighths < 16; eighths++) {
         struct echo echo = effect_bench_echo(50 + eighths * wave_m / 8);
         bench->frame.frame = 0;
-        effect_bench_draw(bench, &echo, RANDOM_REFLECTOR_PHASE, 0, uniform);
+        effect_bench_draw(bench, &echo, effect_coherence.purposes[1], 0, uniform);
         bench->frame.frame = eighths;
         struct effect_reception reception =
             effect_bench_receive(bench, EFFECT_COHERENCE, &echo, &labelled);
@@ -30,7 +30,7 @@ static void a_random_phase_is_drawn_in_each_scan_and_not_by_range(void **state)
     for (bench->frame.frame = 0; bench->frame.frame < 5; bench->frame.frame++)
         for (double range_m = 50; range_m < 50.01; range_m += 0.001) {
             struct echo echo = effect_bench_echo(range_m);
-            effect_bench_draw(bench, &echo, RANDOM_PHASE, 0, uniform);
+            effect_bench_draw(bench, &echo, effect_coherence.purposes[0], 0, uniform);
             struct effect_reception reception =
                 effect_bench_receive(bench, EFFECT_COHERENCE, &echo, &labelled);
             assert_close(reception.phase_rad, 2 * PI * uniform[0], 0);

@@ -71,6 +71,59 @@ static void what_random_scenes_draw_is_what_documents_may_say(void **state)
     assert_true(effect_random_condition(1)->random.share > 0);
 }
 
+/* Does base/random.h name the purpose? The compiler warns here of one that is missing. */
+static bool is_named(enum random_purpose purpose)
+{
+    switch (purpose) {
+    case RANDOM_POINTERS:
+    case RANDOM_RANGE_RATE:
+    case RANDOM_AZIMUTH:
+    case RANDOM_TRAFFIC:
+    case RANDOM_FALSE_ALARMS:
+    case RANDOM_CONDITIONS:
+    case RANDOM_SIGNAL:
+    case RANDOM_BOOTSTRAP:
+    case RANDOM_SAMPLE:
+    case RANDOM_VARIATION:
+    case RANDOM_ARRIVALS:
+    case RANDOM_ROADSIDE:
+    case RANDOM_ROADSIDE_LEVEL:
+    case RANDOM_STRIPS:
+    case RANDOM_ELEMENTS:
+    case RANDOM_OWN:
+        return true;
+    }
+    return false;
+}
+
+/* Who draws for a purpose beside the effects before this one; NULL: nobody. */
+static const char *taker_of(enum random_purpose purpose, int effect)
+{
+    if (purpose == 6)
+        return "tests/soundness/adversarial_traffic.h";
+    if (is_named(purpose))
+        return "base/random.h";
+    for (int i = 0; i < effect; i++)
+        for (int k = 0; effect_table[i]->purposes[k] != 0; k++)
+            if (effect_table[i]->purposes[k] == purpose)
+                return effects_names[i];
+    return NULL;
+}
+
+/* An effect may draw for a purpose of base/random.h; its own number is no other's. */
+static void no_two_effects_draw_for_one_purpose(void **state)
+{
+    (void)state;
+    enum random_purpose next = RANDOM_ELEMENTS + 1;
+    while (taker_of(next, EFFECT_COUNT) != NULL)
+        next++;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        for (const enum random_purpose *own = effect_table[i]->purposes; *own != 0; own++)
+            if (!is_named(*own) && taker_of(*own, i) != NULL)
+                fail_msg("%s draws for purpose %u, as %s does; %u is free", effects_names[i], *own,
+                         taker_of(*own, i), next);
+}
+
 static uint64_t effects_with_a_cause(enum effect_home home)
 {
     uint64_t effects = 0;
@@ -263,6 +316,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(every_effect_says_what_it_is),
         EFFECT_TEST(an_effect_acts_at_its_home_alone),
+        EFFECT_TEST(no_two_effects_draw_for_one_purpose),
         EFFECT_TEST(what_random_scenes_draw_is_what_documents_may_say),
         EFFECT_TEST(what_no_document_describes_is_left_out_and_noted),
         EFFECT_TEST(a_member_describes_its_effect_and_no_other),

@@ -7,7 +7,7 @@ static void the_factor_follows_the_draw_of_its_echo(void **state)
     struct echo echo = effect_bench_echo(100);
     double uniform[4];
     for (bench->frame.frame = 0; bench->frame.frame < 20; bench->frame.frame++) {
-        effect_bench_draw(bench, &echo, RANDOM_FLUCTUATION, 0, uniform);
+        effect_bench_draw(bench, &echo, effect_fluctuation.purposes[0], 0, uniform);
         bench->sensor.fluctuation = FLUCTUATION_SWERLING_1;
         assert_near(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo), sqrt(-log(uniform[0])),
                     1e-14);

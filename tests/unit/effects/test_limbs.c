@@ -36,13 +36,13 @@ static void limbs_have_the_count_the_swing_and_the_place_of_their_draws(void **s
         const struct echo parent = torso();
         struct echo_span limbs = limbs_of(bench, EVERY_EFFECT, parent);
         double uniform[4];
-        effect_bench_draw(bench, &parent, RANDOM_LIMBS, 0, uniform);
+        effect_bench_draw(bench, &parent, effect_limbs.purposes[0], 0, uniform);
         assert_true(uniform[0] < 0.998); /* a Poisson count of mean 0.5 is at most 3 up to here */
         assert_int_equal(limbs.count, (uniform[0] > border[0]) + (uniform[0] > border[1]) +
                                           (uniform[0] > border[2]));
         for (size_t i = 0; i < limbs.count; i++) {
             const struct echo *limb = &limbs.items[i];
-            effect_bench_draw(bench, &parent, RANDOM_LIMBS, (uint32_t)i + 1, uniform);
+            effect_bench_draw(bench, &parent, effect_limbs.purposes[0], (uint32_t)i + 1, uniform);
             double offset_m = 0.35 * (2 * uniform[1] - 1);
             double x_m = 20 * cos(0.2) + offset_m * cos(1), y_m = 20 * sin(0.2) + offset_m * sin(1);
             assert_near(limb->range_m, hypot(x_m, y_m), 1e-14);

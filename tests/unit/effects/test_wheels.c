@@ -40,11 +40,11 @@ static void points_have_the_count_and_the_rates_of_their_draws(void **state)
         const struct echo parent = hub();
         struct echo_span points = points_of(bench, EVERY_EFFECT, parent);
         double uniform[4];
-        effect_bench_draw(bench, &parent, RANDOM_WHEELS, 0, uniform);
+        effect_bench_draw(bench, &parent, effect_wheels.purposes[0], 0, uniform);
         assert_int_equal(points.count, poisson(1.5, uniform[0]));
         for (size_t i = 0; i < points.count; i++) {
             const struct echo *point = &points.items[i];
-            effect_bench_draw(bench, &parent, RANDOM_WHEELS, (uint32_t)i + 1, uniform);
+            effect_bench_draw(bench, &parent, effect_wheels.purposes[0], (uint32_t)i + 1, uniform);
             double forward = (0.3 + 0.7 * uniform[0]) * cos(2 * PI * uniform[1]);
             assert_close(point->range_rate_mps, -3 + 5 * forward, 1e-13);
             assert_near(point->ercs, pow(10, -0.5), 1e-15);

@@ -114,7 +114,7 @@ static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
         for (int k = 0; k < DRAWS; k++) {
             struct random_address address = {.seed = 7, .frame = (uint64_t)k};
             double uniform[4], noise[4];
-            random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
+            random_uniform(&address, RANDOM_OWN, 0, uniform);
             random_gaussian(&address, RANDOM_POINTERS, 0, noise);
             double steady = amplitude * detection_fluctuation(laws[i / 2], 3.41, uniform);
             double part = detection.noise * sqrt(0.5);

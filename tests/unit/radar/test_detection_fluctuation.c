@@ -13,7 +13,7 @@ static const struct random_address ADDRESS = {
 static double power_at(enum fluctuation_law law, double sigma_db, uint32_t index)
 {
     double uniform[4];
-    random_uniform(&ADDRESS, RANDOM_PHASE, index, uniform);
+    random_uniform(&ADDRESS, RANDOM_OWN, index, uniform);
     double factor = detection_fluctuation(law, sigma_db, uniform);
     return factor * factor;
 }

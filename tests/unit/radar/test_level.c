@@ -13,13 +13,13 @@ static struct random_address line_of(uint64_t item)
 static double on_line(uint64_t item, double x)
 {
     struct random_address line = line_of(item);
-    return level_on_line(&line, RANDOM_FLUCTUATION, x);
+    return level_on_line(&line, RANDOM_OWN, x);
 }
 
 static double on_turn(uint64_t item, double x, double y, int64_t turn)
 {
     struct random_address plane = line_of(item);
-    return level_on_turn(&plane, RANDOM_FLUCTUATION, x, y, turn);
+    return level_on_turn(&plane, RANDOM_OWN, x, y, turn);
 }
 
 /* Of a standard normal g, g^2 has the variance 2 and g^4 the mean 3 and the variance 96. */
@@ -99,8 +99,8 @@ static void a_level_depends_on_its_address_and_not_on_the_frame(void **state)
     (void)state;
     struct random_address line = line_of(2), later = line;
     later.frame = 9;
-    assert_close(level_on_line(&later, RANDOM_FLUCTUATION, 4.3), on_line(2, 4.3), 0);
-    assert_true(level_on_line(&line, RANDOM_PHASE, 4.3) != on_line(2, 4.3));
+    assert_close(level_on_line(&later, RANDOM_OWN, 4.3), on_line(2, 4.3), 0);
+    assert_true(level_on_line(&line, RANDOM_OWN + 1, 4.3) != on_line(2, 4.3));
     assert_true(on_line(3, 4.3) != on_line(2, 4.3));
 }
 

@@ -34,7 +34,7 @@ static double draw(uint64_t scene, uint32_t index)
 {
     struct random_address address = {.seed = 11, .scene = scene};
     double uniform[4];
-    random_uniform(&address, RANDOM_PHASE, index, uniform);
+    random_uniform(&address, RANDOM_OWN, index, uniform);
     return uniform[0];
 }
 
