@@ -22,6 +22,7 @@ const struct effect effect_ambiguity = {
     .cost = "two remainders per echo",
     .scene = "{object} is folded",
     .home = EFFECT_HOME_SENSOR,
+    .of_paper = true, /* as the waveform folds, which all chains have */
     .members = {{EFFECT_SENSOR(unambiguous_range_m)}, {EFFECT_SENSOR(unambiguous_rate_mps)}},
     .receive = receive,
 };

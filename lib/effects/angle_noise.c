@@ -59,6 +59,7 @@ const struct effect effect_angle_noise = {
     .left_out_when = "the sensor's pointer_sigma and azimuth_floor_rad are 0",
     .cost = "four draws and an angle per cell, and two draws for the floor",
     .home = EFFECT_HOME_NOISE,
+    .of_paper = true,
     .members = {{EFFECT_SENSOR(pointer_sigma)}, {EFFECT_SENSOR(azimuth_floor_rad)}},
     .purposes = {RANDOM_POINTERS, RANDOM_AZIMUTH, RANDOM_ELEMENTS},
     .measure[EFFECT_STEP_POINTERS] = add_noise_to_pointers,

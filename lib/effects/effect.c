@@ -40,6 +40,8 @@ static void add_effect(struct effect_scan *scan, enum effect_id id)
 {
     const struct effect *effect = effect_table[id];
     scan->effects |= EFFECT_BIT(id);
+    if (effect->add_echoes != NULL)
+        scan->adding |= EFFECT_BIT(id);
     if (effect->receive != NULL)
         scan->receiving |= EFFECT_BIT(id);
     for (int step = 0; step < EFFECT_STEPS; step++)
@@ -158,11 +160,8 @@ struct sensor_pose effect_sensor_pose(const struct effect_scan *scan)
 struct echo_span effect_added_echoes(const struct effect_scan *scan)
 {
     struct effect_echoes echoes = {0};
-    for (uint64_t set = scan->effects; set != 0;) {
-        const struct effect *effect = effect_table[take_first(&set)];
-        if (effect->add_echoes != NULL)
-            effect->add_echoes(scan, &echoes);
-    }
+    for (uint64_t set = scan->adding; set != 0;)
+        effect_table[take_first(&set)]->add_echoes(scan, &echoes);
     return (struct echo_span){echoes.list.items, echoes.list.count};
 }
 

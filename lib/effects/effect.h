@@ -40,7 +40,7 @@ struct effect_scan {
     struct random_address
         address;      /* of the scan; frame_draw_address_in adds an echo or the leader of a cell */
     uint64_t effects; /* the set of effects that are simulated */
-    uint64_t receiving, measuring[EFFECT_STEPS]; /* those with the hook receive, or measure */
+    uint64_t adding, receiving, measuring[EFFECT_STEPS]; /* those with these hooks */
     const double **constants; /* of each effect, by effect_id; NULL: no effect has any */
     double interference;      /* power of other radars over that of the sensor's own noise */
 };
@@ -111,8 +111,12 @@ struct effect {
     /* What of a scene calls for it, with {object}, {mirror} and {by}, which blocks an echo:
      * "{mirror} mirrors {object}"; NULL: what documents describe does so in every scene. */
     const char *scene;
+    /* Of the parts of a target that the effect marked, those that `scene` is about; NULL: all
+     * echoes of objects. */
+    bool (*is_own)(const struct echo_id *part);
 
     enum effect_home home;
+    bool of_paper; /* does the model of Buehren and Yang have it? (MODEL 11) */
 
     /* The members, at most 3, that describe the effect. They do so for a scan if any bit of one is
      * set; with the hook `described` if that returns true. Ideal decides for its own effects. */

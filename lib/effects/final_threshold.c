@@ -8,5 +8,6 @@ const struct effect effect_final_threshold = {
     .cost = "a comparison per cell",
     .scene = "{object} is too weak after noise",
     .home = EFFECT_HOME_NOISE,
+    .of_paper = true,
     .members = {{EFFECT_SENSOR(final_threshold)}},
 };

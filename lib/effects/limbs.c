@@ -45,6 +45,11 @@ static void add_echoes(const struct effect_scan *scan, struct effect_echoes *ech
             add_limbs(scan, &scan->echoes.items[i], echoes);
 }
 
+static bool is_own(const struct echo_id *part)
+{
+    return part->path == PATH_LIMB;
+}
+
 const struct effect effect_limbs = {
     .summary = "arms and legs echo at other range rates than the torso",
     .cause = "micro_motion of a sensor, moving_part of a point",
@@ -52,6 +57,7 @@ const struct effect effect_limbs = {
         "the sensor's micro_motion is false or nobody in sight walks along the sight line",
     .cost = "a draw per person and limb",
     .scene = "limbs of {object} swing",
+    .is_own = is_own,
     .home = EFFECT_HOME_SENSOR,
     .members = {{EFFECT_SENSOR(micro_motion)}},
     .purposes = {12}, /* per person: number and rates of arms and legs */

@@ -8,5 +8,6 @@ const struct effect effect_list_limit = {
     .cost = "nothing",
     .scene = "{object} comes behind the limit",
     .home = EFFECT_HOME_NOISE,
+    .of_paper = true,
     .members = {{EFFECT_SENSOR(list_limit)}},
 };

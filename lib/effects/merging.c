@@ -8,4 +8,5 @@ const struct effect effect_merging = {
     .cost = "a test per pair of echoes",
     .scene = "{object} shares a cell",
     .home = EFFECT_HOME_SENSOR,
+    .of_paper = true,
 };

@@ -8,4 +8,5 @@ const struct effect effect_occlusion = {
     .cost = "a test per reflector and object in the way",
     .scene = "{by} hides {object}",
     .home = EFFECT_HOME_IDEAL,
+    .of_paper = true,
 };

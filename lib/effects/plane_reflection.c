@@ -8,4 +8,5 @@ const struct effect effect_plane_reflection = {
     .cost = "a perpendicular per plane",
     .scene = "{object} has flat sides",
     .home = EFFECT_HOME_IDEAL,
+    .of_paper = true,
 };

@@ -8,11 +8,12 @@
 /* Earlier effects may add echoes that walk, even if no echo of ideal does. */
 static bool some_echo_walks(const struct effect_scan *scan)
 {
-    bool walks = (scan->effects & (EFFECT_BIT(EFFECT_WHEELS) | EFFECT_BIT(EFFECT_LIMBS) |
-                                   EFFECT_BIT(EFFECT_CLUTTER))) != 0;
-    for (size_t i = 0; i < scan->echoes.count && !walks; i++)
-        walks = scan->echoes.items[i].range_rate_mps != 0;
-    return walks;
+    if (scan->adding != 0)
+        return true;
+    for (size_t i = 0; i < scan->echoes.count; i++)
+        if (scan->echoes.items[i].range_rate_mps != 0)
+            return true;
+    return false;
 }
 
 static bool described(const struct effect_scan *scan)

@@ -29,6 +29,7 @@ const struct effect effect_range_noise = {
         "the sensor's range_sigma_m and range_rate_sigma_mps are 0 and its sigma_law is not by_snr",
     .cost = "two draws per cell",
     .home = EFFECT_HOME_NOISE,
+    .of_paper = true,
     .members = {{EFFECT_SENSOR(range_sigma_m)},
                 {EFFECT_SENSOR(range_rate_sigma_mps)},
                 {EFFECT_SENSOR(sigma_law)}},

@@ -7,4 +7,5 @@ const struct effect effect_rows = {
     .left_out_when = "no object has rows",
     .cost = "what points cost, for every post in range",
     .home = EFFECT_HOME_IDEAL,
+    .of_paper = true,
 };

@@ -8,4 +8,5 @@ const struct effect effect_superposition = {
     .cost = "two pointers per echo",
     .scene = "{object} shares a cell",
     .home = EFFECT_HOME_SENSOR,
+    .of_paper = true,
 };

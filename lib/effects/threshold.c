@@ -7,4 +7,5 @@ const struct effect effect_threshold = {
     .cost = "a comparison per cell",
     .scene = "{object} is too weak",
     .home = EFFECT_HOME_SENSOR,
+    .of_paper = true,
 };

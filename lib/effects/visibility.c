@@ -8,4 +8,5 @@ const struct effect effect_visibility = {
     .cost = "an arctangent per point and post",
     .scene = "{object} turns points away",
     .home = EFFECT_HOME_IDEAL,
+    .of_paper = true,
 };

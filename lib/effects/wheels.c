@@ -32,6 +32,11 @@ static void add_echoes(const struct effect_scan *scan, struct effect_echoes *ech
             add_points(scan, &scan->echoes.items[i], echoes);
 }
 
+static bool is_own(const struct echo_id *part)
+{
+    return part->path == PATH_WHEEL;
+}
+
 const struct effect effect_wheels = {
     .summary = "rolling wheels echo at other range rates than their vehicle",
     .cause = "micro_motion of a sensor, moving_part of a point",
@@ -39,6 +44,7 @@ const struct effect effect_wheels = {
         "the sensor's micro_motion is false or no wheel in sight rolls along the sight line",
     .cost = "a draw per wheel and point on it",
     .scene = "wheels of {object} roll",
+    .is_own = is_own,
     .home = EFFECT_HOME_SENSOR,
     .members = {{EFFECT_SENSOR(micro_motion)}},
     .purposes = {11}, /* per wheel house: number and rates of the points on its wheel */

@@ -8,14 +8,6 @@
 
 enum { FRAMES = 250, FEWEST_FRAMES = 16, SIGNAL_SAMPLES = 32000000 };
 
-/* The model of Buehren and Yang. Folding is the waveform's, which all chains have. */
-static const uint64_t PAPER = EFFECT_BIT(EFFECT_VISIBILITY) | EFFECT_BIT(EFFECT_PLANE_REFLECTION) |
-                              EFFECT_BIT(EFFECT_ROWS) | EFFECT_BIT(EFFECT_OCCLUSION) |
-                              EFFECT_BIT(EFFECT_AMBIGUITY) | EFFECT_BIT(EFFECT_MERGING) |
-                              EFFECT_BIT(EFFECT_SUPERPOSITION) | EFFECT_BIT(EFFECT_THRESHOLD) |
-                              EFFECT_BIT(EFFECT_ANGLE_NOISE) | EFFECT_BIT(EFFECT_RANGE_NOISE) |
-                              EFFECT_BIT(EFFECT_FINAL_THRESHOLD) | EFFECT_BIT(EFFECT_LIST_LIMIT);
-
 static const char SENSOR[] = "glint-sensor", NOISE[] = "glint-noise",
                   SIGNAL[] = "glint-sensor-signal";
 
@@ -124,11 +116,21 @@ static void add_automatic(struct cost *cost, struct trial *trial, uint64_t left_
     chain->left_out = left_out;
 }
 
+/* The set of effects of the paper's model. */
+static uint64_t effects_of_paper(void)
+{
+    uint64_t effects = 0;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (effect_table[i]->of_paper)
+            effects |= EFFECT_BIT(i);
+    return effects;
+}
+
 /* Lists the chains of the table. */
 static void add_chains(struct cost *cost)
 {
     struct trial_bench *bench = &cost->bench;
-    const char *paper = trial_request(PAPER, runner_arena(cost->runner));
+    const char *paper = trial_request(effects_of_paper(), runner_arena(cost->runner));
     const char *all = bench->whole[TRIAL_IDEAL].effects;
     prepare(
         cost, add_chain(cost), "perfect",
@@ -160,7 +162,8 @@ static void set_errors(struct cost *cost, struct tried_chain *chain)
 static void set_row(struct cost *cost, struct tried_chain *chain)
 {
     struct trial_bench *bench = &cost->bench;
-    bool paper = chain == cost->chains.list.items[COST_PAPER] && (PAPER & ~bench->allowed) == 0;
+    bool paper =
+        chain == cost->chains.list.items[COST_PAPER] && (effects_of_paper() & ~bench->allowed) == 0;
     chain->saved = trial_saved(bench, chain->trial);
     struct trial_time time = trial_time_of(bench, &bench->whole[TRIAL_IDEAL]);
     if (chain == whole(cost))
@@ -195,7 +198,7 @@ static int run_chains(struct cost *cost)
         set_row(cost, all->list.items[i]);
     for (enum effect_id i = 0; i < EFFECT_COUNT; i++) {
         bool needed = (bench->allowed & EFFECT_BIT(i)) != 0 && trial_simulated(bench, i);
-        bool paper = (PAPER & EFFECT_BIT(i)) != 0;
+        bool paper = effect_table[i]->of_paper;
         if (needed && (!paper || effect_table[i]->home != EFFECT_HOME_IDEAL))
             ideal(cost)->left_out |= EFFECT_BIT(i);
         if (needed && !paper)

@@ -246,12 +246,9 @@ static void count_cause(struct trial_bench *bench, struct trial *trial, const ch
 }
 
 /* May the effect have made or changed this part of a target that it marked? */
-static bool may_be_marked(enum effect_id effect, const struct echo_id *part)
+static bool may_be_marked(const struct effect *effect, const struct echo_id *part)
 {
-    return effect == EFFECT_GHOSTS   ? part->mirror != NULL
-           : effect == EFFECT_WHEELS ? part->path == PATH_WHEEL
-           : effect == EFFECT_LIMBS  ? part->path == PATH_LIMB
-                                     : frame_has_object(part->path);
+    return effect->is_own != NULL ? effect->is_own(part) : frame_has_object(part->path);
 }
 
 /* The echo among those that the whole chain lost by the effect; NULL: it is not. */
@@ -281,7 +278,7 @@ static void note_cause(struct trial_bench *bench, struct trial *trial, const str
             of_whole ? NULL : find_lost(&bench->frame, trial->effect, target->sensor, &part->id);
         if (lost != NULL)
             count_cause(bench, trial, part->id.object, lost->by);
-        if (may_be_marked(trial->effect, &part->id) &&
+        if (may_be_marked(effect_table[trial->effect], &part->id) &&
             (strongest == NULL || part->weight > strongest->weight))
             strongest = part;
     }
