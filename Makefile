@@ -247,9 +247,15 @@ schemas: all
 	$(Q)tests/tools/tables-sql schemas/tables.json >schemas/tables.sql
 	$(Q)python3 scripts/sets/schema.py >schemas/dataset.json
 
+# The table of sections, from the pages of the model.
+MODEL.md: FORCE
+	$(Q)tests/tools/model-sections >$@.new && mv $@.new $@
+
 # One line a module, from the headers.
 lib/README.md: FORCE
 	$(Q)tests/tools/lib-readme >$@.new && mv $@.new $@
+
+printed: schemas lib/README.md MODEL.md
 
 format:
 	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] pipelines/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
@@ -331,7 +337,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit hard soundness fuzz test check bench accuracy schemas format lint man install uninstall clean FORCE
+.PHONY: all printed unit hard soundness fuzz test check bench accuracy schemas format lint man install uninstall clean FORCE
 .PRECIOUS: $(BUILD)/tests/%.o $(tests) $(BUILD)/tests/hard/%
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)
