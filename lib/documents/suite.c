@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/elementary.h"
+#include "base/search.h"
 #include "base/units.h"
 #include "documents/antenna_array.h"
 #include "radar/scan_timing.h"
@@ -248,13 +249,17 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
 
 double suite_range_max_m(const struct sensor *sensor, double azimuth_rad)
 {
-    const struct range_limit *to = sensor->range_limits.items, *from = to;
-    if (sensor->range_limits.count == 0)
+    const struct range_limit *limits = sensor->range_limits.items;
+    size_t count = sensor->range_limits.count;
+    double aside_rad = fabs(azimuth_rad);
+    if (count == 0)
         return sensor->range_max_m;
-    for (size_t i = 1; i < sensor->range_limits.count && to->azimuth_rad < fabs(azimuth_rad); i++)
-        from = to++;
-    double width_rad = to->azimuth_rad - from->azimuth_rad;
-    double part = width_rad > 0 ? (fabs(azimuth_rad) - from->azimuth_rad) / width_rad : 0;
+    if (count == 1 || aside_rad <= limits[0].azimuth_rad)
+        return limits[0].range_max_m;
+    const struct range_limit *from =
+        limits + search_row(&limits[0].azimuth_rad, sizeof *limits, count - 1, aside_rad);
+    const struct range_limit *to = from + 1;
+    double part = (aside_rad - from->azimuth_rad) / (to->azimuth_rad - from->azimuth_rad);
     return from->range_max_m + elementary_min(part, 1) * (to->range_max_m - from->range_max_m);
 }
 

@@ -1,6 +1,7 @@
 #include "radar/antenna.h"
 
 #include "base/elementary.h"
+#include "base/search.h"
 #include "base/units.h"
 
 /* The real factors of both pointers: H_sum = sum · e, H_delta = -j delta · e. */
@@ -40,28 +41,14 @@ static double interpolated(double from, double from_weight, double to, double to
     return from * from_weight + to * to_weight;
 }
 
-/* The last row at or before an azimuth within the table, but never the table's last row. */
-static const struct antenna_row *row_before(const struct antenna *antenna, double azimuth_rad)
-{
-    const struct antenna_row *rows = antenna->rows;
-    size_t last = antenna->row_count - 1;
-    /* The guess is right for rows at even steps, as most tables have them. */
-    double step_rad = (rows[last].azimuth_rad - rows[0].azimuth_rad) / (double)last;
-    size_t low = (size_t)((azimuth_rad - rows[0].azimuth_rad) / step_rad);
-    low = low < last ? low : last - 1;
-    while (low > 0 && azimuth_rad < rows[low].azimuth_rad)
-        low--;
-    while (low + 1 < last && azimuth_rad >= rows[low + 1].azimuth_rad)
-        low++;
-    return &rows[low];
-}
-
 static struct antenna_pair table_pair(const struct antenna *antenna, double azimuth_rad)
 {
     const struct antenna_row *first = antenna->rows, *last = first + antenna->row_count - 1;
     if (azimuth_rad < first->azimuth_rad || azimuth_rad > last->azimuth_rad)
         return (struct antenna_pair){0, 0};
-    const struct antenna_row *low = row_before(antenna, azimuth_rad), *high = low + 1;
+    const struct antenna_row *low =
+        first + search_row(&first->azimuth_rad, sizeof *first, antenna->row_count - 1, azimuth_rad);
+    const struct antenna_row *high = low + 1;
     double width = high->azimuth_rad - low->azimuth_rad;
     double to = (azimuth_rad - low->azimuth_rad) / width;
     double from = (high->azimuth_rad - azimuth_rad) / width;
@@ -69,11 +56,18 @@ static struct antenna_pair table_pair(const struct antenna *antenna, double azim
                                  interpolated(low->delta, from, high->delta, to)};
 }
 
+static struct antenna_pair pattern_pair(const struct antenna *antenna, double azimuth_rad)
+{
+    if (antenna->pattern == ANTENNA_TABLE)
+        return table_pair(antenna, azimuth_rad);
+    if (antenna->pattern == ANTENNA_ARRAY)
+        return (struct antenna_pair){1, 0};
+    return dipole_pair(azimuth_rad);
+}
+
 static struct antenna_pair pair_at(const struct antenna *antenna, double azimuth_rad)
 {
-    struct antenna_pair pair = antenna->pattern == ANTENNA_TABLE ? table_pair(antenna, azimuth_rad)
-                               : antenna->pattern == ANTENNA_ARRAY ? (struct antenna_pair){1, 0}
-                                                                   : dipole_pair(azimuth_rad);
+    struct antenna_pair pair = pattern_pair(antenna, azimuth_rad);
     if (antenna->curve.rows == NULL || pair.sum == 0)
         return pair;
     double gain = receiver_curve_gain(&antenna->curve, azimuth_rad);
@@ -86,36 +80,36 @@ static double row_cross(struct antenna_pair pair, const struct antenna_row *row)
     return pair.delta * row->sum - pair.sum * row->delta;
 }
 
+/* Where a ratio of delta to sum lies in a table. */
+struct ratio_search {
+    const struct antenna_row *rows;
+    struct antenna_pair pair;
+};
+
 /* True if delta/sum of the pair is above that of the row. If both sums are zero, the cross product
  * cannot tell minus from plus infinity, and the sign of the pair's delta decides. */
-static bool is_above(struct antenna_pair pair, const struct antenna_row *row)
+static bool is_above(const void *of, size_t row)
 {
-    double cross = row_cross(pair, row);
-    return cross > 0 || (cross == 0 && pair.delta > 0);
+    const struct ratio_search *search = of;
+    double cross = row_cross(search->pair, &search->rows[row]);
+    return cross > 0 || (cross == 0 && search->pair.delta > 0);
 }
 
 static double table_azimuth(const struct antenna *antenna, struct antenna_pair pair)
 {
-    const struct antenna_row *rows = antenna->rows;
-    size_t low = 0;
-    size_t high = antenna->row_count - 1;
-    if (!is_above(pair, &rows[low]))
-        return rows[low].azimuth_rad;
-    if (is_above(pair, &rows[high]))
-        return rows[high].azimuth_rad;
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (is_above(pair, &rows[middle]))
-            low = middle;
-        else
-            high = middle;
-    }
-    double above = row_cross(pair, &rows[low]);
-    double below = -row_cross(pair, &rows[high]);
-    double azimuth_rad = interpolated(rows[low].azimuth_rad, below / (above + below),
-                                      rows[high].azimuth_rad, above / (above + below));
-    return elementary_min(elementary_max(azimuth_rad, rows[low].azimuth_rad),
-                          rows[high].azimuth_rad);
+    const struct ratio_search search = {antenna->rows, pair};
+    size_t last = antenna->row_count - 1;
+    if (!is_above(&search, 0))
+        return antenna->rows[0].azimuth_rad;
+    if (is_above(&search, last))
+        return antenna->rows[last].azimuth_rad;
+    const struct antenna_row *low = &antenna->rows[search_last(last, is_above, &search)];
+    const struct antenna_row *high = low + 1;
+    double above = row_cross(pair, low);
+    double below = -row_cross(pair, high);
+    double azimuth_rad = interpolated(low->azimuth_rad, below / (above + below), high->azimuth_rad,
+                                      above / (above + below));
+    return elementary_min(elementary_max(azimuth_rad, low->azimuth_rad), high->azimuth_rad);
 }
 
 /* Uses arcsin only where it is well conditioned, up to half of its range (hard case 7). */
@@ -152,6 +146,7 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad)
     return pair_at(antenna, azimuth_rad).sum;
 }
 
+/* By steps and not by base/root.h, as a pattern may cross its edge more than once. */
 double antenna_beam_rad(const struct antenna *antenna)
 {
     const double fine_rad = PI / 2 / 65536;

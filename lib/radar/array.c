@@ -1,6 +1,7 @@
 #include "radar/array.h"
 
 #include "base/elementary.h"
+#include "base/root.h"
 #include "base/units.h"
 
 static double middle_of(const struct array *array, size_t n)
@@ -287,12 +288,15 @@ double array_sigma(const struct array *array, double snr)
     return sqrt(array->noise_moment / (2 * snr)) / (array->signal_moment * array->spacing);
 }
 
+static bool is_within_beam(const void *of, double distance)
+{
+    return array_response(of, distance) > sqrt(0.5);
+}
+
 double array_beam(const struct array *array)
 {
-    double low = 0, high = 1 / (array->spacing * (double)array->count), edge = sqrt(0.5);
-    while (array_response(array, high) > edge && high < 2)
-        high *= 1.5;
-    for (double middle = high / 2; middle > low && middle < high; middle = low + (high - low) / 2)
-        *(array_response(array, middle) > edge ? &low : &high) = middle;
-    return 2 * low;
+    double beyond = 1 / (array->spacing * (double)array->count);
+    while (is_within_beam(array, beyond) && beyond < 2)
+        beyond *= 1.5;
+    return 2 * root_between(0, beyond, 0, is_within_beam, array).low;
 }

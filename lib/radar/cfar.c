@@ -1,6 +1,7 @@
 #include "radar/cfar.h"
 
 #include "base/elementary.h"
+#include "base/root.h"
 
 /* The probability with which noise passes under CFAR_ORDERED. */
 static double ordered_false_alarm(size_t cells, size_t rank, double factor)
@@ -13,15 +14,24 @@ static double ordered_false_alarm(size_t cells, size_t rank, double factor)
     return probability;
 }
 
-/* The factor, by bisection down to the last bit. */
+struct ordered_search {
+    size_t cells, rank;
+    double false_alarm;
+};
+
+static bool is_too_low(const void *of, double factor)
+{
+    const struct ordered_search *search = of;
+    return ordered_false_alarm(search->cells, search->rank, factor) > search->false_alarm;
+}
+
 static double ordered_factor(size_t cells, size_t rank, double false_alarm)
 {
-    double low = 0, high = 1;
-    while (ordered_false_alarm(cells, rank, high) > false_alarm)
+    const struct ordered_search search = {cells, rank, false_alarm};
+    double high = 1;
+    while (is_too_low(&search, high))
         high *= 2;
-    for (double middle = high / 2; middle > low && middle < high; middle = low + (high - low) / 2)
-        *(ordered_false_alarm(cells, rank, middle) > false_alarm ? &low : &high) = middle;
-    return high;
+    return root_between(0, high, 0, is_too_low, &search).high;
 }
 
 double cfar_factor(enum cfar_kind kind, size_t cells, size_t rank, double false_alarm)

@@ -3,6 +3,7 @@
 #include <stdbool.h>
 
 #include "base/elementary.h"
+#include "base/root.h"
 #include "base/units.h"
 #include "radar/level.h"
 
@@ -151,17 +152,25 @@ double detection_probability(const struct detection_law *detection, double ampli
     return levelled_probability(detection, &echo, amplitude);
 }
 
+struct amplitude_search {
+    const struct detection_law *detection;
+    double probability;
+};
+
+static bool is_detected_less(const void *of, double amplitude_db)
+{
+    const struct amplitude_search *search = of;
+    double amplitude = units_amplitude_from_db(amplitude_db);
+    return detection_probability(search->detection, amplitude) < search->probability;
+}
+
 double detection_amplitude(const struct detection_law *detection, double probability)
 {
+    const struct amplitude_search search = {detection, probability};
     double highest = elementary_max(detection->threshold, detection->final_threshold);
+    double highest_db = units_amplitude_db(highest);
     double above_db = 80 + 5 * detection->level_sigma_db - detection->level_mean_db;
-    double low = 1e-3 * highest, high = highest * units_amplitude_from_db(above_db);
-    while (high > low * (1 + 1e-7)) {
-        double middle = sqrt(low * high);
-        if (detection_probability(detection, middle) < probability)
-            low = middle;
-        else
-            high = middle;
-    }
-    return high;
+    struct root root =
+        root_between(highest_db - 60, highest_db + above_db, 1e-6, is_detected_less, &search);
+    return units_amplitude_from_db(root.high);
 }

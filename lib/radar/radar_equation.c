@@ -1,6 +1,7 @@
 #include "radar/radar_equation.h"
 
 #include "base/elementary.h"
+#include "base/search.h"
 
 /* The cross section of a reflector with an ERCS of 1 (MODEL 3). */
 #define ERCS_UNIT_M2 10.0
@@ -10,11 +11,12 @@ static double table_amplitude(const struct radar_equation *equation, double rang
     const struct radar_row *rows = equation->rows;
     if (equation->row_count < 2 || range_m <= rows[0].range_m)
         return rows[0].amplitude;
-    while (rows + 2 < equation->rows + equation->row_count && range_m >= rows[1].range_m)
-        rows++;
-    double part = elementary_log(range_m / rows[0].range_m) /
-                  elementary_log(rows[1].range_m / rows[0].range_m);
-    return rows[0].amplitude * elementary_pow(rows[1].amplitude / rows[0].amplitude, part);
+    const struct radar_row *from =
+        rows + search_row(&rows[0].range_m, sizeof *rows, equation->row_count - 1, range_m);
+    const struct radar_row *to = from + 1;
+    double part =
+        elementary_log(range_m / from->range_m) / elementary_log(to->range_m / from->range_m);
+    return from->amplitude * elementary_pow(to->amplitude / from->amplitude, part);
 }
 
 double radar_reference_amplitude(const struct radar_equation *equation, double range_m)

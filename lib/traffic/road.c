@@ -1,6 +1,7 @@
 #include "traffic/road.h"
 
 #include "base/elementary.h"
+#include "base/search.h"
 #include "base/units.h"
 #include "documents/vehicle.h"
 
@@ -203,10 +204,9 @@ int road_path_make(struct road_path *path, const struct roadway *road, const str
 
 struct motion road_path_motion(const struct road_path *path, double place_m, double speed_mps)
 {
-    const struct road_piece *piece = path->pieces.items;
-    const struct road_piece *last = piece + path->pieces.count - 1;
-    while (piece < last && piece[1].from_m <= place_m)
-        piece++;
+    const struct road_piece *pieces = path->pieces.items;
+    const struct road_piece *piece =
+        pieces + search_row(&pieces[0].from_m, sizeof *pieces, path->pieces.count, place_m);
     struct motion body = motion_drive(piece->begin_m, piece->yaw_rad, 1, 0, piece->curvature_radpm,
                                       place_m - piece->from_m);
     body.yaw_rad = units_wrap_rad(body.yaw_rad);

@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/intern.h"
+#include "base/search.h"
 #include "base/units.h"
 #include "documents/vehicle.h"
 #include "frame/frame_check.h"
@@ -314,10 +315,8 @@ static double span_length_m(const struct actor *actor, size_t span, double s)
 
 static size_t span_of(const struct actor *actor, double time_s)
 {
-    size_t span = 0;
-    while (span + 2 < actor->waypoints.count && actor->waypoints.items[span + 1].time_s <= time_s)
-        span++;
-    return span;
+    const struct waypoint *waypoints = actor->waypoints.items;
+    return search_row(&waypoints[0].time_s, sizeof *waypoints, actor->waypoints.count - 1, time_s);
 }
 
 static struct motion follow_waypoints(const struct actor *actor, double time_s, double *travelled_m)
