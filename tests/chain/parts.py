@@ -205,8 +205,8 @@ def a_program_of_tests_finds_signals_at_their_defaults(folder):
         with open(program, "w", encoding="ascii") as file:
             file.write(f"#!/bin/sh\necho '[ RUN      ] a_test'\nkill -{name} $$\nsleep 1\necho survived\n")
         os.chmod(program, 0o755)
-        done = shell(f"env --ignore-signal={IGNORED} tests/support/run_test {program}")
-        if done.returncode != 1 or f"it was in the test a_test\n{program} failed: ended by SIG{name}\n" not in done.stdout:
+        done = shell(f"env --ignore-signal={IGNORED} tests/support/run_test {program} {program}")
+        if done.returncode != 1 or f"it was in the test a_test\n{program} test_ended failed: ended by SIG{name}\n" not in done.stdout:
             return f"{name}: exit {done.returncode}: {done.stdout}"
     return None
 
@@ -214,12 +214,12 @@ def a_program_of_tests_finds_signals_at_their_defaults(folder):
 def a_program_that_fails_says_how(folder):
     program = os.path.join(folder, "test_failing")
     for text, due in (("exit 3", "failed: exit status 3\n"), ("exit 1", f"{program}.log is empty; "),
-                      ("echo '[       OK ] a_test'; echo why; exit 1", f"why\n{program} failed: exit status 1\n"),
+                      ("echo '[       OK ] a_test'; echo why; exit 1", f"why\n{program} test_failing failed: exit status 1\n"),
                       ("exec /nonexistent", "failed: it cannot be run\n")):
         with open(program, "w", encoding="ascii") as file:
             file.write(f"#!/bin/sh\n{text}\n")
         os.chmod(program, 0o755)
-        done = shell(f"tests/support/run_test {program}")
+        done = shell(f"tests/support/run_test {program} {program}")
         if done.returncode != 1 or due not in done.stdout or " OK " in done.stdout:
             return f"{text}: {done.stdout}"
     return None
@@ -227,9 +227,9 @@ def a_program_that_fails_says_how(folder):
 
 def tests_run_under_nohup(_):
     """Those that end programs by signals, under a parent that ignores all that can be ignored."""
-    programs = os.path.join(os.path.dirname(BIN), "tests", "unit", "text", "test_output")
-    for test in (f"/usr/bin/python3 tests/chain/outputs.py {BIN}", programs):
-        if test == programs and not os.path.exists(programs):
+    program = os.path.join(os.path.dirname(BIN), "unit", "text")
+    for test in (f"/usr/bin/python3 tests/chain/outputs.py {BIN}", f"{program} test_output"):
+        if test.startswith(program) and not os.path.exists(program):
             print("skipped  test_output under nohup: it is not built")
             continue
         done = shell(f"exec env --ignore-signal={IGNORED} {test}")

@@ -232,7 +232,9 @@ static double azimuth_sigma_rad(const struct point *point)
 
 static const int off_boresight[] = {AT_10_16, AT_10_32, AT_30_16, AT_30_32};
 
-static void the_angle_scatters_as_the_first_order_formula_says(void **state)
+FIXTURE(draw_noise, free_sample);
+
+TEST(the_angle_scatters_as_the_first_order_formula_says)
 {
     const struct sample *sample = *state;
     assert_close(sample->sensor.pointer_sigma, 0.5, 0);
@@ -246,7 +248,7 @@ static void the_angle_scatters_as_the_first_order_formula_says(void **state)
 }
 
 /* MODEL 7.3: at boresight |delta| is never negative, which makes the error sqrt(2) larger. */
-static void the_angle_scatters_more_at_boresight(void **state)
+TEST(the_angle_scatters_more_at_boresight)
 {
     const struct sample *sample = *state;
     const double *error = sample->at[AT_0_16].azimuth_rad;
@@ -255,7 +257,7 @@ static void the_angle_scatters_more_at_boresight(void **state)
 }
 
 /* MODEL 7.3, its own Monte Carlo: G = 8 at 5 degrees has the wrong sign in 6.4 % of the draws. */
-static void a_weak_echo_near_boresight_takes_the_wrong_side(void **state)
+TEST(a_weak_echo_near_boresight_takes_the_wrong_side)
 {
     const struct sample *sample = *state;
     double wrong = 0, azimuth_rad = 5 * PI / 180;
@@ -264,7 +266,7 @@ static void a_weak_echo_near_boresight_takes_the_wrong_side(void **state)
     assert_close(wrong / DRAWS, 0.064, 0.004);
 }
 
-static void normalised_squared_errors_are_one(void **state)
+TEST(normalised_squared_errors_are_one)
 {
     const struct sample *sample = *state;
     double range_sigma_m = sample->sensor.range_sigma_m;
@@ -292,7 +294,7 @@ static void check_gaussian(const double *error, double sigma)
     assert_close(beyond / DRAWS, 0.0455, 0.004);
 }
 
-static void range_and_rate_are_gaussian(void **state)
+TEST(range_and_rate_are_gaussian)
 {
     const struct sample *sample = *state;
     for (int i = 0; i < POINTS; i++) {
@@ -301,15 +303,7 @@ static void range_and_rate_are_gaussian(void **state)
     }
 }
 
-static void every_error_of_the_textbook_sensor_is_gaussian(void **state)
-{
-    const struct sample *sample = *state;
-    range_and_rate_are_gaussian(state);
-    for (int i = 0; i < POINTS; i++)
-        check_gaussian(sample->at[i].azimuth_rad, sample->sensor.azimuth_sigma_rad);
-}
-
-static void errors_of_one_target_are_independent(void **state)
+TEST(errors_of_one_target_are_independent)
 {
     const struct sample *sample = *state;
     for (int i = 0; i < POINTS; i++) {
@@ -329,7 +323,7 @@ static void check_unrelated(const double *a, const double *b)
     assert_close(correlation(a, b), 0, 0.02);
 }
 
-static void errors_of_other_sensors_and_leaders_are_independent(void **state)
+TEST(errors_of_other_sensors_and_leaders_are_independent)
 {
     const struct sample *sample = *state;
     const struct errors *error = &sample->at[AT_30_16];
@@ -350,12 +344,29 @@ static void check_unrelated_in_time(const double *error)
     assert_close(product / DRAWS / mean_product(error, error), 0, 0.02);
 }
 
-static void errors_of_other_frames_are_independent(void **state)
+TEST(errors_of_other_frames_are_independent)
 {
     const struct sample *sample = *state;
     check_unrelated_in_time(sample->at[AT_30_16].range_m);
     check_unrelated_in_time(sample->at[AT_30_16].range_rate_mps);
     check_unrelated_in_time(sample->at[AT_30_16].azimuth_rad);
+}
+
+FIXTURE(draw_noise_gauss, free_sample);
+
+TEST(every_error_of_the_textbook_sensor_is_gaussian)
+{
+    const struct sample *sample = *state;
+    range_and_rate_are_gaussian(state);
+    for (int i = 0; i < POINTS; i++)
+        check_gaussian(sample->at[i].azimuth_rad, sample->sensor.azimuth_sigma_rad);
+}
+
+TEST(errors_of_the_textbook_sensor_are_independent)
+{
+    errors_of_one_target_are_independent(state);
+    errors_of_other_sensors_and_leaders_are_independent(state);
+    errors_of_other_frames_are_independent(state);
 }
 
 /* Suites of one sensor "front" with a threshold of 1. */
@@ -445,7 +456,9 @@ static void check_list(const struct scratch *scratch, const char *members, const
     bench_close(&bench);
 }
 
-static void the_list_is_ordered_by_strength_or_range_and_ties_by_the_leader(void **state)
+FIXTURE(make_scratch, free_scratch);
+
+TEST(the_list_is_ordered_by_strength_or_range_and_ties_by_the_leader)
 {
     const char *strongest = QUIET CENTRE ", \"final_threshold\": true, "
                                          "\"list_order\": \"strongest\", \"list_limit\": 0";
@@ -463,7 +476,7 @@ static const struct lost_group *only_loss(const struct frame *frame)
     return &frame->lost.items[0];
 }
 
-static void what_is_beyond_the_list_limit_is_lost(void **state)
+TEST(what_is_beyond_the_list_limit_is_lost)
 {
     struct bench bench;
     open_suite(&bench, &stage_noise, *state,
@@ -482,7 +495,7 @@ static void what_is_beyond_the_list_limit_is_lost(void **state)
     bench_close(&bench);
 }
 
-static void the_final_threshold_takes_what_cancels(void **state)
+TEST(the_final_threshold_takes_what_cancels)
 {
     struct bench bench;
     open_suite(&bench, &stage_noise, *state,
@@ -510,7 +523,7 @@ static void the_final_threshold_takes_what_cancels(void **state)
     bench_close(&bench);
 }
 
-static void without_a_final_threshold_all_that_has_an_angle_stays(void **state)
+TEST(without_a_final_threshold_all_that_has_an_angle_stays)
 {
     struct bench bench;
     open_suite(&bench, &stage_noise, *state, QUIET CENTRE ", " ALL);
@@ -559,7 +572,7 @@ static void check_step(double stepped, double exact, double step)
     assert_close(stepped, exact, step / 2 * (1 + 1e-9));
 }
 
-static void reported_values_are_the_nearest_multiples_of_the_steps(void **state)
+TEST(reported_values_are_the_nearest_multiples_of_the_steps)
 {
     struct pair exact[PAIRS], stepped[PAIRS];
     draw_pairs(*state, NOISY CENTRE ", " ALL, exact);
@@ -575,7 +588,7 @@ static void reported_values_are_the_nearest_multiples_of_the_steps(void **state)
         }
 }
 
-static void by_amplitude_the_strong_scatter_less(void **state)
+TEST(by_amplitude_the_strong_scatter_less)
 {
     static const double part[] = {1.0 / 4, 1};
     static const double range_m[] = {40, 30};
@@ -612,7 +625,7 @@ static struct pair draw_at(struct bench *bench, const struct address *address)
     return (struct pair){{target->range_m}, {target->range_rate_mps}, {target->azimuth_rad}};
 }
 
-static void draws_depend_on_every_part_of_their_address(void **state)
+TEST(draws_depend_on_every_part_of_their_address)
 {
     static const struct address addresses[] = {
         {"s", "o", "r", 3, 1},
@@ -653,7 +666,7 @@ static void add_echo(struct frame *frame, const char *object, double range_m, do
 }
 
 /* MODEL 8.1. Under "element", equal strengths at opposite angles have a real ratio: no sign. */
-static void two_reflectors_in_one_cell_make_one_target_between_them(void **state)
+TEST(two_reflectors_in_one_cell_make_one_target_between_them)
 {
     static const struct {
         const char *reference;
@@ -704,7 +717,7 @@ static void draw_cell(struct bench *bench, int number)
 
 /* MODEL 8.2: with a random phase between two equal reflectors at 8 degrees to both sides, the
  * ratio of the channels is tan u tan(phase / 2). */
-static void random_phases_spread_the_angle_as_their_closed_form_says(void **state)
+TEST(random_phases_spread_the_angle_as_their_closed_form_says)
 {
     static const double quantiles[] = {0.1, 0.25, 0.5, 0.75, 0.9};
     double *azimuth_rad = malloc(PHASE_DRAWS * sizeof *azimuth_rad);
@@ -726,7 +739,7 @@ static void random_phases_spread_the_angle_as_their_closed_form_says(void **stat
     free(azimuth_rad);
 }
 
-static void a_random_phase_turns_pointers_and_leaves_membership(void **state)
+TEST(a_random_phase_turns_pointers_and_leaves_membership)
 {
     struct bench in_phase, random;
     open_suite(&in_phase, &stage_sensor, *state, QUIET CENTRE ", " ALL);
@@ -762,7 +775,7 @@ static void a_random_phase_turns_pointers_and_leaves_membership(void **state)
 
 /* An echo an eighth of a wavelength farther away lags the leader by a quarter of a turn, in
  * whatever frame and wherever both are; reflectors start from phases of their own. */
-static void phases_by_path_follow_the_range(void **state)
+TEST(phases_by_path_follow_the_range)
 {
     const double wave_m = 299792458 / 24e9;
     struct bench bench;
@@ -786,40 +799,4 @@ static void phases_by_path_follow_the_range(void **state)
     }
     assert_true(fabs(remainder(first_rad, 2 * PI)) > 1e-3);
     bench_close(&bench);
-}
-
-int main(void)
-{
-    const struct CMUnitTest model[] = {
-        cmocka_unit_test(the_angle_scatters_as_the_first_order_formula_says),
-        cmocka_unit_test(the_angle_scatters_more_at_boresight),
-        cmocka_unit_test(a_weak_echo_near_boresight_takes_the_wrong_side),
-        cmocka_unit_test(normalised_squared_errors_are_one),
-        cmocka_unit_test(range_and_rate_are_gaussian),
-        cmocka_unit_test(errors_of_one_target_are_independent),
-        cmocka_unit_test(errors_of_other_sensors_and_leaders_are_independent),
-        cmocka_unit_test(errors_of_other_frames_are_independent),
-    };
-    const struct CMUnitTest textbook[] = {
-        cmocka_unit_test(every_error_of_the_textbook_sensor_is_gaussian),
-        cmocka_unit_test(errors_of_one_target_are_independent),
-        cmocka_unit_test(errors_of_other_sensors_and_leaders_are_independent),
-        cmocka_unit_test(errors_of_other_frames_are_independent),
-    };
-    const struct CMUnitTest of_stages[] = {
-        cmocka_unit_test(the_list_is_ordered_by_strength_or_range_and_ties_by_the_leader),
-        cmocka_unit_test(what_is_beyond_the_list_limit_is_lost),
-        cmocka_unit_test(the_final_threshold_takes_what_cancels),
-        cmocka_unit_test(without_a_final_threshold_all_that_has_an_angle_stays),
-        cmocka_unit_test(reported_values_are_the_nearest_multiples_of_the_steps),
-        cmocka_unit_test(by_amplitude_the_strong_scatter_less),
-        cmocka_unit_test(draws_depend_on_every_part_of_their_address),
-        cmocka_unit_test(two_reflectors_in_one_cell_make_one_target_between_them),
-        cmocka_unit_test(random_phases_spread_the_angle_as_their_closed_form_says),
-        cmocka_unit_test(a_random_phase_turns_pointers_and_leaves_membership),
-        cmocka_unit_test(phases_by_path_follow_the_range),
-    };
-    return cmocka_run_group_tests(model, draw_noise, free_sample) +
-           cmocka_run_group_tests(textbook, draw_noise_gauss, free_sample) +
-           cmocka_run_group_tests(of_stages, make_scratch, free_scratch);
 }

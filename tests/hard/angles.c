@@ -137,9 +137,8 @@ static void exact_sum(mpfr_t result, const struct pattern *exact)
 }
 
 /* Hard cases 1 to 5, each with the element factor that both channels share. */
-static void pointers_keep_their_digits_from_boresight_to_the_side(void **state)
+TEST(pointers_keep_their_digits_from_boresight_to_the_side)
 {
-    (void)state;
     static const struct {
         const char *number, *title;
         double (*naive)(double), (*ours)(double);
@@ -180,9 +179,8 @@ static double naive_azimuth(double delta, double sum)
 }
 
 /* Hard case 6: an echo from the side has its angle there or none, never one ahead. */
-static void an_echo_from_the_side_is_not_invented_elsewhere(void **state)
+TEST(an_echo_from_the_side_is_not_invented_elsewhere)
 {
-    (void)state;
     static const struct vec2 boresight = {1, 0};
     uint64_t sample = 6;
     int naive = 0, ours = 0, count = hard_points(1000000);
@@ -227,9 +225,8 @@ static void round_pair(struct pattern *exact, double azimuth_rad, double *delta,
 }
 
 /* Hard case 7. */
-static void the_pair_is_inverted_up_to_the_side(void **state)
+TEST(the_pair_is_inverted_up_to_the_side)
 {
-    (void)state;
     struct pattern pattern;
     mpfr_t exact;
     start_pattern(&pattern);
@@ -289,9 +286,8 @@ static double cell_azimuth(const struct cell *cell)
 
 /* Hard case 8: frames carry the pointers, from which the next stage reads the angle; a sensing
  * ratio carries less of it, even with all of its digits. */
-static void the_angle_survives_the_pipe(void **state)
+TEST(the_angle_survives_the_pipe)
 {
-    (void)state;
     struct arena arena = {0}, other = {0};
     struct text line = {0};
     struct frame frame = {.arena = &arena}, received = {.arena = &other};
@@ -350,9 +346,8 @@ static double tabled_azimuth(const struct asr_row *rows, double delta, double su
 }
 
 /* Hard case 9. */
-static void the_closed_form_beats_a_table(void **state)
+TEST(the_closed_form_beats_a_table)
 {
-    (void)state;
     struct asr_row table[ROWS];
     for (int i = 0; i < ROWS; i++) {
         double azimuth_rad = PI / 2 * i / (ROWS - 1);
@@ -392,9 +387,8 @@ static void set_si(mpfr_t exact, double x)
 }
 
 /* Hard case 10. */
-static void si_needs_no_series(void **state)
+TEST(si_needs_no_series)
 {
-    (void)state;
     mpfr_t exact;
     mpfr_init2(exact, BITS);
     uint64_t sample = 10;
@@ -431,9 +425,8 @@ static double naive_signed_azimuth(struct antenna_pointers pointers)
 
 /* Hard case 11, up to 75 degrees: beyond, under the phase of the element, the exact ratio itself
  * moves by more, by 2^-52 sin u / (2 cos^3 u) where cos u falls below 0.04. */
-static void one_ulp_does_not_move_the_ratio(void **state)
+TEST(one_ulp_does_not_move_the_ratio)
 {
-    (void)state;
     const struct antenna *antennas[] = {&CENTRE, &ELEMENT};
     uint64_t sample = 11;
     double naive = 0, ours = 0;
@@ -457,9 +450,8 @@ static void one_ulp_does_not_move_the_ratio(void **state)
 }
 
 /* Hard case 12. */
-static void parallel_directions_have_an_angle(void **state)
+TEST(parallel_directions_have_an_angle)
 {
-    (void)state;
     uint64_t sample = 12;
     double naive = 0, ours = 0;
     int count = hard_points(1000000);
@@ -487,19 +479,4 @@ static void parallel_directions_have_an_angle(void **state)
     }
     hard_case("12", "the angle between parallel directions", "rad", naive, ours, 1e-15);
     mpfr_clears(cross, dot, part, (mpfr_ptr)0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pointers_keep_their_digits_from_boresight_to_the_side),
-        cmocka_unit_test(an_echo_from_the_side_is_not_invented_elsewhere),
-        cmocka_unit_test(the_pair_is_inverted_up_to_the_side),
-        cmocka_unit_test(the_angle_survives_the_pipe),
-        cmocka_unit_test(the_closed_form_beats_a_table),
-        cmocka_unit_test(si_needs_no_series),
-        cmocka_unit_test(one_ulp_does_not_move_the_ratio),
-        cmocka_unit_test(parallel_directions_have_an_angle),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

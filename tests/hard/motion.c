@@ -105,7 +105,7 @@ static double range_error_m(double range_m, struct utm one, struct utm other, mp
 
 /* Hard case 23: a table of UTM places, read as glint-traffic reads it; local places and ranges from
  * the ego. */
-static void utm_places_keep_a_nanometre(void **state)
+SCRATCH_TEST(utm_places_keep_a_nanometre)
 {
     struct scratch *scratch = *state;
     int steps = hard_points(100000) / TRACKS;
@@ -144,9 +144,8 @@ static void utm_places_keep_a_nanometre(void **state)
 }
 
 /* Hard case 24: a million frames of a body that goes straight from a UTM place. */
-static void a_million_frames_go_straight(void **state)
+TEST(a_million_frames_go_straight)
 {
-    (void)state;
     const double rate_hz = 20, speed_mps = 33.3, yaw_rad = 0.7;
     const struct vec2 origin_m = {500000, 5300000};
     struct actor actor = {.id = "a",
@@ -201,9 +200,8 @@ static void exact_rate(struct vec2 r, struct vec2 v, mpfr_t exact, mpfr_t work)
 
 /* Hard case 35: motion that is tangential but for rounding; the sign is right if the error is a few
  * ulp. */
-static void a_nearly_tangential_speed_keeps_its_sign(void **state)
+TEST(a_nearly_tangential_speed_keeps_its_sign)
 {
-    (void)state;
     uint64_t random = 35;
     double naive = 0, ours = 0;
     const struct vec2 o = {0, 0}, ahead = {1, 0};
@@ -222,9 +220,8 @@ static void a_nearly_tangential_speed_keeps_its_sign(void **state)
     hard_case("35", "range rate of tangential motion", "ulp", naive, ours, 4);
 }
 
-static void ranges_are_never_differenced(void **state)
+TEST(ranges_are_never_differenced)
 {
-    (void)state;
     uint64_t random = 36;
     double naive = 0, ours = 0;
     const struct vec2 o = {0, 0}, ahead = {1, 0};
@@ -278,9 +275,8 @@ static void exact_way(double yaw_rad, bool across, double v, double a, double w,
 }
 
 /* Hard case 37: steps of up to a second, with turns from next to nothing to one radian. */
-static void a_turning_step_needs_no_small_angle(void **state)
+TEST(a_turning_step_needs_no_small_angle)
 {
-    (void)state;
     uint64_t random = 37;
     double naive = 0, ours = 0;
     const struct vec2 o = {0, 0};
@@ -333,9 +329,8 @@ static double draw_angle(uint64_t *random, int kind)
     return sign * ldexp(sample_between(random, 1, 2), exponent);
 }
 
-static void every_angle_wraps_exactly(void **state)
+TEST(every_angle_wraps_exactly)
 {
-    (void)state;
     uint64_t random = 38;
     double naive = 0, ours = 0;
     mpfr_t turn, exact;
@@ -353,9 +348,8 @@ static void every_angle_wraps_exactly(void **state)
 }
 
 /* Headings up to 1e17 rad: the place where a body arrives that drives along them. */
-static void a_heading_of_any_size_points_somewhere(void **state)
+TEST(a_heading_of_any_size_points_somewhere)
 {
-    (void)state;
     uint64_t random = 138;
     double naive = 0, ours = 0;
     mpfr_t yaw, sine, cosine, work;
@@ -375,18 +369,4 @@ static void a_heading_of_any_size_points_somewhere(void **state)
     }
     mpfr_clears(yaw, sine, cosine, work, (mpfr_ptr)NULL);
     hard_case("heading", "driving along up to 1e17 rad", "m/m", naive, ours, 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(utm_places_keep_a_nanometre, make_scratch, remove_scratch),
-        cmocka_unit_test(a_million_frames_go_straight),
-        cmocka_unit_test(a_nearly_tangential_speed_keeps_its_sign),
-        cmocka_unit_test(ranges_are_never_differenced),
-        cmocka_unit_test(a_turning_step_needs_no_small_angle),
-        cmocka_unit_test(every_angle_wraps_exactly),
-        cmocka_unit_test(a_heading_of_any_size_points_somewhere),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

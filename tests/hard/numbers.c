@@ -111,9 +111,8 @@ static bool written_as_nearest(double value, const mpfr_t nearest)
     return same;
 }
 
-static void the_shortest_decimals_of_all_sizes_are_written(void **state)
+TEST(the_shortest_decimals_of_all_sizes_are_written)
 {
-    (void)state;
     uint64_t random = 54;
     const int points = hard_points(30000);
     double naive = 0, ours = 0;
@@ -179,9 +178,8 @@ static bool cut_reads_as(const char *text, uint64_t bits)
     return reads_as(cut, bits);
 }
 
-static void decimals_midway_between_doubles_are_read_exactly(void **state)
+TEST(decimals_midway_between_doubles_are_read_exactly)
 {
-    (void)state;
     uint64_t random = 55;
     const int points = hard_points(30000);
     double naive = 0, ours = 0;
@@ -202,13 +200,4 @@ static void decimals_midway_between_doubles_are_read_exactly(void **state)
     }
     hard_case("54", "midway decimals and one digit off (naive: 19 digits)", "wrong", naive, ours,
               0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_shortest_decimals_of_all_sizes_are_written),
-        cmocka_unit_test(decimals_midway_between_doubles_are_read_exactly),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -346,9 +346,11 @@ static void run_density(struct bench *bench, const struct random_traffic_density
     }
 }
 
+FIXTURE(make_bench, remove_runs);
+
 /* Ordinary scenes have hardly any margin so small, or the answer would be cheap; adversarial scenes
  * must change lists and leave signs undecided, or nothing was tried. */
-static void lists_change_only_where_a_margin_said_so(void **state)
+TEST(lists_change_only_where_a_margin_said_so)
 {
     struct bench *bench = *state;
     for (int density = 0; density < TRAFFIC_DENSITIES; density++)
@@ -361,19 +363,10 @@ static void lists_change_only_where_a_margin_said_so(void **state)
     hard_case("margins", "one ulp changes lists", "of margin", (double)NAN, bench->farthest, 1);
 }
 
-static void values_move_no_farther_than_their_condition_lets_them(void **state)
+TEST(values_move_no_farther_than_their_condition_lets_them)
 {
     const struct bench *bench = *state;
     assert_true(bench->values > 0);
     for (int i = 0; i < QUANTITIES; i++)
         hard_case("margins", quantity_names[i], "of condition", (double)NAN, bench->worst[i], 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lists_change_only_where_a_margin_said_so),
-        cmocka_unit_test(values_move_no_farther_than_their_condition_lets_them),
-    };
-    return cmocka_run_group_tests(tests, make_bench, remove_runs);
 }

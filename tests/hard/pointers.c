@@ -162,9 +162,8 @@ static struct look look_at_pole(struct bench *bench, struct vec2 ego, struct vec
 
 /* A pole at the sensor's own place is out of range by rule; one that is an ulp ahead is a
  * target. */
-static void a_target_on_the_sensor_is_told(void **state)
+TEST(a_target_on_the_sensor_is_told)
 {
-    (void)state;
     struct bench bench;
     bench_open(&bench, PHASE_CENTRE, MONOPULSE_RATIO);
     uint64_t sample = 34;
@@ -189,9 +188,8 @@ static void a_target_on_the_sensor_is_told(void **state)
 
 /* Azimuths ever nearer to boresight, and to the side up to the double that stands for 90
  * degrees. */
-static void lone_targets_stay_where_they_are(void **state)
+TEST(lone_targets_stay_where_they_are)
 {
-    (void)state;
     double naive_ahead = 0, ours_ahead = 0, naive_side = 0, ours_side = 0;
     mpfr_t exact;
     mpfr_init2(exact, BITS);
@@ -289,9 +287,8 @@ static void set_equal_pair(mpfr_t azimuth, double azimuth_rad)
     mpfr_clear(quarter);
 }
 
-static void equal_echoes_meet_where_their_closed_form_says(void **state)
+TEST(equal_echoes_meet_where_their_closed_form_says)
 {
-    (void)state;
     double naive_middle = 0, ours_middle = 0, naive = 0, ours = 0;
     struct arena arena = {0};
     mpfr_t exact;
@@ -352,9 +349,8 @@ static double naive_jump(double azimuth_rad, double strength, bool element)
  * half of one from either product, is 2^-52 / tan u, which is more than 2^-47 up to tan u = 1/32,
  * 1.14 degrees. What then jumps is an angle of (2/pi) u^2 to either side, 1.25e-3 rad in all. Sums
  * without rounding do not change that: it is the echoes that are not even. */
-static void one_ulp_of_an_echo_does_not_make_the_angle_jump(void **state)
+TEST(one_ulp_of_an_echo_does_not_make_the_angle_jump)
 {
-    (void)state;
     static const struct {
         const char *number, *title;
         enum antenna_phase phase;
@@ -403,9 +399,8 @@ static struct antenna_pointers naive_pointers(const struct sensor *sensor,
 
 /* As many equal echoes to the left as to the right have no sign, however many they are; plain sums
  * leave a phase of delta that passes for a sign. */
-static void an_even_cell_has_no_sign(void **state)
+TEST(an_even_cell_has_no_sign)
 {
-    (void)state;
     enum { SIDE = 20 };
     struct bench bench;
     struct arena arena = {0};
@@ -445,9 +440,8 @@ static void set_delta(mpfr_t total, mpfr_t sizes, const struct sensor *sensor,
 
 /* Hard case 13: echoes up to 1e16 to one side cancel with two of half their strength to the other;
  * what is left is the echo of a weak target. */
-static void a_weak_target_outlives_strong_ones_that_cancel(void **state)
+TEST(a_weak_target_outlives_strong_ones_that_cancel)
 {
-    (void)state;
     enum { GROUPS = 40, ALL = 3 * GROUPS + 1 };
     struct bench bench;
     struct arena arena = {0};
@@ -495,9 +489,8 @@ static void add_unseen(uint64_t *seen, int *count, uint64_t value)
 }
 
 /* Hard case 14: a crowd of equal amplitudes with random phases, in random orders. */
-static void the_order_of_echoes_does_not_change_a_byte(void **state)
+TEST(the_order_of_echoes_does_not_change_a_byte)
 {
-    (void)state;
     struct bench bench;
     bench_open(&bench, PHASE_ELEMENT, MONOPULSE_MAGNITUDE);
     bench.sensor.cell_phase = CELL_RANDOM_PHASE;
@@ -595,9 +588,8 @@ static double naive_ratio(struct antenna_pointers pointers)
 
 /* Amplitudes from 1e-300 to 1e300 go through amplitude, mean, pointers, angle, threshold and
  * list. */
-static void every_amplitude_is_a_target_or_told(void **state)
+TEST(every_amplitude_is_a_target_or_told)
 {
-    (void)state;
     struct arena arena = {0};
     mpfr_t exact, error;
     mpfr_inits2(SUM_BITS, exact, error, (mpfr_ptr)0);
@@ -628,9 +620,8 @@ static void every_amplitude_is_a_target_or_told(void **state)
 }
 
 /* Two echoes whose sum of amplitudes is beyond the doubles. */
-static void an_amplitude_beyond_doubles_is_told(void **state)
+TEST(an_amplitude_beyond_doubles_is_told)
 {
-    (void)state;
     struct bench bench;
     bench_open(&bench, PHASE_CENTRE, MONOPULSE_RATIO);
     bench_begin(&bench);
@@ -661,9 +652,8 @@ static void set_turns(mpfr_t exact, double range_m, double carrier_hz)
 }
 
 /* Hard case 39. */
-static void the_phase_of_the_path_keeps_its_digits(void **state)
+TEST(the_phase_of_the_path_keeps_its_digits)
 {
-    (void)state;
     mpfr_t exact;
     mpfr_init2(exact, BITS);
     uint64_t sample = 39;
@@ -679,21 +669,4 @@ static void the_phase_of_the_path_keeps_its_digits(void **state)
     }
     hard_case("39", "4 pi R/lambda at 77 GHz, naive in floats", "rad", naive, ours, 1e-14);
     mpfr_clear(exact);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_target_on_the_sensor_is_told),
-        cmocka_unit_test(lone_targets_stay_where_they_are),
-        cmocka_unit_test(equal_echoes_meet_where_their_closed_form_says),
-        cmocka_unit_test(one_ulp_of_an_echo_does_not_make_the_angle_jump),
-        cmocka_unit_test(an_even_cell_has_no_sign),
-        cmocka_unit_test(a_weak_target_outlives_strong_ones_that_cancel),
-        cmocka_unit_test(the_order_of_echoes_does_not_change_a_byte),
-        cmocka_unit_test(every_amplitude_is_a_target_or_told),
-        cmocka_unit_test(an_amplitude_beyond_doubles_is_told),
-        cmocka_unit_test(the_phase_of_the_path_keeps_its_digits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static double count_plain_ends(void)
 
 /* Hard case 48: an odd multiple of 2^-53 is (k + 1/2) 2^-52, so all 52 bits count, and it is
  * neither 0 nor 1. */
-static void a_uniform_draw_is_never_0_or_1(void **state)
+TEST(a_uniform_draw_is_never_0_or_1)
 {
-    (void)state;
     struct random_address address = {.seed = 48};
     int points = hard_points(1000000);
     double ours = 0, low_bits = 0;
@@ -53,9 +52,8 @@ static void a_uniform_draw_is_never_0_or_1(void **state)
 
 /* Hard case 49: the reach sqrt(-2 log 2^-53) of the tail against that of 32-bit draws, which end at
  * 2^-33. */
-static void the_tail_reaches_as_far_as_52_bits_let_it(void **state)
+TEST(the_tail_reaches_as_far_as_52_bits_let_it)
 {
-    (void)state;
     uint32_t last = (uint32_t)hard_points(1000000);
     struct random_address address = {.seed = 49};
     double expected = sqrt(-2 * log(0x1p-53)), least = 1;
@@ -86,9 +84,8 @@ static void exact_gaussian(mpfr_t result, double radius_draw, double angle_draw,
     mpfr_clear(angle);
 }
 
-static void gaussian_draws_are_exact_to_a_few_ulp(void **state)
+TEST(gaussian_draws_are_exact_to_a_few_ulp)
 {
-    (void)state;
     struct random_address address = {.seed = 53};
     int blocks = hard_points(25000);
     double naive = 0, ours = 0;
@@ -152,9 +149,8 @@ static double hash_of_streams(int shards)
     return (double)(hash >> 11);
 }
 
-static void shards_change_no_byte(void **state)
+TEST(shards_change_no_byte)
 {
-    (void)state;
     static const int shards[] = {1, 2, 7, 64};
     double naive = 1, ours = 1;
     for (size_t i = 1; i < 4; i++) {
@@ -174,9 +170,8 @@ static double correlation(const double *values, size_t count)
 
 /* Hard case 51. Independent seeds have a correlation of 0.01 by chance, and of 0.04 in one of
  * 16,000 trials. */
-static void neighbouring_seeds_are_independent(void **state)
+TEST(neighbouring_seeds_are_independent)
 {
-    (void)state;
     enum { SEEDS = 10000 };
     static double plain[SEEDS], ours[SEEDS];
     for (long seed = 0; seed < SEEDS; seed++) {
@@ -217,9 +212,8 @@ static uint64_t any_word(uint64_t *random)
     return high ^ sample_bits(random);
 }
 
-static void draws_are_philox_at_any_address(void **state)
+TEST(draws_are_philox_at_any_address)
 {
-    (void)state;
     uint64_t random = 51;
     int points = hard_points(100000);
     double ours = 0;
@@ -240,9 +234,8 @@ static void draws_are_philox_at_any_address(void **state)
     hard_case("51", "Philox4x64-10 at 1e5 addresses", "wrong", (double)NAN, ours, 0);
 }
 
-static void no_seed_is_bad(void **state)
+TEST(no_seed_is_bad)
 {
-    (void)state;
     struct random_address address = {0};
     uint64_t shifted = 0;
     double naive = 0, ours = 0, before = 0;
@@ -256,18 +249,4 @@ static void no_seed_is_bad(void **state)
         before = drawn;
     }
     hard_case("52", "1,000 draws of seed 0 (naive: xorshift)", "wrong", naive, ours, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_uniform_draw_is_never_0_or_1),
-        cmocka_unit_test(the_tail_reaches_as_far_as_52_bits_let_it),
-        cmocka_unit_test(shards_change_no_byte),
-        cmocka_unit_test(neighbouring_seeds_are_independent),
-        cmocka_unit_test(draws_are_philox_at_any_address),
-        cmocka_unit_test(no_seed_is_bad),
-        cmocka_unit_test(gaussian_draws_are_exact_to_a_few_ulp),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

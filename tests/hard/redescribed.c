@@ -534,7 +534,9 @@ static void run_change(struct bench *bench, const char *what)
     hard_case(what, changes[bench->change].name, unit, bench->plain, bench->changed, bench->near);
 }
 
-static void a_roadside_is_the_same_in_any_description(void **state)
+FIXTURE(make_bench, remove_runs);
+
+TEST(a_roadside_is_the_same_in_any_description)
 {
     struct bench *bench = *state;
     bench->subject = ROADSIDE;
@@ -542,7 +544,7 @@ static void a_roadside_is_the_same_in_any_description(void **state)
         run_change(bench, "roadside");
 }
 
-static void slow_wheels_and_limbs_are_the_same_in_any_description(void **state)
+TEST(slow_wheels_and_limbs_are_the_same_in_any_description)
 {
     struct bench *bench = *state;
     bench->subject = SLOW_PARTS;
@@ -550,20 +552,10 @@ static void slow_wheels_and_limbs_are_the_same_in_any_description(void **state)
         run_change(bench, "slow wheels");
 }
 
-static void parked_cars_that_creep_have_the_list_of_those_that_stand(void **state)
+TEST(parked_cars_that_creep_have_the_list_of_those_that_stand)
 {
     struct bench *bench = *state;
     bench->subject = PARKED_CARS;
     bench->change = CREEPING;
     run_change(bench, "ghosts");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parked_cars_that_creep_have_the_list_of_those_that_stand),
-        cmocka_unit_test(a_roadside_is_the_same_in_any_description),
-        cmocka_unit_test(slow_wheels_and_limbs_are_the_same_in_any_description),
-    };
-    return cmocka_run_group_tests(tests, make_bench, remove_runs);
 }

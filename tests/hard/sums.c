@@ -64,9 +64,8 @@ static void exact_mean(const struct members *of, mpfr_t mean)
     mpfr_clears(term, total, (mpfr_ptr)0);
 }
 
-static void echoes_at_one_range_stay_there(void **state)
+TEST(echoes_at_one_range_stay_there)
 {
-    (void)state;
     uint64_t random = 15;
     int points = hard_points(2000000);
     double naive = 0, ours = 0;
@@ -108,9 +107,8 @@ static struct members draw_at_the_end(uint64_t *random)
     return of;
 }
 
-static void a_mean_stays_between_its_values(void **state)
+TEST(a_mean_stays_between_its_values)
 {
-    (void)state;
     uint64_t random = 16;
     int points = hard_points(300000);
     double naive = 0, ours = 0;
@@ -124,9 +122,8 @@ static void a_mean_stays_between_its_values(void **state)
     hard_case("16", "mean outside its values", "wrong", naive, ours, 0);
 }
 
-static void a_mean_range_is_within_an_ulp(void **state)
+TEST(a_mean_range_is_within_an_ulp)
 {
-    (void)state;
     uint64_t random = 161;
     int points = hard_points(300000);
     double naive = 0, ours = 0;
@@ -145,9 +142,8 @@ static void a_mean_range_is_within_an_ulp(void **state)
 
 /* Hard case 16 for rates: a mean may cancel to nearly nothing, where an ulp of it means nothing, so
  * the error is in m/s. */
-static void a_mean_rate_near_zero_is_as_exact_as_its_members(void **state)
+TEST(a_mean_rate_near_zero_is_as_exact_as_its_members)
 {
-    (void)state;
     uint64_t random = 162;
     int points = hard_points(300000);
     double naive = 0, ours = 0;
@@ -213,9 +209,8 @@ static double fingerprint(const struct cell *cell)
     return (double)(hash_bytes(HASH_START, numbers, sizeof numbers) >> 11);
 }
 
-static void a_cell_is_the_same_for_every_order_of_its_echoes(void **state)
+TEST(a_cell_is_the_same_for_every_order_of_its_echoes)
 {
-    (void)state;
     enum { ECHOES = 1000, ORDERS = 1000 };
     static const char *const names[] = {"a", "b", "c", "d"};
     uint64_t random = 14;
@@ -252,9 +247,8 @@ static void a_cell_is_the_same_for_every_order_of_its_echoes(void **state)
 }
 
 /* Hard case 17: amplitudes from 1e-300 to 1e300, ten decades between the members of a cell. */
-static void cells_of_any_amplitude_are_finite_and_exact(void **state)
+TEST(cells_of_any_amplitude_are_finite_and_exact)
 {
-    (void)state;
     uint64_t random = 17;
     struct arena arena = {0};
     int points = hard_points(100000);
@@ -283,9 +277,8 @@ static void cells_of_any_amplitude_are_finite_and_exact(void **state)
     hard_case("17", "amplitudes of 1e-300 to 1e300 (naive: powers)", "wrong", naive, ours, 0);
 }
 
-static void an_amplitude_beyond_the_doubles_is_refused(void **state)
+TEST(an_amplitude_beyond_the_doubles_is_refused)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena,
                           .scene = "s",
@@ -314,9 +307,8 @@ static double any_amplitude(uint64_t *random)
     return digits * pow(10, (double)sample_integer(random, 300));
 }
 
-static void amplitudes_cross_the_pipe_unchanged(void **state)
+TEST(amplitudes_cross_the_pipe_unchanged)
 {
-    (void)state;
     uint64_t random = 19;
     int points = hard_points(200000);
     double naive = 0, ours = 0;
@@ -335,9 +327,8 @@ static void amplitudes_cross_the_pipe_unchanged(void **state)
     hard_case("19", "amplitude through the pipe (naive: in dB)", "ulp", naive, ours, 0);
 }
 
-static void decibels_in_targets_are_within_two_ulp(void **state)
+TEST(decibels_in_targets_are_within_two_ulp)
 {
-    (void)state;
     uint64_t random = 191;
     int points = hard_points(200000);
     double naive = 0, ours = 0;
@@ -368,9 +359,8 @@ static int is_dropped(const struct sensor *sensor, double amplitude)
     return cell.amplitude < sensor->threshold;
 }
 
-static void an_amplitude_at_the_threshold_is_detected(void **state)
+TEST(an_amplitude_at_the_threshold_is_detected)
 {
-    (void)state;
     double naive = 0, ours = 0;
     for (int i = -500; i < 500; i++) {
         struct sensor sensor = {.name = "s",
@@ -402,9 +392,8 @@ static void list_readings(struct frame *frame, const double *amplitudes, size_t 
     target_list_make(frame, "noise", &source, measurements, count);
 }
 
-static void no_amplitude_makes_infinite_decibels(void **state)
+TEST(no_amplitude_makes_infinite_decibels)
 {
-    (void)state;
     uint64_t random = 21;
     struct arena arena = {0};
     int points = hard_points(100000);
@@ -424,22 +413,4 @@ static void no_amplitude_makes_infinite_decibels(void **state)
     }
     arena_free(&arena);
     hard_case("21", "amplitude 0 in decibels", "wrong", naive, ours, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(echoes_at_one_range_stay_there),
-        cmocka_unit_test(a_mean_stays_between_its_values),
-        cmocka_unit_test(a_mean_range_is_within_an_ulp),
-        cmocka_unit_test(a_mean_rate_near_zero_is_as_exact_as_its_members),
-        cmocka_unit_test(a_cell_is_the_same_for_every_order_of_its_echoes),
-        cmocka_unit_test(cells_of_any_amplitude_are_finite_and_exact),
-        cmocka_unit_test(an_amplitude_beyond_the_doubles_is_refused),
-        cmocka_unit_test(amplitudes_cross_the_pipe_unchanged),
-        cmocka_unit_test(decibels_in_targets_are_within_two_ulp),
-        cmocka_unit_test(an_amplitude_at_the_threshold_is_detected),
-        cmocka_unit_test(no_amplitude_makes_infinite_decibels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

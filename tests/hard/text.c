@@ -48,9 +48,8 @@ static double through_text(double value)
     return back;
 }
 
-static void every_double_comes_back(void **state)
+TEST(every_double_comes_back)
 {
-    (void)state;
     uint64_t random = 54;
     int points = hard_points(300000);
     double naive = 0, ours = 0, naive_ulp = 0, ours_ulp = 0;
@@ -78,9 +77,8 @@ static double relative_error(const char *text, double value)
     return fabs(strtod(text, NULL) - value) / value;
 }
 
-static void small_and_large_numbers_keep_their_digits(void **state)
+TEST(small_and_large_numbers_keep_their_digits)
 {
-    (void)state;
     static const double values[] = {5335123.4567, 1e-9, 691000.125, 1.7e9 + 0.04};
     double naive = 0, ours = 0;
     for (size_t i = 0; i < COUNT(values); i++) {
@@ -207,9 +205,8 @@ static double by_jansson(const char *text, double (*value_of)(const json_t *))
     return value;
 }
 
-static void minus_zero_keeps_its_sign(void **state)
+TEST(minus_zero_keeps_its_sign)
 {
-    (void)state;
     char text[NUMBER_SIZE + 1];
     text[number_write(-0.0, text)] = '\0';
     double naive = !signbit(by_jansson("-0", json_number_value)), value;
@@ -257,9 +254,8 @@ static double count_careless(const struct record *record, size_t *members)
     return wrong;
 }
 
-static void what_is_no_number_never_leaves(void **state)
+TEST(what_is_no_number_never_leaves)
 {
-    (void)state;
     static const double values[] = {(double)NAN, (double)INFINITY, (double)-INFINITY};
     json_t *object = json_object();
     for (size_t i = 0; i < COUNT(values); i++)
@@ -272,9 +268,8 @@ static void what_is_no_number_never_leaves(void **state)
     hard_case("57", "NaN and inf in any member (naive: jansson)", "wrong", naive, ours, 0);
 }
 
-static void whole_numbers_are_numbers(void **state)
+TEST(whole_numbers_are_numbers)
 {
-    (void)state;
     static const char *const texts[] = {"1", "-3", "1e3", "1234567", "4E+2", "0"};
     double naive = 0, ours = 0;
     for (size_t i = 0; i < COUNT(texts); i++) {
@@ -285,9 +280,8 @@ static void whole_numbers_are_numbers(void **state)
     hard_case("58", "whole numbers read (naive: json_real_value)", "wrong", naive, ours, 0);
 }
 
-static void the_ends_of_the_doubles_are_exact_or_refused(void **state)
+TEST(the_ends_of_the_doubles_are_exact_or_refused)
 {
-    (void)state;
     static const char *const too_large[] = {"1e309", "-1e309", "1.7976931348623159e308", "1e99999",
                                             "1.5e999999999999999999999"};
     static const struct {
@@ -343,9 +337,8 @@ static bool takes_seed(const char *text)
     return taken;
 }
 
-static void seeds_keep_all_their_bits(void **state)
+TEST(seeds_keep_all_their_bits)
 {
-    (void)state;
     static const char *const bad[] = {"1",       "\"18446744073709551616\"",
                                       "\"-1\"",  "\"+1\"",
                                       "\"0x1\"", "\"99999999999999999999\"",
@@ -406,9 +399,8 @@ static bool takes_document(const char *bytes, size_t length)
     return taken;
 }
 
-static void ambiguous_json_is_refused(void **state)
+TEST(ambiguous_json_is_refused)
 {
-    (void)state;
     static const char *const inside[] = {"0,\"x_m\":1",
                                          "0,\"id\":\"f\"",
                                          "0,\"extra\":\"\\u0000\"",
@@ -460,7 +452,7 @@ static bool set_german(const char *folder)
            setlocale(LC_NUMERIC, "de_DE") != NULL;
 }
 
-static void the_locale_is_not_consulted(void **state)
+SCRATCH_TEST(the_locale_is_not_consulted)
 {
     struct scratch *scratch = *state;
     char command[256];
@@ -489,9 +481,8 @@ static void the_locale_is_not_consulted(void **state)
         skip_because("localedef made no locale with a decimal comma");
 }
 
-static void only_whole_numbers_of_json_are_taken(void **state)
+TEST(only_whole_numbers_of_json_are_taken)
 {
-    (void)state;
     static const char *const texts[] = {"nan",   "NaN", "inf",   "-inf",  "Infinity", "0x1p3",
                                         "0x10",  "",    "12abc", "1e",    "--1",      "1_000",
                                         "1.2.3", "-",   "+1",    "1,5",   "e5",       "nan(1)",
@@ -554,9 +545,8 @@ static bool table_says(const char *bytes, const char *expected)
     return false;
 }
 
-static void tables_are_read_as_they_stand_or_refused(void **state)
+TEST(tables_are_read_as_they_stand_or_refused)
 {
-    (void)state;
     static const struct {
         const char *bytes, *expected;
     } cases[] = {
@@ -579,22 +569,4 @@ static void tables_are_read_as_they_stand_or_refused(void **state)
         ours += !table_says(cases[i].bytes, cases[i].expected);
     hard_case("64", "CSV tables (naive: libcsv's defaults)", "wrong", count_plain_csv_wrong(), ours,
               0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_double_comes_back),
-        cmocka_unit_test(small_and_large_numbers_keep_their_digits),
-        cmocka_unit_test(minus_zero_keeps_its_sign),
-        cmocka_unit_test(what_is_no_number_never_leaves),
-        cmocka_unit_test(whole_numbers_are_numbers),
-        cmocka_unit_test(the_ends_of_the_doubles_are_exact_or_refused),
-        cmocka_unit_test(seeds_keep_all_their_bits),
-        cmocka_unit_test(ambiguous_json_is_refused),
-        cmocka_unit_test_setup_teardown(the_locale_is_not_consulted, make_scratch, remove_scratch),
-        cmocka_unit_test(only_whole_numbers_of_json_are_taken),
-        cmocka_unit_test(tables_are_read_as_they_stand_or_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,7 +66,7 @@ static void frame_of(const struct scenario *scene, int64_t number, struct frame 
     scenario_fill(scene, number, frame);
 }
 
-static void a_million_frames_stand_at_their_times(void **state)
+SCRATCH_TEST(a_million_frames_stand_at_their_times)
 {
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
@@ -93,7 +93,7 @@ static void a_million_frames_stand_at_their_times(void **state)
     hard_case("40", "time of 1e6 frames at 10 to 30 Hz", "ulp", naive, ours, 0.5);
 }
 
-static void a_frame_is_found_again_from_its_time(void **state)
+SCRATCH_TEST(a_frame_is_found_again_from_its_time)
 {
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
@@ -113,7 +113,7 @@ static void a_frame_is_found_again_from_its_time(void **state)
 
 /* Hard case 41 for scans: a sensor with a scan in every second frame, its cycle written as a
  * decimal. */
-static void scans_fall_on_their_frames(void **state)
+SCRATCH_TEST(scans_fall_on_their_frames)
 {
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
@@ -137,7 +137,7 @@ static void scans_fall_on_their_frames(void **state)
     hard_case("41", "scan of every second frame (naive: floor)", "wrong", naive, ours, 0);
 }
 
-static void unix_times_keep_their_intervals(void **state)
+SCRATCH_TEST(unix_times_keep_their_intervals)
 {
     struct scratch *scratch = *state;
     const int64_t epoch_ms = INT64_C(1700000000000);
@@ -183,7 +183,7 @@ static double position_error_m(const struct frame *frame, mpfr_t time_s, mpfr_t 
     return worst_m;
 }
 
-static void straight_motion_does_not_drift(void **state)
+SCRATCH_TEST(straight_motion_does_not_drift)
 {
     static const double rates[] = {17, 25};
     struct arena arena = {0};
@@ -217,9 +217,8 @@ static void straight_motion_does_not_drift(void **state)
 
 /* Hard case 43: every multiple of a step is reported as that multiple, and rounding it twice
  * changes nothing. */
-static void multiples_of_a_step_stay_in_their_bin(void **state)
+TEST(multiples_of_a_step_stay_in_their_bin)
 {
-    (void)state;
     static const double steps[] = {0.3, 0.1, 0.05, 0.01, 0.0017453292519943295};
     double naive = 0, ours = 0;
     for (size_t s = 0; s < COUNT(steps); s++)
@@ -246,9 +245,8 @@ static size_t cluster(const struct resolution_echo *echoes, size_t count, double
     return cells;
 }
 
-static void the_border_of_a_cell_is_decided_in_doubles(void **state)
+TEST(the_border_of_a_cell_is_decided_in_doubles)
 {
-    (void)state;
     static const double pairs[][2] = {
         {12.55, 12.40}, {12.70, 12.55}, {0.45, 0.30}, {0.30, 0.15}, {0, 0.15}};
     static const bool shared[] = {false, true, false, true, true};
@@ -351,9 +349,8 @@ static bool differ(const struct received_echo one[TIED], const struct received_e
     return cells[0] != cells[1] || memcmp(range_m[0], range_m[1], cells[0] * sizeof(double)) != 0;
 }
 
-static void ties_fall_the_same_way_in_every_order(void **state)
+TEST(ties_fall_the_same_way_in_every_order)
 {
-    (void)state;
     uint64_t random = 45;
     struct arena arena = {0};
     int points = hard_points(200000);
@@ -381,9 +378,8 @@ static double through_text(double value, int digits)
 }
 
 /* Hard case 46: one ulp decides, so a pipe between two stages must not move it. */
-static void near_ties_survive_the_pipe(void **state)
+TEST(near_ties_survive_the_pipe)
 {
-    (void)state;
     uint64_t random = 46;
     struct arena arena = {0};
     int points = hard_points(200000);
@@ -435,9 +431,8 @@ static double count_swapped(const struct keyed *items, size_t count)
     return swapped;
 }
 
-static void sorting_keeps_the_order_of_ties(void **state)
+TEST(sorting_keeps_the_order_of_ties)
 {
-    (void)state;
     enum { ITEMS = 64 };
     uint64_t random = 47;
     struct arena arena = {0};
@@ -521,37 +516,12 @@ static void orders_of_input_change_no_byte(bool objects, const char *title)
     hard_case("45", title, "wrong", (double)NAN, ours, 0);
 }
 
-static void the_order_of_objects_changes_no_byte(void **state)
+TEST(the_order_of_objects_changes_no_byte)
 {
-    (void)state;
     orders_of_input_change_no_byte(true, "cells and targets, 1,000 orders of objects");
 }
 
-static void the_order_of_echoes_changes_no_byte(void **state)
+TEST(the_order_of_echoes_changes_no_byte)
 {
-    (void)state;
     orders_of_input_change_no_byte(false, "cells and targets, 1,000 orders of echoes");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_million_frames_stand_at_their_times, make_scratch,
-                                        remove_scratch),
-        cmocka_unit_test_setup_teardown(a_frame_is_found_again_from_its_time, make_scratch,
-                                        remove_scratch),
-        cmocka_unit_test_setup_teardown(scans_fall_on_their_frames, make_scratch, remove_scratch),
-        cmocka_unit_test_setup_teardown(unix_times_keep_their_intervals, make_scratch,
-                                        remove_scratch),
-        cmocka_unit_test_setup_teardown(straight_motion_does_not_drift, make_scratch,
-                                        remove_scratch),
-        cmocka_unit_test(multiples_of_a_step_stay_in_their_bin),
-        cmocka_unit_test(the_border_of_a_cell_is_decided_in_doubles),
-        cmocka_unit_test(ties_fall_the_same_way_in_every_order),
-        cmocka_unit_test(near_ties_survive_the_pipe),
-        cmocka_unit_test(sorting_keeps_the_order_of_ties),
-        cmocka_unit_test(the_order_of_objects_changes_no_byte),
-        cmocka_unit_test(the_order_of_echoes_changes_no_byte),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,9 +108,8 @@ static void check_answer(int result, const struct diag *diag, const char *expect
         fail_msg("\"%s\", expected \"%s\"", diag->text, expected);
 }
 
-static void every_difference_is_found_and_named(void **state)
+TEST(every_difference_is_found_and_named)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct sample all, chosen;
         struct diag diag = {0};
@@ -119,12 +118,4 @@ static void every_difference_is_found_and_named(void **state)
         change(&chosen, cases[i].change);
         check_answer(compare_bits(&all.frame, &chosen.frame, true, &diag), &diag, cases[i].answer);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_difference_is_found_and_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

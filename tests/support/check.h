@@ -1,5 +1,5 @@
-/* cmocka, comparisons in double precision, since its assert_float_equal compares in single
- * precision, and tests that cannot run here. */
+/* Tests in cmocka: how a file lists its tests, comparisons in double precision, since its
+ * assert_float_equal compares in single precision, and tests that cannot run here. */
 #pragma once
 
 #include <math.h>
@@ -9,6 +9,36 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+
+/* What a file says of its tests: a test with its setup and teardown, or with no name what is done
+ * before the first and after the last of the tests that follow. */
+struct check_entry {
+    const char *file;
+    int line;
+    struct CMUnitTest test;
+};
+
+/* The linker joins the entries of all files of a program, which check_main.c runs. */
+#define CHECK_ENTRY(entry, name, ...)                                                              \
+    static const struct check_entry entry = {__FILE__, __LINE__, {name, __VA_ARGS__, NULL}};       \
+    static const struct check_entry *const entry##_listed                                          \
+        __attribute__((section("check_entries"), used)) = &entry
+
+/* TEST(a_sentence_about_behaviour) { ... } is a test, in which *state is what the setup made. */
+#define TEST(name) TEST_WITH(NULL, NULL, name)
+
+/* A test with a setup and a teardown of its own. */
+#define TEST_WITH(setup, teardown, name)                                                           \
+    static void name(void **state);                                                                \
+    CHECK_ENTRY(name##_entry, #name, name, setup, teardown);                                       \
+    static void name(void **state __attribute__((unused)))
+
+/* FIXTURE(setup, teardown); holds for the tests that follow it in its file: their *state is what
+ * the setup made. */
+#define FIXTURE(setup, teardown) CHECK_ENTRY(setup##_and_##teardown, NULL, NULL, setup, teardown)
+
+/* How many cases a test of random cases takes: so many, or what the environment has in CASES. */
+double check_cases(double usual);
 
 /* Passes if |actual - expected| <= tolerance; fails for NaN. Prints 17 digits. */
 #define assert_close(actual, expected, tolerance)                                                  \

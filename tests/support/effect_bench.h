@@ -118,5 +118,4 @@ static inline void effect_bench_draw(const struct effect_bench *bench, const str
     random_uniform(&address, purpose, index, uniform);
 }
 
-#define EFFECT_TEST(name)                                                                          \
-    cmocka_unit_test_setup_teardown(name, make_effect_bench, remove_effect_bench)
+#define EFFECT_TEST(name) TEST_WITH(make_effect_bench, remove_effect_bench, name)

@@ -120,4 +120,4 @@ static inline void add_random_bodies(struct scene *scene, uint64_t *random)
     }
 }
 
-#define SCENE_TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
+#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, name)

@@ -36,3 +36,5 @@ static inline int remove_scratch(void **state)
     free(scratch);
     return 0;
 }
+
+#define SCRATCH_TEST(name) TEST_WITH(make_scratch, remove_scratch, name)

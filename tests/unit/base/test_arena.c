@@ -8,9 +8,8 @@
 #include "base/diag.h"
 #include "sample.h"
 
-static void memory_is_zeroed_aligned_and_does_not_overlap(void **state)
+TEST(memory_is_zeroed_aligned_and_does_not_overlap)
 {
-    (void)state;
     struct arena arena = {0};
     uint64_t random = 1;
     for (int round = 0; round < 3; round++) {
@@ -33,9 +32,8 @@ static void memory_is_zeroed_aligned_and_does_not_overlap(void **state)
     assert_null(arena.blocks);
 }
 
-static void a_cleared_arena_keeps_its_room(void **state)
+TEST(a_cleared_arena_keeps_its_room)
 {
-    (void)state;
     struct arena arena = {0};
     void *first = NULL;
     const struct arena_block *block = NULL;
@@ -57,9 +55,8 @@ static void a_cleared_arena_keeps_its_room(void **state)
     arena_free(&arena);
 }
 
-static void text_is_copied_and_ended(void **state)
+TEST(text_is_copied_and_ended)
 {
-    (void)state;
     struct arena arena = {0};
     const char *copy = arena_text(&arena, "abcdef", 3);
     assert_string_equal(copy, "abc");
@@ -70,9 +67,8 @@ static void text_is_copied_and_ended(void **state)
     arena_free(&arena);
 }
 
-static void lists_grow_and_keep_their_items(void **state)
+TEST(lists_grow_and_keep_their_items)
 {
-    (void)state;
     struct arena arena = {0};
     struct item {
         int64_t number;
@@ -122,21 +118,8 @@ static void ask_the_arena_for_half_of_everything(void)
     arena_get(&arena, SIZE_MAX / 2);
 }
 
-static void a_request_too_large_ends_the_program_with_71(void **state)
+TEST(a_request_too_large_ends_the_program_with_71)
 {
-    (void)state;
     assert_int_equal(exit_code_of(ask_the_arena_for_everything), DIAG_MEMORY);
     assert_int_equal(exit_code_of(ask_the_arena_for_half_of_everything), DIAG_MEMORY);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_is_zeroed_aligned_and_does_not_overlap),
-        cmocka_unit_test(a_cleared_arena_keeps_its_room),
-        cmocka_unit_test(text_is_copied_and_ended),
-        cmocka_unit_test(lists_grow_and_keep_their_items),
-        cmocka_unit_test(a_request_too_large_ends_the_program_with_71),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

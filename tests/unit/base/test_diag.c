@@ -26,9 +26,8 @@ static void print(const char *text, char *printed, size_t size)
     fclose(file);
 }
 
-static void a_message_is_one_line_whatever_a_name_in_it_holds(void **state)
+TEST(a_message_is_one_line_whatever_a_name_in_it_holds)
 {
-    (void)state;
     static const char *const texts[][2] = {
         {"plain ~ text", "plain ~ text"},
         {"\x01\x1f \x7f\x80", "\\x01\\x1f \\x7f\x80"},
@@ -43,9 +42,8 @@ static void a_message_is_one_line_whatever_a_name_in_it_holds(void **state)
     }
 }
 
-static void the_first_message_stays_and_prefixes_stand_before_it(void **state)
+TEST(the_first_message_stays_and_prefixes_stand_before_it)
 {
-    (void)state;
     struct diag diag = {0};
     assert_int_equal(diag_fail(&diag, DIAG_DATA, "%d of %s", 3, "four"), -1);
     assert_int_equal(diag_fail(&diag, DIAG_IO, "another"), -1);
@@ -54,9 +52,8 @@ static void the_first_message_stays_and_prefixes_stand_before_it(void **state)
     assert_string_equal(diag.text, "file:7: 3 of four");
 }
 
-static void a_prefix_that_leaves_no_room_is_left_out(void **state)
+TEST(a_prefix_that_leaves_no_room_is_left_out)
 {
-    (void)state;
     struct diag diag = {0};
     char longest[sizeof diag.text];
     memset(longest, 'a', sizeof longest);
@@ -68,14 +65,4 @@ static void a_prefix_that_leaves_no_room_is_left_out(void **state)
     diag_prefix(&diag, "%s", longest);
     assert_int_equal(strlen(diag.text), sizeof longest - 1);
     assert_string_equal(diag.text + sizeof longest - 4, "cau");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_message_is_one_line_whatever_a_name_in_it_holds),
-        cmocka_unit_test(the_first_message_stays_and_prefixes_stand_before_it),
-        cmocka_unit_test(a_prefix_that_leaves_no_room_is_left_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,4 @@
-/* test_elementary draws 30 000 points per row; test_elementary long draws a million and prints the
- * largest error of each row. */
+/* 30 000 points a row, or as many as CASES says; then the largest error of each row is printed. */
 #include "check.h"
 
 #include <float.h>
@@ -13,7 +12,6 @@
 #include "sample.h"
 
 #define POINTS 30000
-#define MANY_POINTS 1000000
 #define HALF_PI_LONG 1.57079632679489661923132169163975144L
 
 struct point {
@@ -412,9 +410,9 @@ static double error_ulp(double result, mpfr_t exact)
     return fabs(mpfr_get_d(exact, MPFR_RNDN));
 }
 
-static void every_result_is_within_its_bound(void **state)
+TEST(every_result_is_within_its_bound)
 {
-    int points = *(int *)*state, faults = 0;
+    int points = (int)check_cases(POINTS), faults = 0;
     mpfr_t x, y, exact;
     mpfr_inits2(160, x, y, exact, (mpfr_ptr)NULL);
     for (size_t i = 0; i < sizeof trials / sizeof trials[0]; i++) {
@@ -434,7 +432,7 @@ static void every_result_is_within_its_bound(void **state)
                 worst = at;
             }
         }
-        if (points == MANY_POINTS)
+        if (points > POINTS)
             print_message("%-24s %.4f ulp at %a %a\n", trials[i].what, worst_ulp, worst.x, worst.y);
         if (worst_ulp <= trials[i].bound_ulp)
             continue;
@@ -451,9 +449,8 @@ static void assert_same_bits(double actual, double expected)
     assert_true(memcmp(&actual, &expected, sizeof actual) == 0);
 }
 
-static void mirrored_arguments_give_mirrored_bits(void **state)
+TEST(mirrored_arguments_give_mirrored_bits)
 {
-    (void)state;
     uint64_t random = 1;
     for (int i = 0; i < 100000; i++) {
         double x = (i % 2 ? angle_of_the_chain(&random) : angle_of_any_size(&random)).x;
@@ -471,9 +468,8 @@ static void mirrored_arguments_give_mirrored_bits(void **state)
     }
 }
 
-static void sine_and_cosine_together_are_each_alone(void **state)
+TEST(sine_and_cosine_together_are_each_alone)
 {
-    (void)state;
     uint64_t random = 2;
     for (int i = 0; i < 100000; i++) {
         double x = (i % 2 ? angle_at_a_seam(&random) : angle_of_any_size(&random)).x;
@@ -485,9 +481,8 @@ static void sine_and_cosine_together_are_each_alone(void **state)
 
 /* Neighbouring doubles, and pairs farther apart, also at the seams of the pieces. A function that
  * rises may fall by the rounding of two results, no more. */
-static void rising_functions_do_not_fall(void **state)
+TEST(rising_functions_do_not_fall)
 {
-    (void)state;
     uint64_t random = 3;
     for (int i = 0; i < 200000; i++) {
         double x = (i % 2 ? at_a_sixteenth(&random) : around_one(&random)).x;
@@ -503,18 +498,16 @@ static void rising_functions_do_not_fall(void **state)
 }
 
 /* The double nearest to a multiple of pi/2, 2^-60.9 away. */
-static void the_worst_angle_is_reduced(void **state)
+TEST(the_worst_angle_is_reduced)
 {
-    (void)state;
     assert_near(elementary_cos(0x1.6ac5b262ca1ffp+849), -4.68716592425462761112e-19, 2e-16);
     assert_close(fabs(elementary_sin(0x1.6ac5b262ca1ffp+849)), 1, 0);
     assert_near(elementary_cos(1.5707963267948966), 6.123233995736766e-17, 2e-16);
     assert_near(elementary_sin(3.1415926535897931), 1.2246467991473532e-16, 2e-16);
 }
 
-static void special_angles_are_exact(void **state)
+TEST(special_angles_are_exact)
 {
-    (void)state;
     assert_same_bits(elementary_sin(0), 0);
     assert_same_bits(elementary_sin(-0.0), -0.0);
     assert_same_bits(elementary_cos(-0.0), 1);
@@ -536,9 +529,8 @@ static void special_angles_are_exact(void **state)
 }
 
 /* As C11 F.10 has them. */
-static void special_places_have_their_angle(void **state)
+TEST(special_places_have_their_angle)
 {
-    (void)state;
     const double inf = (double)INFINITY;
     const struct {
         double y, x, angle_rad;
@@ -579,9 +571,8 @@ static void special_places_have_their_angle(void **state)
     assert_true(isnan(elementary_asin(1 + DBL_EPSILON)) && isnan(elementary_asin((double)NAN)));
 }
 
-static void special_logarithms_and_powers_are_exact(void **state)
+TEST(special_logarithms_and_powers_are_exact)
 {
-    (void)state;
     const double inf = (double)INFINITY;
     assert_same_bits(elementary_log(1), 0);
     assert_same_bits(elementary_log(0), -inf);
@@ -610,9 +601,8 @@ static void special_logarithms_and_powers_are_exact(void **state)
     assert_true(isnan(elementary_pow(-2, 0.7)) && isnan(elementary_pow((double)NAN, 0.7)));
 }
 
-static void special_hypotenuses_are_exact(void **state)
+TEST(special_hypotenuses_are_exact)
 {
-    (void)state;
     const double inf = (double)INFINITY;
     assert_same_bits(elementary_hypot(3, -4), 5);
     assert_same_bits(elementary_hypot(3e300, 4e300), 5e300);
@@ -630,9 +620,8 @@ static void special_hypotenuses_are_exact(void **state)
     }
 }
 
-static void scaling_rounds_as_scalbn_does(void **state)
+TEST(scaling_rounds_as_scalbn_does)
 {
-    (void)state;
     uint64_t random = 9;
     for (int i = 0; i < 300000; i++) {
         int size = (int)sample_between(&random, -1100, 1000);
@@ -645,9 +634,8 @@ static void scaling_rounds_as_scalbn_does(void **state)
 }
 
 /* fmin and fmax may take either of two zeros, and compilers do. */
-static void the_lesser_and_the_greater_of_equal_numbers_is_the_first(void **state)
+TEST(the_lesser_and_the_greater_of_equal_numbers_is_the_first)
 {
-    (void)state;
     static const double pairs[][2] = {{0.0, -0.0}, {-0.0, 0.0}};
     for (size_t i = 0; i < 2; i++) {
         double least = elementary_min(pairs[i][0], pairs[i][1]);
@@ -660,23 +648,4 @@ static void the_lesser_and_the_greater_of_equal_numbers_is_the_first(void **stat
     assert_true(elementary_min((double)NAN, 1) == 1 && elementary_min(1, (double)NAN) == 1);
     assert_true(elementary_max((double)NAN, 1) == 1 && elementary_max(1, (double)NAN) == 1);
     assert_true(isnan(elementary_min((double)NAN, (double)NAN)));
-}
-
-int main(int argc, char **argv)
-{
-    int points = argc > 1 && strcmp(argv[1], "long") == 0 ? MANY_POINTS : POINTS;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(every_result_is_within_its_bound, &points),
-        cmocka_unit_test(mirrored_arguments_give_mirrored_bits),
-        cmocka_unit_test(sine_and_cosine_together_are_each_alone),
-        cmocka_unit_test(rising_functions_do_not_fall),
-        cmocka_unit_test(the_worst_angle_is_reduced),
-        cmocka_unit_test(special_angles_are_exact),
-        cmocka_unit_test(special_places_have_their_angle),
-        cmocka_unit_test(special_logarithms_and_powers_are_exact),
-        cmocka_unit_test(special_hypotenuses_are_exact),
-        cmocka_unit_test(scaling_rounds_as_scalbn_does),
-        cmocka_unit_test(the_lesser_and_the_greater_of_equal_numbers_is_the_first),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,9 +24,8 @@ static uint64_t independent(const unsigned char *bytes, size_t length)
     return hash ^ hash >> 31;
 }
 
-static void the_hash_is_fnv_with_an_end_and_a_mix(void **state)
+TEST(the_hash_is_fnv_with_an_end_and_a_mix)
 {
-    (void)state;
     unsigned char bytes[300];
     for (size_t i = 0; i < sizeof bytes; i++)
         bytes[i] = (unsigned char)(i * 37);
@@ -35,9 +34,8 @@ static void the_hash_is_fnv_with_an_end_and_a_mix(void **state)
     assert_true(hash_text(HASH_START, "radar") == hash_bytes(HASH_START, "radar", 5));
 }
 
-static void the_end_of_a_piece_counts(void **state)
+TEST(the_end_of_a_piece_counts)
 {
-    (void)state;
     static const char *const pieces[][2] = {
         {"a", "bc"}, {"ab", "c"}, {"abc", ""}, {"", "abc"}, {"bc", "a"}};
     uint64_t hashes[5];
@@ -58,9 +56,8 @@ static int compare(const void *left, const void *right)
 
 /* Names like those of objects: no two hashes are equal, and every bit of the hash is set half of
  * the time. */
-static void similar_names_have_unrelated_hashes(void **state)
+TEST(similar_names_have_unrelated_hashes)
 {
-    (void)state;
     uint64_t *hashes = malloc(SAMPLES * sizeof *hashes);
     int set[64] = {0};
     for (int i = 0; i < SAMPLES; i++) {
@@ -80,9 +77,8 @@ static void similar_names_have_unrelated_hashes(void **state)
 }
 
 /* One bit of input turns half of the output's bits. */
-static void every_bit_of_the_input_counts(void **state)
+TEST(every_bit_of_the_input_counts)
 {
-    (void)state;
     unsigned char bytes[16] = "0123456789abcde";
     uint64_t plain = hash_bytes(HASH_START, bytes, sizeof bytes);
     int turned = 0;
@@ -97,15 +93,4 @@ static void every_bit_of_the_input_counts(void **state)
         turned += count;
     }
     assert_close(turned / (8.0 * sizeof bytes), 32.0, 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_hash_is_fnv_with_an_end_and_a_mix),
-        cmocka_unit_test(the_end_of_a_piece_counts),
-        cmocka_unit_test(similar_names_have_unrelated_hashes),
-        cmocka_unit_test(every_bit_of_the_input_counts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

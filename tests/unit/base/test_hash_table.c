@@ -19,9 +19,8 @@ static uint32_t *slot_of(const struct hash_table *table, const char *const *word
 }
 
 /* Twice as many as the table was made for still fit. */
-static void what_went_in_is_found_again(void **state)
+TEST(what_went_in_is_found_again)
 {
-    (void)state;
     static char text[COUNT][16];
     const char *words[COUNT];
     struct arena arena = {0};
@@ -53,9 +52,8 @@ static int most_in_a_slot(const uint64_t *hashes)
 
 /* Names that differ at any place, and small numbers, spread as if by chance: more than 8 in a slot
  * then have a probability below 1e-4. */
-static void the_hash_spreads_names_and_numbers(void **state)
+TEST(the_hash_spreads_names_and_numbers)
 {
-    (void)state;
     static const char *const begins[] = {"", "car_", "row_of_posts_", "articulated_truck_"};
     static const char *const ends[] = {"", "_left", "_of_the_left_rear_wheel_house"};
     uint64_t hashes[COUNT];
@@ -74,20 +72,9 @@ static void the_hash_spreads_names_and_numbers(void **state)
     }
 }
 
-static void a_hash_goes_on_from_an_earlier_one(void **state)
+TEST(a_hash_goes_on_from_an_earlier_one)
 {
-    (void)state;
     assert_true(hash_table_hash(1, "a", 1) != hash_table_hash(2, "a", 1));
     assert_true(hash_table_hash(0, "", 0) != hash_table_hash(0, "\0", 1));
     assert_true(hash_table_hash(0, "12345678", 8) != hash_table_hash(0, "1234567812345678", 16));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_went_in_is_found_again),
-        cmocka_unit_test(the_hash_spreads_names_and_numbers),
-        cmocka_unit_test(a_hash_goes_on_from_an_earlier_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

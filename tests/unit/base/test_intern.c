@@ -7,9 +7,8 @@
 #include "base/intern.h"
 #include "sample.h"
 
-static void names_are_numbered_as_they_come(void **state)
+TEST(names_are_numbered_as_they_come)
 {
-    (void)state;
     struct arena arena = {0};
     struct intern names = {0};
     char word[16];
@@ -27,9 +26,8 @@ static void names_are_numbered_as_they_come(void **state)
 
 /* Names of all lengths, some equal at both ends: each gets its own bytes, and equal names one
  * pointer. */
-static void equal_names_are_one_pointer_and_others_are_not(void **state)
+TEST(equal_names_are_one_pointer_and_others_are_not)
 {
-    (void)state;
     struct arena arena = {0};
     struct intern names = intern_begin(10, &arena);
     uint64_t random = 1;
@@ -47,13 +45,4 @@ static void equal_names_are_one_pointer_and_others_are_not(void **state)
         free(bare);
     }
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_numbered_as_they_come),
-        cmocka_unit_test(equal_names_are_one_pointer_and_others_are_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,9 +44,8 @@ static size_t digits_in(const char *text)
     return count;
 }
 
-static void a_million_bit_patterns_come_back(void **state)
+TEST(a_million_bit_patterns_come_back)
 {
-    (void)state;
     uint64_t random = 1;
     for (int i = 0; i < 1000000; i++) {
         double value = from_bits(sample_bits(&random) << 16 ^ sample_bits(&random)), back;
@@ -59,9 +58,8 @@ static void a_million_bit_patterns_come_back(void **state)
 }
 
 /* Checked with %.*e: one digit less than were written must not restore the double. */
-static void no_shorter_decimal_would_do(void **state)
+TEST(no_shorter_decimal_would_do)
 {
-    (void)state;
     uint64_t random = 2;
     for (int i = 0; i < 100000; i++) {
         double value = i % 2 ? from_bits(sample_bits(&random) << 16 ^ sample_bits(&random))
@@ -115,9 +113,8 @@ static double usual_number(uint64_t *random, int kind)
     }
 }
 
-static void the_nearest_of_the_shortest_decimals_is_written(void **state)
+TEST(the_nearest_of_the_shortest_decimals_is_written)
 {
-    (void)state;
     uint64_t random = 4;
     for (int i = 0; i < 300000; i++) {
         double value = usual_number(&random, i % 5);
@@ -129,9 +126,8 @@ static void the_nearest_of_the_shortest_decimals_is_written(void **state)
     }
 }
 
-static void numbers_look_as_people_write_them(void **state)
+TEST(numbers_look_as_people_write_them)
 {
-    (void)state;
     static const struct {
         double value;
         const char *text;
@@ -171,9 +167,8 @@ static void numbers_look_as_people_write_them(void **state)
     }
 }
 
-static void subnormals_and_the_ends_of_the_range_come_back(void **state)
+TEST(subnormals_and_the_ends_of_the_range_come_back)
 {
-    (void)state;
     for (uint64_t near = 0; near < 2000; near++) {
         const uint64_t places[] = {
             near, UINT64_C(0x0010000000000000) - 1000 + near, UINT64_C(0x7fefffffffffffff) - near,
@@ -187,9 +182,8 @@ static void subnormals_and_the_ends_of_the_range_come_back(void **state)
     }
 }
 
-static void too_large_numbers_are_refused_and_too_small_ones_are_zero(void **state)
+TEST(too_large_numbers_are_refused_and_too_small_ones_are_zero)
 {
-    (void)state;
     static const char *const large[] = {
         "1e309",        "-1e309", "1.7976931348623159e308", "1e400", "1e99999999999999999999",
         "123456789e301"};
@@ -214,9 +208,8 @@ static void too_large_numbers_are_refused_and_too_small_ones_are_zero(void **sta
                 value == from_bits(UINT64_C(0x000fffffffffffff)));
 }
 
-static void decimals_round_to_the_nearest_double(void **state)
+TEST(decimals_round_to_the_nearest_double)
 {
-    (void)state;
     uint64_t random = 3;
     for (int i = 0; i < 200000; i++) {
         char text[80];
@@ -244,9 +237,8 @@ static void decimals_round_to_the_nearest_double(void **state)
 
 /* Among more digits than a double can tell, the last one may decide, zeros in front count nothing,
  * and the exponent may take back what the digits say. */
-static void numbers_of_a_thousand_digits_are_read_exactly(void **state)
+TEST(numbers_of_a_thousand_digits_are_read_exactly)
 {
-    (void)state;
     char text[3000];
     double value;
     int length = snprintf(text, sizeof text, "1.%01000d", 0);
@@ -265,9 +257,8 @@ static void numbers_of_a_thousand_digits_are_read_exactly(void **state)
     assert_true(reads(text, &value) && value == 0);
 }
 
-static void digits_and_places_round_to_the_nearest_double(void **state)
+TEST(digits_and_places_round_to_the_nearest_double)
 {
-    (void)state;
     uint64_t random = 6;
     for (int i = 0; i < 300000; i++) {
         int places = (int)(sample_bits(&random) % (NUMBER_DIGITS + 1));
@@ -307,9 +298,8 @@ static size_t put_number(char *text, uint64_t *random, int whole, int fraction)
     return length;
 }
 
-static void everyday_numbers_are_taken_from_the_beginning(void **state)
+TEST(everyday_numbers_are_taken_from_the_beginning)
 {
-    (void)state;
     uint64_t random = 7;
     for (int i = 0; i < 300000; i++) {
         int whole = 1 + (int)(sample_bits(&random) % 10);
@@ -336,9 +326,8 @@ static void everyday_numbers_are_taken_from_the_beginning(void **state)
     }
 }
 
-static void other_numbers_and_texts_are_not_taken(void **state)
+TEST(other_numbers_and_texts_are_not_taken)
 {
-    (void)state;
     static const char *const others[] = {
         "",     "-",   ",1",   ".5",   "-.5", "+1",   "1.",
         "1.,",  "01",  "-00",  "00.5", "1e5", "1E5",  "1.5e",
@@ -358,9 +347,8 @@ static void other_numbers_and_texts_are_not_taken(void **state)
     }
 }
 
-static void whole_numbers_are_written_in_full(void **state)
+TEST(whole_numbers_are_written_in_full)
 {
-    (void)state;
     char text[NUMBER_SIZE];
     assert_int_equal(number_write_whole(UINT64_MAX, text), 20);
     assert_memory_equal(text, "18446744073709551615", 20);
@@ -374,9 +362,8 @@ static void whole_numbers_are_written_in_full(void **state)
     assert_memory_equal(text, "0", 1);
 }
 
-static void nothing_may_follow_the_number(void **state)
+TEST(nothing_may_follow_the_number)
 {
-    (void)state;
     static const char *const texts[] = {"1x",    "1 ",  " 1",  "1e", "1e+", "-",
                                         "1.2.3", "+1",  "--1", "x",  "1,5", "",
                                         "inf",   "nan", "0x1", ".",  "e5",  "1e5e5"};
@@ -384,24 +371,4 @@ static void nothing_may_follow_the_number(void **state)
     for (size_t i = 0; i < COUNT(texts); i++)
         if (reads(texts[i], &value))
             fail_msg("\"%s\" was taken", texts[i]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_million_bit_patterns_come_back),
-        cmocka_unit_test(no_shorter_decimal_would_do),
-        cmocka_unit_test(the_nearest_of_the_shortest_decimals_is_written),
-        cmocka_unit_test(numbers_look_as_people_write_them),
-        cmocka_unit_test(subnormals_and_the_ends_of_the_range_come_back),
-        cmocka_unit_test(too_large_numbers_are_refused_and_too_small_ones_are_zero),
-        cmocka_unit_test(decimals_round_to_the_nearest_double),
-        cmocka_unit_test(numbers_of_a_thousand_digits_are_read_exactly),
-        cmocka_unit_test(digits_and_places_round_to_the_nearest_double),
-        cmocka_unit_test(everyday_numbers_are_taken_from_the_beginning),
-        cmocka_unit_test(other_numbers_and_texts_are_not_taken),
-        cmocka_unit_test(whole_numbers_are_written_in_full),
-        cmocka_unit_test(nothing_may_follow_the_number),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

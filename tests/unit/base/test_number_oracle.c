@@ -1,7 +1,7 @@
 /* Numbers as text beside std::to_chars and std::from_chars, of which a standard demands the same:
  * the shortest decimal that reads back, the nearest of several, and the nearest double. Minus zero,
- * which they write as "-0", is left out, and all where make finds no C++ compiler. The argument is
- * how many doubles are written. */
+ * which they write as "-0", is left out, and all where make finds no C++ compiler. CASES is how
+ * many doubles are written, in place of 10^6. */
 #include "check.h"
 
 #include <stdio.h>
@@ -73,9 +73,8 @@ static void compare_around(uint64_t bits)
     }
 }
 
-static void powers_of_two_and_ten_and_their_neighbours_are_written_alike(void **state)
+TEST(powers_of_two_and_ten_and_their_neighbours_are_written_alike)
 {
-    (void)state;
     if (digits_write == NULL)
         skip_because("there is no C++ compiler");
     for (uint64_t bits = 1; bits < 3000; bits++)
@@ -117,11 +116,11 @@ static double number_of_kind(uint64_t *random, int kind)
     }
 }
 
-static void doubles_of_every_kind_are_written_alike(void **state)
+TEST(doubles_of_every_kind_are_written_alike)
 {
     if (digits_write == NULL)
         skip_because("there is no C++ compiler");
-    const int64_t count = *(const int64_t *)*state;
+    const int64_t count = (int64_t)check_cases(1e6);
     uint64_t random = 1;
     for (int64_t i = 0; i < count; i++)
         compare_written(number_of_kind(&random, (int)(i % 8)));
@@ -135,11 +134,11 @@ static char *put_digits(char *at, uint64_t *random, uint64_t count)
     return at;
 }
 
-static void decimals_of_every_length_are_read_alike(void **state)
+TEST(decimals_of_every_length_are_read_alike)
 {
     if (digits_write == NULL)
         skip_because("there is no C++ compiler");
-    const int64_t count = *(const int64_t *)*state / 8;
+    const int64_t count = (int64_t)check_cases(1e6) / 8;
     uint64_t random = 2;
     for (int64_t i = 0; i < count; i++) {
         char text[TEXT_SIZE], *at = text;
@@ -156,15 +155,4 @@ static void decimals_of_every_length_are_read_alike(void **state)
                      (long long)sample_integer(&random, range));
         compare_read(text);
     }
-}
-
-int main(int count, char **words)
-{
-    int64_t doubles = count > 1 ? atoll(words[1]) : 1000000;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(powers_of_two_and_ten_and_their_neighbours_are_written_alike),
-        cmocka_unit_test_prestate(doubles_of_every_kind_are_written_alike, &doubles),
-        cmocka_unit_test_prestate(decimals_of_every_length_are_read_alike, &doubles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@ static const struct random_address ADDRESS = {
     .seed = 1, .scene = 2, .frame = 3, .sensor = 4, .item = 5};
 
 /* Known answers of Philox4x64-10 as published with Random123: counter, key, block. */
-static void draws_are_philox_blocks(void **state)
+TEST(draws_are_philox_blocks)
 {
-    (void)state;
     static const struct {
         uint64_t counter[4], key[2], block[4];
     } cases[] = {
@@ -44,9 +43,8 @@ static void draws_are_philox_blocks(void **state)
     }
 }
 
-static void the_same_address_draws_the_same(void **state)
+TEST(the_same_address_draws_the_same)
 {
-    (void)state;
     double first[4];
     double again[4];
     random_gaussian(&ADDRESS, RANDOM_POINTERS, 7, first);
@@ -63,9 +61,8 @@ static void assert_all_differ(const double first[4], const double second[4])
         assert_true(fabs(first[i] - second[i]) > 0);
 }
 
-static void every_bit_of_the_address_counts(void **state)
+TEST(every_bit_of_the_address_counts)
 {
-    (void)state;
     double reference[4];
     random_uniform(&ADDRESS, RANDOM_POINTERS, 0, reference);
     for (size_t member = 0; member < 5; member++)
@@ -80,9 +77,8 @@ static void every_bit_of_the_address_counts(void **state)
         }
 }
 
-static void purposes_and_indices_draw_different_numbers(void **state)
+TEST(purposes_and_indices_draw_different_numbers)
 {
-    (void)state;
     static const enum random_purpose purposes[] = {
         RANDOM_POINTERS, RANDOM_RANGE_RATE, RANDOM_AZIMUTH, RANDOM_TRAFFIC,
         RANDOM_OWN,      RANDOM_OWN + 1,    INT32_MAX};
@@ -96,9 +92,8 @@ static void purposes_and_indices_draw_different_numbers(void **state)
 }
 
 /* With 99 degrees of freedom 173 is exceeded by chance once in 100 000. */
-static void uniform_draws_fill_the_open_interval_evenly(void **state)
+TEST(uniform_draws_fill_the_open_interval_evenly)
 {
-    (void)state;
     double hits[100] = {0};
     for (uint32_t i = 0; i < DRAWS; i++) {
         double uniform[4];
@@ -115,9 +110,8 @@ static void uniform_draws_fill_the_open_interval_evenly(void **state)
 }
 
 /* Tolerances are five standard errors over a million draws. */
-static void gaussian_draws_have_gaussian_moments(void **state)
+TEST(gaussian_draws_have_gaussian_moments)
 {
-    (void)state;
     double power[5] = {0};
     for (uint32_t i = 0; i < DRAWS; i++) {
         double gaussian[4];
@@ -134,9 +128,8 @@ static void gaussian_draws_have_gaussian_moments(void **state)
     assert_close(power[4], 3, 5 * sqrt(96) * 1e-3);
 }
 
-static void gaussian_draws_have_gaussian_tails(void **state)
+TEST(gaussian_draws_have_gaussian_tails)
 {
-    (void)state;
     double beyond[5] = {0};
     for (uint32_t i = 0; i < DRAWS; i++) {
         double gaussian[4];
@@ -151,9 +144,8 @@ static void gaussian_draws_have_gaussian_tails(void **state)
     }
 }
 
-static void the_four_gaussians_of_a_block_are_uncorrelated(void **state)
+TEST(the_four_gaussians_of_a_block_are_uncorrelated)
 {
-    (void)state;
     double product[4][4] = {{0}};
     for (uint32_t i = 0; i < DRAWS; i++) {
         double gaussian[4];
@@ -169,9 +161,8 @@ static void the_four_gaussians_of_a_block_are_uncorrelated(void **state)
 
 /* The first Gaussian draw of 10 000 addresses that differ by one in one member. By chance the
  * correlation is about 0.01. */
-static void neighbouring_addresses_are_uncorrelated(void **state)
+TEST(neighbouring_addresses_are_uncorrelated)
 {
-    (void)state;
     for (size_t member = 0; member < 5; member++) {
         double correlation = 0;
         double previous = 0;
@@ -190,9 +181,8 @@ static void neighbouring_addresses_are_uncorrelated(void **state)
 }
 
 /* The density at x times the error of x is the error of the probability. */
-static void a_gaussian_exceeds_the_value_with_the_probability(void **state)
+TEST(a_gaussian_exceeds_the_value_with_the_probability)
 {
-    (void)state;
     for (double probability = RANDOM_LEAST; probability < 1; probability *= 1.1) {
         double value = random_gaussian_exceeded(probability);
         double density = exp(-value * value / 2) / sqrt(2 * acos(-1));
@@ -202,21 +192,4 @@ static void a_gaussian_exceeds_the_value_with_the_probability(void **state)
                      probability > 1e-4 ? 1e-9 : 1);
     }
     assert_close(random_gaussian_exceeded(0.5), 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_are_philox_blocks),
-        cmocka_unit_test(the_same_address_draws_the_same),
-        cmocka_unit_test(every_bit_of_the_address_counts),
-        cmocka_unit_test(purposes_and_indices_draw_different_numbers),
-        cmocka_unit_test(uniform_draws_fill_the_open_interval_evenly),
-        cmocka_unit_test(gaussian_draws_have_gaussian_moments),
-        cmocka_unit_test(gaussian_draws_have_gaussian_tails),
-        cmocka_unit_test(the_four_gaussians_of_a_block_are_uncorrelated),
-        cmocka_unit_test(neighbouring_addresses_are_uncorrelated),
-        cmocka_unit_test(a_gaussian_exceeds_the_value_with_the_probability),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

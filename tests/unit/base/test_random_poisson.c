@@ -21,9 +21,8 @@ static const double means[] = {1e-6, 0.032768, 0.5,  0.64, 1,    2.097152, 7.5,
                                15.9, 16,       16.1, 94,   1000, 5000,     20000};
 
 /* Each uniform draw must lie between two neighbouring sums of the exact probabilities. */
-static void a_count_is_where_the_sum_of_probabilities_passes_the_draw(void **state)
+TEST(a_count_is_where_the_sum_of_probabilities_passes_the_draw)
 {
-    (void)state;
     static const double uniforms[] = {0x1p-53, 1e-12, 1e-6, 1e-3, 0.01, 0.1,   0.3,      0.5,
                                       0.527,   0.6,   0.8,  0.9,  0.99, 0.999, 0.999999, 1 - 1e-9};
     for (size_t i = 0; i < COUNT(means); i++) {
@@ -45,18 +44,16 @@ static void a_count_is_where_the_sum_of_probabilities_passes_the_draw(void **sta
     }
 }
 
-static void a_mean_of_0_64_gives_no_false_alarm_in_half_of_all_scans(void **state)
+TEST(a_mean_of_0_64_gives_no_false_alarm_in_half_of_all_scans)
 {
-    (void)state;
     assert_int_equal(random_poisson(6400 * 1e-4, 0.5272919), 0);
     assert_int_equal(random_poisson(6400 * 1e-4, 0.5272930), 1);
     assert_int_equal(random_poisson(32768e-6, 0.96776), 0);
     assert_int_equal(random_poisson(32768e-6, 0.96777), 1);
 }
 
-static void counts_are_bounded_and_invalid_means_give_zero(void **state)
+TEST(counts_are_bounded_and_invalid_means_give_zero)
 {
-    (void)state;
     static const double none[] = {0, -0.0, -1, -HUGE_VAL, (double)NAN};
     for (size_t i = 0; i < COUNT(none); i++)
         assert_int_equal(random_poisson(none[i], 1 - 0x1p-53), 0);
@@ -68,9 +65,8 @@ static void counts_are_bounded_and_invalid_means_give_zero(void **state)
     assert_in_range(random_poisson(1e9, 0.5), 1000000000 - 2, 1000000000 + 2);
 }
 
-static void counts_never_fall_when_their_draw_grows(void **state)
+TEST(counts_never_fall_when_their_draw_grows)
 {
-    (void)state;
     for (size_t i = 0; i < COUNT(means); i++) {
         int64_t before = 0;
         for (double uniform = 0x1p-11; uniform < 1; uniform += 0x1p-10) {
@@ -116,24 +112,11 @@ static void check_frequencies(double mean, double overdispersion, uint64_t *samp
     assert_true(chi_square > groups - 5 * sqrt(2.0 * groups) || groups < 5);
 }
 
-static void frequencies_are_those_of_the_distribution(void **state)
+TEST(frequencies_are_those_of_the_distribution)
 {
-    (void)state;
     static const double cases[][2] = {{0.5, 1}, {1.5, 1},  {12, 1},      {94, 1},       {1000, 1},
                                       {2, 3},   {12, 4.5}, {94, 3.4468}, {200, 19.845}, {3, 10}};
     uint64_t sample = 9;
     for (size_t i = 0; i < COUNT(cases); i++)
         check_frequencies(cases[i][0], cases[i][1], &sample);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_count_is_where_the_sum_of_probabilities_passes_the_draw),
-        cmocka_unit_test(a_mean_of_0_64_gives_no_false_alarm_in_half_of_all_scans),
-        cmocka_unit_test(counts_are_bounded_and_invalid_means_give_zero),
-        cmocka_unit_test(counts_never_fall_when_their_draw_grows),
-        cmocka_unit_test(frequencies_are_those_of_the_distribution),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

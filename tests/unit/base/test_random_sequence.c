@@ -6,9 +6,8 @@
 
 static const struct random_address ADDRESS = {.seed = 1, .scene = 2, .frame = 3, .item = 4};
 
-static void draws_are_the_blocks_of_their_address_in_order(void **state)
+TEST(draws_are_the_blocks_of_their_address_in_order)
 {
-    (void)state;
     struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
     for (uint32_t block = 0; block < 3; block++) {
         double uniform[4];
@@ -19,9 +18,8 @@ static void draws_are_the_blocks_of_their_address_in_order(void **state)
 }
 
 /* The tolerance is five standard deviations of a count. */
-static void whole_numbers_come_equally_often(void **state)
+TEST(whole_numbers_come_equally_often)
 {
-    (void)state;
     struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
     double hits[5] = {0}, expected = DRAWS / 5.0;
     for (int i = 0; i < DRAWS; i++) {
@@ -34,9 +32,8 @@ static void whole_numbers_come_equally_often(void **state)
     assert_int_equal(random_sequence_whole(&draws, 7, 7), 7);
 }
 
-static void numbers_between_two_come_equally_often_from_each_quarter(void **state)
+TEST(numbers_between_two_come_equally_often_from_each_quarter)
 {
-    (void)state;
     struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
     double hits[4] = {0};
     for (int i = 0; i < DRAWS; i++) {
@@ -48,9 +45,8 @@ static void numbers_between_two_come_equally_often_from_each_quarter(void **stat
         assert_close(hits[i], DRAWS / 4.0, 5 * sqrt(DRAWS * 3 / 16.0));
 }
 
-static void chances_are_as_given(void **state)
+TEST(chances_are_as_given)
 {
-    (void)state;
     struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
     double hits = 0, right = 0;
     for (int i = 0; i < DRAWS; i++) {
@@ -59,15 +55,4 @@ static void chances_are_as_given(void **state)
     }
     assert_close(hits, 0.03 * DRAWS, 5 * sqrt(0.03 * DRAWS));
     assert_close(right, 0.5 * DRAWS, 5 * sqrt(0.25 * DRAWS));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_are_the_blocks_of_their_address_in_order),
-        cmocka_unit_test(whole_numbers_come_equally_often),
-        cmocka_unit_test(numbers_between_two_come_equally_often_from_each_quarter),
-        cmocka_unit_test(chances_are_as_given),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

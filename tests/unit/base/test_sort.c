@@ -25,9 +25,8 @@ static int compare_with_place(const void *left, const void *right)
     return order != 0 ? order : (a->place > b->place) - (a->place < b->place);
 }
 
-static void items_are_sorted_and_ties_stay_in_their_order(void **state)
+TEST(items_are_sorted_and_ties_stay_in_their_order)
 {
-    (void)state;
     struct arena arena = {0};
     uint64_t sample = 1;
     for (int round = 0; round < 2000; round++) {
@@ -47,21 +46,11 @@ static void items_are_sorted_and_ties_stay_in_their_order(void **state)
     arena_free(&arena);
 }
 
-static void a_sorted_list_takes_no_memory(void **state)
+TEST(a_sorted_list_takes_no_memory)
 {
-    (void)state;
     struct arena arena = {0};
     struct item items[] = {{1, 0, ""}, {1, 1, ""}, {2, 2, ""}};
     sort_items(items, 3, sizeof *items, compare, &arena);
     sort_items(NULL, 0, sizeof *items, compare, &arena);
     assert_null(arena.blocks);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(items_are_sorted_and_ties_stay_in_their_order),
-        cmocka_unit_test(a_sorted_list_takes_no_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

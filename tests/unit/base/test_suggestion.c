@@ -18,9 +18,8 @@ static const char *const options[] = {"sensors", "account", "effects", "radius-m
                                       "seed",    "keep",    NULL};
 static const char *const classes[] = {"bus", "car", "pedestrian", "truck", "van", NULL};
 
-static void a_slip_of_a_letter_or_two_is_understood(void **state)
+TEST(a_slip_of_a_letter_or_two_is_understood)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"sensor", "sensors"},  {"sesnors", "sensors"},   {"acount", "account"},
         {"effetcs", "effects"}, {"radius_m", "radius-m"}, {"seeed", "seed"},
@@ -33,44 +32,38 @@ static void a_slip_of_a_letter_or_two_is_understood(void **state)
     }
 }
 
-static void two_swapped_letters_are_one_change(void **state)
+TEST(two_swapped_letters_are_one_change)
 {
-    (void)state;
     assert_string_equal(meant("seta", (const char *const[]){"seat", NULL}),
                         " (did you mean --seat?)");
 }
 
-static void case_does_not_count(void **state)
+TEST(case_does_not_count)
 {
-    (void)state;
     assert_string_equal(meant("PEDESTRIAN", classes), " (did you mean --pedestrian?)");
 }
 
-static void a_beginning_of_three_letters_is_enough(void **state)
+TEST(a_beginning_of_three_letters_is_enough)
 {
-    (void)state;
     assert_string_equal(meant("acc", options), " (did you mean --account?)");
     assert_string_equal(meant("ac", options), "");
 }
 
-static void a_word_far_from_all_gets_no_suggestion(void **state)
+TEST(a_word_far_from_all_gets_no_suggestion)
 {
-    (void)state;
     assert_string_equal(meant("hovercraft", classes), "");
     assert_string_equal(meant("z_m", (const char *const[]){"x_m", "y_m", NULL}), "");
     assert_string_equal(meant("", options), "");
 }
 
-static void of_equally_near_words_the_first_by_its_bytes_is_meant(void **state)
+TEST(of_equally_near_words_the_first_by_its_bytes_is_meant)
 {
-    (void)state;
     assert_string_equal(meant("road", (const char *const[]){"toad", "read", "roar", NULL}),
                         " (did you mean --read?)");
 }
 
-static void words_too_long_for_the_table_are_left_alone(void **state)
+TEST(words_too_long_for_the_table_are_left_alone)
 {
-    (void)state;
     char word[SUGGESTION_SIZE + 1], near[SUGGESTION_SIZE];
     memset(word, 'a', sizeof word);
     word[SUGGESTION_SIZE] = '\0';
@@ -80,18 +73,4 @@ static void words_too_long_for_the_table_are_left_alone(void **state)
     assert_string_equal(meant(near + 1, (const char *const[]){word, NULL}), "");
     near[0] = 'b';
     assert_true(strlen(meant(near, (const char *const[]){word + 1, NULL})) > 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_slip_of_a_letter_or_two_is_understood),
-        cmocka_unit_test(two_swapped_letters_are_one_change),
-        cmocka_unit_test(case_does_not_count),
-        cmocka_unit_test(a_beginning_of_three_letters_is_enough),
-        cmocka_unit_test(a_word_far_from_all_gets_no_suggestion),
-        cmocka_unit_test(of_equally_near_words_the_first_by_its_bytes_is_meant),
-        cmocka_unit_test(words_too_long_for_the_table_are_left_alone),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

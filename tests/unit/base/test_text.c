@@ -13,9 +13,8 @@ static bool stands_for_itself(char byte)
 }
 
 /* Every byte is tried at every place among plain bytes, and among others. */
-static void plain_bytes_end_at_the_first_other_byte(void **state)
+TEST(plain_bytes_end_at_the_first_other_byte)
 {
-    (void)state;
     for (size_t length = 0; length <= 20; length++) {
         for (size_t place = 0; place < length; place++) {
             for (unsigned byte = 0; byte < 256; byte++) {
@@ -36,9 +35,8 @@ static void plain_bytes_end_at_the_first_other_byte(void **state)
 }
 
 /* The first and the last character of each length, around the surrogates, and what lies beside. */
-static void characters_of_utf8_have_their_lengths_and_nothing_else_has_one(void **state)
+TEST(characters_of_utf8_have_their_lengths_and_nothing_else_has_one)
 {
-    (void)state;
     static const char *const characters[] = {
         "\x01",         "\x7f",         "\xc2\x80",     "\xdf\xbf",         "\xe0\xa0\x80",
         "\xed\x9f\xbf", "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf",
@@ -57,9 +55,8 @@ static void characters_of_utf8_have_their_lengths_and_nothing_else_has_one(void 
         assert_int_equal(text_utf8(others[i], 4), 0);
 }
 
-static void a_word_has_its_first_byte_lowest(void **state)
+TEST(a_word_has_its_first_byte_lowest)
 {
-    (void)state;
     static const char bytes[] = "\x01\x02\x03\x04\x05\x06\x07\xff";
     char written[8];
     assert_true(text_word(bytes) == UINT64_C(0xff07060504030201));
@@ -70,9 +67,8 @@ static void a_word_has_its_first_byte_lowest(void **state)
                     (length == 0 ? 0 : text_word(bytes) << 8 * (8 - length) >> 8 * (8 - length)));
 }
 
-static void strings_are_escaped_no_more_than_json_requires(void **state)
+TEST(strings_are_escaped_no_more_than_json_requires)
 {
-    (void)state;
     static const char given[] = "\x01\x1f a\"b\\c/\x7f\xc3\xa9\xf0\x9f\x98\x80 a longer run\n";
     static const char expected[] =
         "\"\\u0001\\u001f a\\\"b\\\\c/\x7f\xc3\xa9\xf0\x9f\x98\x80 a longer run\\u000a\"";
@@ -84,9 +80,8 @@ static void strings_are_escaped_no_more_than_json_requires(void **state)
 }
 
 /* The longest text: every byte is an escape of six characters. */
-static void room_for_a_string_is_room_for_its_escapes(void **state)
+TEST(room_for_a_string_is_room_for_its_escapes)
 {
-    (void)state;
     for (size_t length = 0; length < 100; length++) {
         for (size_t plain = 0; plain <= length; plain++) {
             char bytes[100];
@@ -97,16 +92,4 @@ static void room_for_a_string_is_room_for_its_escapes(void **state)
             free(room);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plain_bytes_end_at_the_first_other_byte),
-        cmocka_unit_test(characters_of_utf8_have_their_lengths_and_nothing_else_has_one),
-        cmocka_unit_test(a_word_has_its_first_byte_lowest),
-        cmocka_unit_test(strings_are_escaped_no_more_than_json_requires),
-        cmocka_unit_test(room_for_a_string_is_room_for_its_escapes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

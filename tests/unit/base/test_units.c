@@ -4,35 +4,31 @@
 
 static const long double PI_LONG = 3.14159265358979323846264338327950288L;
 
-static void amplitude_decibels_are_twenty_to_the_decade(void **state)
+TEST(amplitude_decibels_are_twenty_to_the_decade)
 {
-    (void)state;
     assert_close(units_amplitude_db(1), 0, 0);
     assert_near(units_amplitude_db(10), 20.0, 1e-15);
     assert_near(units_amplitude_db(0.001), -60.0, 1e-15);
     assert_near(units_amplitude_db(2), 6.0205999132796239, 1e-15);
 }
 
-static void six_decibels_are_the_paper_threshold(void **state)
+TEST(six_decibels_are_the_paper_threshold)
 {
-    (void)state;
     assert_near(units_amplitude_from_db(6), 1.9952623149688797, 1e-15);
     assert_near(units_amplitude_from_db(-6), 1 / 1.9952623149688797, 1e-15);
     assert_close(units_amplitude_from_db(0), 1, 0);
 }
 
 /* Published wavelengths of the radar bands. */
-static void wavelengths_are_those_of_the_radar_bands(void **state)
+TEST(wavelengths_are_those_of_the_radar_bands)
 {
-    (void)state;
     assert_near(units_wavelength_m(24.125e9), 0.0124266303, 1e-8);
     assert_near(units_wavelength_m(76.5e9), 0.00391885566, 2e-9);
     assert_near(units_wavelength_m(79e9), 0.00379484124, 2e-9);
 }
 
-static void a_shortfall_is_a_bounded_count_of_decibels(void **state)
+TEST(a_shortfall_is_a_bounded_count_of_decibels)
 {
-    (void)state;
     assert_close(units_shortfall_db(2, 2), 0, 0);
     assert_close(units_shortfall_db(2, 3), 0, 0);
     assert_near(units_shortfall_db(2, 1), 6.0205999132796239, 1e-15);
@@ -40,18 +36,16 @@ static void a_shortfall_is_a_bounded_count_of_decibels(void **state)
     assert_close(units_shortfall_db(2, 0), 1e4, 0);
 }
 
-static void amplitudes_come_back_from_decibels(void **state)
+TEST(amplitudes_come_back_from_decibels)
 {
-    (void)state;
     for (int i = -600; i <= 600; i++) {
         double db = 0.37 * i;
         assert_close(units_amplitude_db(units_amplitude_from_db(db)), db, 1e-13);
     }
 }
 
-static void an_angle_wraps_into_one_turn(void **state)
+TEST(an_angle_wraps_into_one_turn)
 {
-    (void)state;
     static const struct {
         double angle, wrapped, tolerance;
     } cases[] = {
@@ -74,9 +68,8 @@ static void an_angle_wraps_into_one_turn(void **state)
         assert_close(units_wrap_rad(cases[i].angle), cases[i].wrapped, cases[i].tolerance);
 }
 
-static void a_wrapped_angle_keeps_its_direction(void **state)
+TEST(a_wrapped_angle_keeps_its_direction)
 {
-    (void)state;
     for (int i = -100000; i <= 100000; i++) {
         double angle = 0.00999 * i;
         double wrapped = units_wrap_rad(angle);
@@ -86,9 +79,8 @@ static void a_wrapped_angle_keeps_its_direction(void **state)
     }
 }
 
-static void every_finite_angle_wraps(void **state)
+TEST(every_finite_angle_wraps)
 {
-    (void)state;
     static const double angles[] = {1e8, -1e8, 1e17, -1e17, 1e300, -1.7976931348623157e308, 5e-324};
     for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
         double wrapped = units_wrap_rad(angles[i]);
@@ -96,9 +88,8 @@ static void every_finite_angle_wraps(void **state)
     }
 }
 
-static void si_is_sine_over_argument_to_two_ulp(void **state)
+TEST(si_is_sine_over_argument_to_two_ulp)
 {
-    (void)state;
     assert_close(units_si(0), 1, 0);
     assert_near(units_si(PI / 2), 2 / PI, 3e-16);
     for (int i = 0; i <= 200000; i++) {
@@ -110,9 +101,8 @@ static void si_is_sine_over_argument_to_two_ulp(void **state)
     }
 }
 
-static void steps_round_to_the_nearest_multiple(void **state)
+TEST(steps_round_to_the_nearest_multiple)
 {
-    (void)state;
     static const double cases[][3] = {{12.3456, 0, 12.3456}, {12.34, 0.25, 12.25},
                                       {12.4, 0.25, 12.5},    {-12.4, 0.25, -12.5},
                                       {0.125, 0.25, 0.25},   {-0.125, 0.25, -0.25},
@@ -122,21 +112,4 @@ static void steps_round_to_the_nearest_multiple(void **state)
                                       {0, 5e-324, 0},        {5e-324, 1e3, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         assert_close(units_rounded(cases[i][0], cases[i][1]), cases[i][2], 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(amplitude_decibels_are_twenty_to_the_decade),
-        cmocka_unit_test(six_decibels_are_the_paper_threshold),
-        cmocka_unit_test(wavelengths_are_those_of_the_radar_bands),
-        cmocka_unit_test(a_shortfall_is_a_bounded_count_of_decibels),
-        cmocka_unit_test(amplitudes_come_back_from_decibels),
-        cmocka_unit_test(an_angle_wraps_into_one_turn),
-        cmocka_unit_test(a_wrapped_angle_keeps_its_direction),
-        cmocka_unit_test(every_finite_angle_wraps),
-        cmocka_unit_test(si_is_sine_over_argument_to_two_ulp),
-        cmocka_unit_test(steps_round_to_the_nearest_multiple),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

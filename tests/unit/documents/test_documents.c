@@ -125,9 +125,10 @@ static void load_suite(const char *name, struct arena *arena)
     }
 }
 
-static void every_document_that_is_shipped_loads(void **state)
+FIXTURE(make_scratch, remove_scratch);
+
+TEST(every_document_that_is_shipped_loads)
 {
-    (void)state;
     assert_true(load_all("vehicles", load_vehicle) >= 10);
     assert_true(load_all("scenarios", load_scenario) >= 6);
     assert_true(load_all("sensors", load_suite) >= 3);
@@ -160,7 +161,7 @@ static const struct suite *suite_of(struct scratch *scratch, const char *documen
     return suite_file_load(scratch->suite, &scratch->arena, diag);
 }
 
-static void tables_are_found_beside_the_document_and_read(void **state)
+TEST(tables_are_found_beside_the_document_and_read)
 {
     struct scratch *scratch = *state;
     struct diag diag;
@@ -182,7 +183,7 @@ static void tables_are_found_beside_the_document_and_read(void **state)
     assert_close(suite->sensors.items[0].half_range_m, 0.3, 0);
 }
 
-static void the_digest_covers_every_value_of_document_and_tables(void **state)
+TEST(the_digest_covers_every_value_of_document_and_tables)
 {
     struct scratch *scratch = *state;
 #define MORE TABLES "\"azimuth_curve\":\"levels.csv\","
@@ -227,7 +228,7 @@ static void the_digest_covers_every_value_of_document_and_tables(void **state)
     }
 }
 
-static void range_limits_are_straight_between_their_azimuths(void **state)
+TEST(range_limits_are_straight_between_their_azimuths)
 {
     struct scratch *scratch = *state;
     struct diag diag;
@@ -248,7 +249,7 @@ static void range_limits_are_straight_between_their_azimuths(void **state)
     }
 }
 
-static void the_floor_of_azimuths_follows_its_curve_from_boresight(void **state)
+TEST(the_floor_of_azimuths_follows_its_curve_from_boresight)
 {
     struct scratch *scratch = *state;
     struct diag diag;
@@ -271,7 +272,7 @@ static void the_floor_of_azimuths_follows_its_curve_from_boresight(void **state)
     }
 }
 
-static void suites_with_contradictory_members_are_refused(void **state)
+TEST(suites_with_contradictory_members_are_refused)
 {
     struct scratch *scratch = *state;
 #define POWER "\"calibration_ercs\":0.8,\"calibration_range_m\":30,"
@@ -375,7 +376,7 @@ static void suites_with_contradictory_members_are_refused(void **state)
     }
 }
 
-static void vehicles_with_contradictory_members_are_refused(void **state)
+TEST(vehicles_with_contradictory_members_are_refused)
 {
     struct scratch *scratch = *state;
     static const char *const faults[] = {
@@ -399,7 +400,7 @@ static void vehicles_with_contradictory_members_are_refused(void **state)
     }
 }
 
-static void scenarios_are_checked_and_named(void **state)
+TEST(scenarios_are_checked_and_named)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -412,19 +413,4 @@ static void scenarios_are_checked_and_named(void **state)
     assert_null(vehicle_load("no_such_class", NULL, &scratch->arena, &diag));
     assert_non_null(strstr(diag.text, "there is no vehicles/no_such_class.json"));
     assert_int_equal(diag.code, DIAG_CONFIG);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_document_that_is_shipped_loads),
-        cmocka_unit_test(tables_are_found_beside_the_document_and_read),
-        cmocka_unit_test(the_digest_covers_every_value_of_document_and_tables),
-        cmocka_unit_test(range_limits_are_straight_between_their_azimuths),
-        cmocka_unit_test(the_floor_of_azimuths_follows_its_curve_from_boresight),
-        cmocka_unit_test(suites_with_contradictory_members_are_refused),
-        cmocka_unit_test(vehicles_with_contradictory_members_are_refused),
-        cmocka_unit_test(scenarios_are_checked_and_named),
-    };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

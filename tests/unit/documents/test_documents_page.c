@@ -27,9 +27,8 @@ static double vehicle_dbsm(double degrees)
     return 10 * log10(power);
 }
 
-static void sensing_targets(void **state)
+TEST(sensing_targets)
 {
-    (void)state;
     PRINTED("2.8", "σ, dBsm # # # # # #", vehicle_dbsm(0), vehicle_dbsm(45), vehicle_dbsm(75),
             vehicle_dbsm(90), vehicle_dbsm(165), vehicle_dbsm(180));
 }
@@ -48,16 +47,14 @@ static double smooth_side_db(double spacing_m)
     return 10 * log10(pow(cabs(sum), 2) / count);
 }
 
-static void contours(void **state)
+TEST(contours)
 {
-    (void)state;
     PRINTED("2.7", "is at # dB of its incoherent sum at s = 0.1 m and at # dB at 0.01 m",
             smooth_side_db(0.1), smooth_side_db(0.01));
 }
 
-static void dwells(void **state)
+TEST(dwells)
 {
-    (void)state;
     PRINTED("10.1", "λ/(2 Y), # ms for RadarScenes'", 500 * units_wavelength_m(77e9) / 0.028);
 }
 
@@ -86,9 +83,8 @@ static double of_two_cars_degrees(void)
     return monopulse_angle(&antenna, MONOPULSE_MAGNITUDE, both).azimuth_rad / DEGREE;
 }
 
-static void pages_on_sensors(void **state)
+TEST(pages_on_sensors)
 {
-    (void)state;
     static const char page[] = "data/sensors/README.md", mine[] = "data/sensors/MY_RADAR.md";
     double wavelength_m = units_wavelength_m(77e9);
     PRINTED(page, "0.1 km/h takes # ms", 500 * wavelength_m / (0.1 / 3.6));
@@ -98,21 +94,11 @@ static void pages_on_sensors(void **state)
     PRINTED(mine, "3.2 degrees: 28 receivers # wavelengths apart", spacing_of(28, 3.2));
 }
 
-static void constants(void **state)
+TEST(constants)
 {
-    (void)state;
     PRINTED("1", "10^(6/20) = # for the paper's 6 dB", units_amplitude_from_db(6));
     PRINTED("1", "k T0 is # dBm per Hz", interferer_noise_dbm(1, 0));
     PRINTED("1", "λ is # mm at 24.125 GHz, # mm at 76.5 GHz, # mm at 77 GHz",
             1e3 * units_wavelength_m(24.125e9), 1e3 * units_wavelength_m(76.5e9),
             1e3 * units_wavelength_m(77e9));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sensing_targets),  cmocka_unit_test(contours),  cmocka_unit_test(dwells),
-        cmocka_unit_test(pages_on_sensors), cmocka_unit_test(constants),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

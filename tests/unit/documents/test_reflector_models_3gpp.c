@@ -30,9 +30,8 @@ static double cross_section_dbsm(enum sensing_target_3gpp target, double azimuth
     return 10 * log10(total_m2);
 }
 
-static void a_vehicle_has_the_published_cross_sections(void **state)
+TEST(a_vehicle_has_the_published_cross_sections)
 {
-    (void)state;
     static const double level[][2] = {{0, 11.684341},  {45, 7.067702},   {75, 16.626177},
                                       {90, 20.129911}, {165, 12.142018}, {180, 13.762731}};
     for (size_t i = 0; i < COUNT(level); i++) {
@@ -44,9 +43,8 @@ static void a_vehicle_has_the_published_cross_sections(void **state)
     }
 }
 
-static void only_a_human_moves_its_limbs(void **state)
+TEST(only_a_human_moves_its_limbs)
 {
-    (void)state;
     for (int target = SENSING_TARGET_3GPP_VEHICLE; target <= SENSING_TARGET_3GPP_HUMAN; target++) {
         struct arena arena = {0};
         struct reflector_set set = {.model = "m"};
@@ -60,24 +58,21 @@ static void only_a_human_moves_its_limbs(void **state)
 }
 
 /* Seen from straight above, the roof dominates; the other faces are at their floors. */
-static void from_above_the_roof_dominates(void **state)
+TEST(from_above_the_roof_dominates)
 {
-    (void)state;
     double floors_m2 = 2 * pow(10, 0.008) + 2 * pow(10, 0.008);
     assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_VEHICLE, 33, 0),
                  10 * log10(pow(10, 2.112) + floors_m2), 1e-12);
 }
 
-static void a_human_is_the_same_from_everywhere(void **state)
+TEST(a_human_is_the_same_from_everywhere)
 {
-    (void)state;
     for (double azimuth = -180; azimuth <= 180; azimuth += 30)
         assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_HUMAN, azimuth, 80), -1.37, 1e-12);
 }
 
-static void the_points_replace_the_reflectors_of_the_document(void **state)
+TEST(the_points_replace_the_reflectors_of_the_document)
 {
-    (void)state;
     struct arena arena = {0};
     struct point_reflector corner = {.name = "corner"};
     struct plane_reflector side = {.name = "side"};
@@ -97,16 +92,4 @@ static void the_points_replace_the_reflectors_of_the_document(void **state)
     struct diag diag = {0};
     assert_int_equal(record_write_check(&reflector_set_record, &set, ~0U, &diag), 0);
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_vehicle_has_the_published_cross_sections),
-        cmocka_unit_test(only_a_human_moves_its_limbs),
-        cmocka_unit_test(from_above_the_roof_dominates),
-        cmocka_unit_test(a_human_is_the_same_from_everywhere),
-        cmocka_unit_test(the_points_replace_the_reflectors_of_the_document),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

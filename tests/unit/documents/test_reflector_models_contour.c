@@ -67,9 +67,8 @@ static double incoherent_dbsm(const struct contour *contour, struct box box, dou
 
 static const struct box car_box = {.heading = {1, 0}, .length_m = 4.6, .width_m = 1.8};
 
-static void the_powers_of_all_posts_are_the_class_cross_section(void **state)
+TEST(the_powers_of_all_posts_are_the_class_cross_section)
 {
-    (void)state;
     static const double spacings_m[] = {10, 1, 0.5, 0.13, 0.05, 0.02};
     const struct contour *contours[] = {&car, &bicycle};
     for (size_t i = 0; i < COUNT(spacings_m); i++)
@@ -88,9 +87,8 @@ static void the_powers_of_all_posts_are_the_class_cross_section(void **state)
         }
 }
 
-static void between_normal_and_diagonal_no_aspect_is_stronger(void **state)
+TEST(between_normal_and_diagonal_no_aspect_is_stronger)
 {
-    (void)state;
     for (double aspect_rad = 0; aspect_rad < PI / 4; aspect_rad += 0.01) {
         double front_dbsm = incoherent_dbsm(&car, car_box, 0.1, aspect_rad);
         double side_dbsm = incoherent_dbsm(&car, car_box, 0.1, PI / 2 - aspect_rad);
@@ -99,18 +97,16 @@ static void between_normal_and_diagonal_no_aspect_is_stronger(void **state)
     }
 }
 
-static void a_longer_object_has_more_power_in_proportion(void **state)
+TEST(a_longer_object_has_more_power_in_proportion)
 {
-    (void)state;
     struct box longer = car_box;
     longer.length_m *= 3;
     double more_db = incoherent_dbsm(&car, longer, 0.02, PI / 2) - car.side_dbsm;
     assert_close(more_db, 10 * log10(3), 0.05);
 }
 
-static void rounding_of_a_length_makes_no_post(void **state)
+TEST(rounding_of_a_length_makes_no_post)
 {
-    (void)state;
     for (int i = -3; i <= 3; i++) {
         struct arena arena = {0};
         struct reflector_set set = {.model = "m"};
@@ -122,9 +118,8 @@ static void rounding_of_a_length_makes_no_post(void **state)
     }
 }
 
-static void a_face_has_half_of_the_oblique_cross_section_at_45_degrees(void **state)
+TEST(a_face_has_half_of_the_oblique_cross_section_at_45_degrees)
 {
-    (void)state;
     for (double below_db = -REFLECTOR_MODELS_OBLIQUE_DB; below_db < 40; below_db += 0.25) {
         struct contour_view view = reflector_models_contour_view(20, 20 - below_db);
         double half_way =
@@ -170,9 +165,8 @@ static double mean_over_incoherent_db(double spacing_m, bool rough)
 }
 
 /* Five standard deviations of a mean of exponential draws are 0.34 dB. */
-static void with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_it_does(void **state)
+TEST(with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_it_does)
 {
-    (void)state;
     assert_close(mean_over_incoherent_db(0.3, true), 0, 0.35);
     assert_close(mean_over_incoherent_db(0.1, true), 0, 0.35);
     assert_close(mean_over_incoherent_db(0.02, true), 0, 0.35);
@@ -181,9 +175,8 @@ static void with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_i
     assert_true(fabs(coarse_db - fine_db) > 5);
 }
 
-static void rows_replace_the_reflectors_of_the_document(void **state)
+TEST(rows_replace_the_reflectors_of_the_document)
 {
-    (void)state;
     struct arena arena = {0};
     struct point_reflector corner = {.name = "corner"};
     struct mirror_plane mirror = {.reflection = 0.5};
@@ -203,9 +196,8 @@ static void rows_replace_the_reflectors_of_the_document(void **state)
     arena_free(&arena);
 }
 
-static void an_oblique_cross_section_must_fit_the_others(void **state)
+TEST(an_oblique_cross_section_must_fit_the_others)
 {
-    (void)state;
     struct diag diag = {0};
     const struct contour none = {.oblique_dbsm = 20}, most = {15, 2, 3, 4, 5};
     const struct contour more = {15, 2, 3, 4, 5.1};
@@ -217,20 +209,4 @@ static void an_oblique_cross_section_must_fit_the_others(void **state)
     diag = (struct diag){0};
     assert_int_equal(reflector_models_check_contour(&more, &diag), -1);
     assert_non_null(strstr(diag.text, "oblique_dbsm: 5.1 is more than 3 dB above 2"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_powers_of_all_posts_are_the_class_cross_section),
-        cmocka_unit_test(between_normal_and_diagonal_no_aspect_is_stronger),
-        cmocka_unit_test(a_longer_object_has_more_power_in_proportion),
-        cmocka_unit_test(rounding_of_a_length_makes_no_post),
-        cmocka_unit_test(a_face_has_half_of_the_oblique_cross_section_at_45_degrees),
-        cmocka_unit_test(
-            with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_it_does),
-        cmocka_unit_test(rows_replace_the_reflectors_of_the_document),
-        cmocka_unit_test(an_oblique_cross_section_must_fit_the_others),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

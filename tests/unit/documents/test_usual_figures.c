@@ -7,9 +7,8 @@
 #include "documents/usual_figures.h"
 #include "text/document.h"
 
-static void shipped_radars_have_usual_figures(void **state)
+TEST(shipped_radars_have_usual_figures)
 {
-    (void)state;
     struct arena arena = {0};
     struct diag diag = {0};
     struct document_names shipped = {0};
@@ -26,9 +25,8 @@ static void shipped_radars_have_usual_figures(void **state)
     arena_free(&arena);
 }
 
-static void figures_in_other_units_are_not_usual(void **state)
+TEST(figures_in_other_units_are_not_usual)
 {
-    (void)state;
     struct sensor sensor = {
         .range_max_m = 0.25,     /* in kilometres */
         .cycle_s = 40,           /* in milliseconds */
@@ -44,13 +42,4 @@ static void figures_in_other_units_are_not_usual(void **state)
     for (size_t i = 0; i < 6; i++)
         assert_string_equal(unusual[i].member, expected[i]);
     assert_true(unusual[1].value == 40 && unusual[1].most < 40);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shipped_radars_have_usual_figures),
-        cmocka_unit_test(figures_in_other_units_are_not_usual),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static void assert_fine(const struct waveform *waveform, double cell_range_m, do
     assert_int_equal(waveform_check(waveform, cell_range_m, range_max_m, &diag), 0);
 }
 
-static void absent_members_mean_hanns_window_and_the_twelfth_of_sixteen(void **state)
+TEST(absent_members_mean_hanns_window_and_the_twelfth_of_sixteen)
 {
-    (void)state;
     struct waveform waveform = usual(WAVEFORM_CHIRP);
     struct cfar cfar = waveform_cfar(&waveform, 2, 1);
     assert_int_equal(waveform.window, POINT_RESPONSE_HANN);
@@ -44,17 +43,15 @@ static void absent_members_mean_hanns_window_and_the_twelfth_of_sixteen(void **s
     assert_fine(&waveform, 1.79, 229);
 }
 
-static void a_suite_without_a_waveform_is_accepted(void **state)
+TEST(a_suite_without_a_waveform_is_accepted)
 {
-    (void)state;
     struct waveform waveform;
     field_clear(&waveform_record, &waveform);
     assert_fine(&waveform, 1.79, 1e6);
 }
 
-static void pulses_have_four_samples_to_a_cell(void **state)
+TEST(pulses_have_four_samples_to_a_cell)
 {
-    (void)state;
     struct waveform chirp = usual(WAVEFORM_CHIRP), pulse = usual(WAVEFORM_PULSE);
     assert_close(waveform_range_step_m(&chirp, 1.79), 1.79, 0);
     assert_close(waveform_range_step_m(&pulse, 0.3), 0.075, 0);
@@ -63,9 +60,8 @@ static void pulses_have_four_samples_to_a_cell(void **state)
     assert_int_equal(waveform_check(&pulse, 0.3, 9.7, &diag), -1);
 }
 
-static void contradictory_members_are_refused_by_name(void **state)
+TEST(contradictory_members_are_refused_by_name)
 {
-    (void)state;
     struct waveform waveform = usual(WAVEFORM_CHIRP);
     waveform.samples = 127;
     assert_fault(&waveform, "samples: ");
@@ -91,15 +87,4 @@ static void contradictory_members_are_refused_by_name(void **state)
     assert_fine(&waveform, 1.79, 229);
     waveform.stagger = 22;
     assert_fault(&waveform, "stagger: ");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(absent_members_mean_hanns_window_and_the_twelfth_of_sixteen),
-        cmocka_unit_test(a_suite_without_a_waveform_is_accepted),
-        cmocka_unit_test(pulses_have_four_samples_to_a_cell),
-        cmocka_unit_test(contradictory_members_are_refused_by_name),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ static struct effect_measurement measure_cell(struct effect_bench *bench, uint64
 }
 
 /* by_snr: sigma^2 = (window_factor cell)^2 / snr + floor^2, at most cell^2 / 12. */
-static void sigmas_follow_the_law_of_the_sensor(void **state)
+EFFECT_TEST(sigmas_follow_the_law_of_the_sensor)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -55,7 +55,7 @@ static void sigmas_follow_the_law_of_the_sensor(void **state)
     }
 }
 
-static void without_noise_on_the_pointers_sigmas_are_their_floor(void **state)
+EFFECT_TEST(without_noise_on_the_pointers_sigmas_are_their_floor)
 {
     struct effect_bench *bench = *state;
     prepare(bench);
@@ -66,7 +66,7 @@ static void without_noise_on_the_pointers_sigmas_are_their_floor(void **state)
     assert_near(read.range_rate_sigma_mps, 0.05, 1e-15);
 }
 
-static void accuracy_scales_the_same_draws(void **state)
+EFFECT_TEST(accuracy_scales_the_same_draws)
 {
     struct effect_bench *bench = *state;
     prepare(bench);
@@ -81,7 +81,7 @@ static void accuracy_scales_the_same_draws(void **state)
     assert_true(by_snr.effects == (EFFECT_BIT(EFFECT_RANGE_NOISE) | EFFECT_BIT(EFFECT_ACCURACY)));
 }
 
-static void without_range_noise_accuracy_changes_nothing(void **state)
+EFFECT_TEST(without_range_noise_accuracy_changes_nothing)
 {
     struct effect_bench *bench = *state;
     prepare(bench);
@@ -89,15 +89,4 @@ static void without_range_noise_accuracy_changes_nothing(void **state)
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_RANGE_NOISE);
     struct effect_measurement read = measure_cell(bench, without, 5, 0);
     assert_true(read.range_m == 10 && read.range_rate_mps == 0 && read.effects == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(sigmas_follow_the_law_of_the_sensor),
-        EFFECT_TEST(without_noise_on_the_pointers_sigmas_are_their_floor),
-        EFFECT_TEST(accuracy_scales_the_same_draws),
-        EFFECT_TEST(without_range_noise_accuracy_changes_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

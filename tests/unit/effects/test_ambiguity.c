@@ -1,6 +1,6 @@
 #include "support/effect_bench.h"
 
-static void ranges_and_rates_beyond_the_unambiguous_ones_fold(void **state)
+EFFECT_TEST(ranges_and_rates_beyond_the_unambiguous_ones_fold)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -27,12 +27,4 @@ static void ranges_and_rates_beyond_the_unambiguous_ones_fold(void **state)
         assert_true(labelled == (cases[i].folded_m != cases[i].range_m ||
                                  cases[i].folded_mps != cases[i].rate_mps));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(ranges_and_rates_beyond_the_unambiguous_ones_fold),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 /* Each channel gets complex noise of RMS pointer_sigma: four Gaussian draws, times
  * pointer_sigma sqrt(1/2) on each axis. Other radars with three times the noise's power double it.
  */
-static void both_channels_get_the_noise_of_their_cell(void **state)
+EFFECT_TEST(both_channels_get_the_noise_of_their_cell)
 {
     struct effect_bench *bench = *state;
     struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
@@ -31,7 +31,7 @@ static void both_channels_get_the_noise_of_their_cell(void **state)
 }
 
 /* pi - 0.001 and a floor of 0.5 rad go beyond half a turn in half of the draws. */
-static void the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read(void **state)
+EFFECT_TEST(the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read)
 {
     struct effect_bench *bench = *state;
     struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
@@ -50,7 +50,7 @@ static void the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read(void **s
     }
 }
 
-static void without_the_effect_pointers_are_those_of_the_cell(void **state)
+EFFECT_TEST(without_the_effect_pointers_are_those_of_the_cell)
 {
     struct effect_bench *bench = *state;
     struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
@@ -61,14 +61,4 @@ static void without_the_effect_pointers_are_those_of_the_cell(void **state)
     struct effect_measurement read = effect_measurement_of(&scan, &cell);
     effect_measure(&scan, EFFECT_STEP_POINTERS, &read);
     assert_true(read.pointers.sum == 3 && read.pointers.delta == 1 && read.effects == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(both_channels_get_the_noise_of_their_cell),
-        EFFECT_TEST(the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read),
-        EFFECT_TEST(without_the_effect_pointers_are_those_of_the_cell),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

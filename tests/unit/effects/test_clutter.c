@@ -26,7 +26,7 @@ static struct echo_span clutter_of(struct effect_bench *bench)
 
 /* Ring 2 of a sensor that sees from 1 to 50 m is from 25 to 35.36 m, where 0.05 a square metre make
  * 0.05/2 (1250 - 625) points. The velocity of the sensor is (10 - 0.3 0.5, 0.3 2) m/s. */
-static void points_lie_where_their_draws_put_them(void **state)
+EFFECT_TEST(points_lie_where_their_draws_put_them)
 {
     struct effect_bench *bench = *state;
     prepare(bench, 0.05);
@@ -61,7 +61,7 @@ static void points_lie_where_their_draws_put_them(void **state)
 }
 
 /* The number of all points has the mean of density times area, and f times its variance. */
-static void numbers_have_the_mean_and_variance_of_their_law(void **state)
+EFFECT_TEST(numbers_have_the_mean_and_variance_of_their_law)
 {
     struct effect_bench *bench = *state;
     enum { SCANS = 4000 };
@@ -89,7 +89,7 @@ static double power_of(const struct echo *point)
 
 /* The bench's threshold is 1, and its reference amplitude 1 at 10 m, times 1e6 for a list of all.
  */
-static void only_points_that_could_pass_the_threshold_are_listed(void **state)
+EFFECT_TEST(only_points_that_could_pass_the_threshold_are_listed)
 {
     struct effect_bench *bench = *state;
     prepare(bench, 5);
@@ -117,7 +117,7 @@ static void only_points_that_could_pass_the_threshold_are_listed(void **state)
     assert_true(left_out < 16 * 0.01);
 }
 
-static void a_dense_ground_is_listed_in_full_if_it_can_be_detected(void **state)
+EFFECT_TEST(a_dense_ground_is_listed_in_full_if_it_can_be_detected)
 {
     struct effect_bench *bench = *state;
     prepare(bench, 10);
@@ -126,7 +126,7 @@ static void a_dense_ground_is_listed_in_full_if_it_can_be_detected(void **state)
     assert_close((double)clutter_of(bench).count, mean, 4 * sqrt(mean));
 }
 
-static void clutter_needs_points_power_and_a_sensor_that_measures(void **state)
+EFFECT_TEST(clutter_needs_points_power_and_a_sensor_that_measures)
 {
     struct effect_bench *bench = *state;
     prepare(bench, 0.5);
@@ -138,16 +138,4 @@ static void clutter_needs_points_power_and_a_sensor_that_measures(void **state)
     prepare(bench, 0);
     assert_int_equal(clutter_of(bench).count, 0);
     assert_true((bench->log.left_out & EFFECT_BIT(EFFECT_CLUTTER)) != 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(points_lie_where_their_draws_put_them),
-        EFFECT_TEST(numbers_have_the_mean_and_variance_of_their_law),
-        EFFECT_TEST(only_points_that_could_pass_the_threshold_are_listed),
-        EFFECT_TEST(a_dense_ground_is_listed_in_full_if_it_can_be_detected),
-        EFFECT_TEST(clutter_needs_points_power_and_a_sensor_that_measures),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

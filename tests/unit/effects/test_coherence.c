@@ -1,7 +1,7 @@
 #include "support/effect_bench.h"
 
 /* A wave travels there and back, so an eighth of a wavelength in range turns it by a quarter. */
-static void a_phase_by_path_turns_with_range_and_stays_from_scan_to_scan(void **state)
+EFFECT_TEST(a_phase_by_path_turns_with_range_and_stays_from_scan_to_scan)
 {
     struct effect_bench *bench = *state;
     double wave_m = 299792458 / 76.5e9, uniform[4];
@@ -21,7 +21,7 @@ static void a_phase_by_path_turns_with_range_and_stays_from_scan_to_scan(void **
     }
 }
 
-static void a_random_phase_is_drawn_in_each_scan_and_not_by_range(void **state)
+EFFECT_TEST(a_random_phase_is_drawn_in_each_scan_and_not_by_range)
 {
     struct effect_bench *bench = *state;
     bool labelled;
@@ -35,13 +35,4 @@ static void a_random_phase_is_drawn_in_each_scan_and_not_by_range(void **state)
                 effect_bench_receive(bench, EFFECT_COHERENCE, &echo, &labelled);
             assert_close(reception.phase_rad, 2 * PI * uniform[0], 0);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(a_phase_by_path_turns_with_range_and_stays_from_scan_to_scan),
-        EFFECT_TEST(a_random_phase_is_drawn_in_each_scan_and_not_by_range),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

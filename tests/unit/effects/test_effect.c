@@ -2,9 +2,8 @@
 
 #include <string.h>
 
-static void every_effect_says_what_it_is(void **state)
+EFFECT_TEST(every_effect_says_what_it_is)
 {
-    (void)state;
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const struct effect *effect = effect_table[i];
         assert_non_null(effects_names[i]);
@@ -18,9 +17,8 @@ static void every_effect_says_what_it_is(void **state)
 }
 
 /* A home calls its own hooks alone. */
-static void an_effect_acts_at_its_home_alone(void **state)
+EFFECT_TEST(an_effect_acts_at_its_home_alone)
 {
-    (void)state;
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const struct effect *effect = effect_table[i];
         bool receives = effect->receive || effect->add_echoes || effect->interference;
@@ -47,9 +45,8 @@ static const struct effect_member *drawn_member(const struct field *field)
 }
 
 /* Each draw has a number of its own, from 1 without a gap, and the first a share. */
-static void what_random_scenes_draw_is_what_documents_may_say(void **state)
+EFFECT_TEST(what_random_scenes_draw_is_what_documents_may_say)
 {
-    (void)state;
     int draws = 0;
     for (const struct field *field = conditions_record.fields; field->name != NULL; field++) {
         const struct effect_member *member = drawn_member(field);
@@ -111,9 +108,8 @@ static const char *taker_of(enum random_purpose purpose, int effect)
 }
 
 /* An effect may draw for a purpose of base/random.h; its own number is no other's. */
-static void no_two_effects_draw_for_one_purpose(void **state)
+EFFECT_TEST(no_two_effects_draw_for_one_purpose)
 {
-    (void)state;
     enum random_purpose next = RANDOM_ELEMENTS + 1;
     while (taker_of(next, EFFECT_COUNT) != NULL)
         next++;
@@ -133,7 +129,7 @@ static uint64_t effects_with_a_cause(enum effect_home home)
     return effects;
 }
 
-static void what_no_document_describes_is_left_out_and_noted(void **state)
+EFFECT_TEST(what_no_document_describes_is_left_out_and_noted)
 {
     struct effect_bench *bench = *state;
     for (int home = 0; home <= EFFECT_HOME_NOISE; home++) {
@@ -146,7 +142,7 @@ static void what_no_document_describes_is_left_out_and_noted(void **state)
 }
 
 /* Each case sets one member of the sensor to 1. */
-static void a_member_describes_its_effect_and_no_other(void **state)
+EFFECT_TEST(a_member_describes_its_effect_and_no_other)
 {
     struct effect_bench *bench = *state;
     const struct sensor plain = bench->sensor;
@@ -185,9 +181,8 @@ static void a_member_describes_its_effect_and_no_other(void **state)
 }
 
 /* Of a sensor that describes nothing, each member alone. */
-static void a_sensor_lacks_an_effect_until_a_member_is_set(void **state)
+EFFECT_TEST(a_sensor_lacks_an_effect_until_a_member_is_set)
 {
-    (void)state;
     int tried = 0;
     for (int effect = 0; effect < EFFECT_COUNT; effect++)
         for (const struct effect_member *member = effect_table[effect]->members; member->size > 0;
@@ -203,9 +198,8 @@ static void a_sensor_lacks_an_effect_until_a_member_is_set(void **state)
     assert_true(tried > 20);
 }
 
-static void what_a_scene_describes_whatever_the_sensor_is_of_scenes(void **state)
+EFFECT_TEST(what_a_scene_describes_whatever_the_sensor_is_of_scenes)
 {
-    (void)state;
     static const enum effect_id of_scenes[] = {EFFECT_ROADSIDE, EFFECT_CLUTTER, EFFECT_RAIN};
     static const enum effect_id others[] = {EFFECT_LATENCY, EFFECT_TWO_RAY, EFFECT_INTERFERENCE,
                                             EFFECT_MERGING};
@@ -215,7 +209,7 @@ static void what_a_scene_describes_whatever_the_sensor_is_of_scenes(void **state
         assert_true((effect_of_scenes() & EFFECT_BIT(others[i])) == 0);
 }
 
-static void flags_choices_and_limits_describe_their_effects(void **state)
+EFFECT_TEST(flags_choices_and_limits_describe_their_effects)
 {
     struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
@@ -237,7 +231,7 @@ static void flags_choices_and_limits_describe_their_effects(void **state)
 
 /* A sensor with a cycle of 70 ms measures at 0.21 s what the frame of 0.22 s shows; with a latency
  * of 40 ms, it sees the world of 0.17 s. */
-static void a_scan_has_the_instant_of_its_measurement(void **state)
+EFFECT_TEST(a_scan_has_the_instant_of_its_measurement)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -265,7 +259,7 @@ static void a_scan_has_the_instant_of_its_measurement(void **state)
 
 /* Factors on amplitude multiply in the order of the chain, to the bit. They are those of the true
  * range, although the range that the radar reads is folded. */
-static void effects_act_in_the_order_of_the_chain(void **state)
+EFFECT_TEST(effects_act_in_the_order_of_the_chain)
 {
     struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
@@ -291,7 +285,7 @@ static void effects_act_in_the_order_of_the_chain(void **state)
     assert_close(reception.range_rate_mps, -4, 0);
 }
 
-static void an_added_echo_is_in_range_and_in_view(void **state)
+EFFECT_TEST(an_added_echo_is_in_range_and_in_view)
 {
     struct effect_bench *bench = *state;
     struct effect_scan scan = effect_bench_begin(bench, 0, EFFECT_HOME_SENSOR);
@@ -309,23 +303,4 @@ static void an_added_echo_is_in_range_and_in_view(void **state)
     assert_int_equal(echoes.list.count, 4);
     for (size_t i = 0; i < 4; i++)
         assert_close(echoes.list.items[i].range_m, i < 2 ? 1 : 200, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(every_effect_says_what_it_is),
-        EFFECT_TEST(an_effect_acts_at_its_home_alone),
-        EFFECT_TEST(no_two_effects_draw_for_one_purpose),
-        EFFECT_TEST(what_random_scenes_draw_is_what_documents_may_say),
-        EFFECT_TEST(what_no_document_describes_is_left_out_and_noted),
-        EFFECT_TEST(a_member_describes_its_effect_and_no_other),
-        EFFECT_TEST(a_sensor_lacks_an_effect_until_a_member_is_set),
-        EFFECT_TEST(what_a_scene_describes_whatever_the_sensor_is_of_scenes),
-        EFFECT_TEST(flags_choices_and_limits_describe_their_effects),
-        EFFECT_TEST(a_scan_has_the_instant_of_its_measurement),
-        EFFECT_TEST(effects_act_in_the_order_of_the_chain),
-        EFFECT_TEST(an_added_echo_is_in_range_and_in_view),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

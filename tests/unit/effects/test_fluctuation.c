@@ -1,7 +1,7 @@
 #include "support/effect_bench.h"
 
 /* Power is exponential in Swerling's case 1, and the mean of two exponentials in case 3. */
-static void the_factor_follows_the_draw_of_its_echo(void **state)
+EFFECT_TEST(the_factor_follows_the_draw_of_its_echo)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
@@ -17,7 +17,7 @@ static void the_factor_follows_the_draw_of_its_echo(void **state)
     }
 }
 
-static void another_echo_and_another_scan_have_other_factors(void **state)
+EFFECT_TEST(another_echo_and_another_scan_have_other_factors)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100), other = echo;
@@ -30,7 +30,7 @@ static void another_echo_and_another_scan_have_other_factors(void **state)
     assert_true(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo) != first);
 }
 
-static void a_spread_of_0_changes_nothing(void **state)
+EFFECT_TEST(a_spread_of_0_changes_nothing)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
@@ -39,7 +39,7 @@ static void a_spread_of_0_changes_nothing(void **state)
     assert_close(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo), 1, 0);
 }
 
-static void what_stands_beside_the_road_keeps_its_own_level(void **state)
+EFFECT_TEST(what_stands_beside_the_road_keeps_its_own_level)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
@@ -47,15 +47,4 @@ static void what_stands_beside_the_road_keeps_its_own_level(void **state)
     assert_true(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo) != 1);
     echo.effects = EFFECT_BIT(EFFECT_ROADSIDE);
     assert_close(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo), 1, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(the_factor_follows_the_draw_of_its_echo),
-        EFFECT_TEST(another_echo_and_another_scan_have_other_factors),
-        EFFECT_TEST(a_spread_of_0_changes_nothing),
-        EFFECT_TEST(what_stands_beside_the_road_keeps_its_own_level),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

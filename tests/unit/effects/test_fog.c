@@ -1,7 +1,7 @@
 #include "support/effect_bench.h"
 
 /* ITU-R P.840 has 3.115457 dB/km one way per g/m^3 at 76.5 GHz and 10 degrees Celsius. */
-static void fog_attenuates_there_and_back(void **state)
+EFFECT_TEST(fog_attenuates_there_and_back)
 {
     struct effect_bench *bench = *state;
     static const double water_gpm3[] = {0.5, 0.05, 0};
@@ -11,12 +11,4 @@ static void fog_attenuates_there_and_back(void **state)
         double factor = effect_bench_factor(bench, EFFECT_FOG, &echo);
         assert_close(-20 * log10(factor), 0.2 * 3.115457 * water_gpm3[i], 1e-6);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(fog_attenuates_there_and_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,7 +26,7 @@ static double interference_db(struct effect_bench *bench)
     return 10 * log10(interference_of(bench));
 }
 
-static void an_interferer_is_heard_where_it_stands(void **state)
+EFFECT_TEST(an_interferer_is_heard_where_it_stands)
 {
     struct effect_bench *bench = *state;
     struct interferer *other = add_interferer(bench);
@@ -54,7 +54,7 @@ static void an_interferer_is_heard_where_it_stands(void **state)
     assert_close(interference_db(bench), in_band_db + 10 * log10(0.05 / 30), 6e-5);
 }
 
-static void powers_of_several_interferers_add(void **state)
+EFFECT_TEST(powers_of_several_interferers_add)
 {
     struct effect_bench *bench = *state;
     add_interferer(bench);
@@ -64,7 +64,7 @@ static void powers_of_several_interferers_add(void **state)
 }
 
 /* The interferer approaches at 20 m/s: 0.5 s ago it was 60 m away. */
-static void an_interferer_is_heard_at_the_instant_of_the_measurement(void **state)
+EFFECT_TEST(an_interferer_is_heard_at_the_instant_of_the_measurement)
 {
     struct effect_bench *bench = *state;
     add_interferer(bench);
@@ -74,7 +74,7 @@ static void an_interferer_is_heard_at_the_instant_of_the_measurement(void **stat
 }
 
 /* The two-way pattern in amplitude is the one-way pattern in power: 0.5513 at 30 degrees. */
-static void the_antenna_counts_one_way(void **state)
+EFFECT_TEST(the_antenna_counts_one_way)
 {
     struct effect_bench *bench = *state;
     add_interferer(bench);
@@ -85,7 +85,7 @@ static void the_antenna_counts_one_way(void **state)
 }
 
 /* The sensor looks ahead from 2 m behind the ego's centre. */
-static void interferers_out_of_view_are_not_heard(void **state)
+EFFECT_TEST(interferers_out_of_view_are_not_heard)
 {
     struct effect_bench *bench = *state;
     struct interferer *other = add_interferer(bench);
@@ -108,7 +108,7 @@ static void interferers_out_of_view_are_not_heard(void **state)
     }
 }
 
-static void no_interferer_is_heard_without_a_bandwidth_or_without_the_effect(void **state)
+EFFECT_TEST(no_interferer_is_heard_without_a_bandwidth_or_without_the_effect)
 {
     struct effect_bench *bench = *state;
     add_interferer(bench);
@@ -116,17 +116,4 @@ static void no_interferer_is_heard_without_a_bandwidth_or_without_the_effect(voi
     assert_close(effect_bench_begin(bench, without, EFFECT_HOME_SENSOR).interference, 0, 0);
     bench->sensor.receiver_bandwidth_hz = 0;
     assert_close(interference_of(bench), 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(an_interferer_is_heard_where_it_stands),
-        EFFECT_TEST(powers_of_several_interferers_add),
-        EFFECT_TEST(an_interferer_is_heard_at_the_instant_of_the_measurement),
-        EFFECT_TEST(the_antenna_counts_one_way),
-        EFFECT_TEST(interferers_out_of_view_are_not_heard),
-        EFFECT_TEST(no_interferer_is_heard_without_a_bandwidth_or_without_the_effect),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

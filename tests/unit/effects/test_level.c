@@ -40,7 +40,7 @@ static double level_db(struct effect_bench *bench)
     return units_amplitude_db(factor_of(bench));
 }
 
-static void all_echoes_of_a_body_have_its_level(void **state)
+EFFECT_TEST(all_echoes_of_a_body_have_its_level)
 {
     struct effect_bench *bench = *state;
     drive(bench, 50, 0, 0, 0);
@@ -59,7 +59,7 @@ static void all_echoes_of_a_body_have_its_level(void **state)
 
 /* Its mean and deviation over bodies, by whose power is kept: exp(s^2) - 1 is the variance of the
  * power of a level of s nepers. */
-static void levels_keep_the_mean_or_the_median_of_the_power(void **state)
+EFFECT_TEST(levels_keep_the_mean_or_the_median_of_the_power)
 {
     struct effect_bench *bench = *state;
     enum { BODIES = 10000 };
@@ -87,7 +87,7 @@ static void levels_keep_the_mean_or_the_median_of_the_power(void **state)
 
 /* The same for every sensor: two at one place see one interference, and the others' places tell
  * their levels apart. */
-static void a_constant_level_stays_and_a_moved_sensor_has_another_fast_one(void **state)
+EFFECT_TEST(a_constant_level_stays_and_a_moved_sensor_has_another_fast_one)
 {
     struct effect_bench *bench = *state;
     drive(bench, 50, 3, 5, 0);
@@ -108,7 +108,7 @@ static void a_constant_level_stays_and_a_moved_sensor_has_another_fast_one(void 
 }
 
 /* Seen from one place on end, from behind and again after a whole turn. */
-static void a_level_closes_after_a_turn_of_the_body(void **state)
+EFFECT_TEST(a_level_closes_after_a_turn_of_the_body)
 {
     struct effect_bench *bench = *state;
     struct object *other = drive(bench, 50, 0, 0, 0);
@@ -126,7 +126,7 @@ static void a_level_closes_after_a_turn_of_the_body(void **state)
 }
 
 /* A scan that is 50 ms old has the level of a frame 50 ms earlier. */
-static void a_late_scan_has_the_level_of_its_instant(void **state)
+EFFECT_TEST(a_late_scan_has_the_level_of_its_instant)
 {
     struct effect_bench *bench = *state;
     widen(bench, 6, 4, 3.6);
@@ -141,7 +141,7 @@ static void a_late_scan_has_the_level_of_its_instant(void **state)
     assert_close(units_amplitude_db(factor), now, 1e-9);
 }
 
-static void a_class_may_have_levels_of_its_own(void **state)
+EFFECT_TEST(a_class_may_have_levels_of_its_own)
 {
     struct effect_bench *bench = *state;
     drive(bench, 50, 0, 0, 0);
@@ -166,7 +166,7 @@ static double correlation(double knots)
 }
 
 /* Jitter of 1 mm in range and of 0.01 mrad in aspect, each even with that deviation. */
-static void a_parked_car_before_a_standing_radar_keeps_its_level(void **state)
+EFFECT_TEST(a_parked_car_before_a_standing_radar_keeps_its_level)
 {
     struct effect_bench *bench = *state;
     enum { CARS = 4000 };
@@ -192,7 +192,7 @@ static void a_parked_car_before_a_standing_radar_keeps_its_level(void **state)
 
 /* Cars of one's own lane at 30 m/s: half the mean squared difference of levels at lags of 60 ms. A
  * constant part adds nothing to it. */
-static void levels_change_over_scans_as_knots_pass(void **state)
+EFFECT_TEST(levels_change_over_scans_as_knots_pass)
 {
     struct effect_bench *bench = *state;
     enum { CARS = 400 };
@@ -218,19 +218,4 @@ static void levels_change_over_scans_as_knots_pass(void **state)
         print_message("semivariance %2d scans apart: %.1f dB2\n", lags[i], found);
         assert_close(found, expected, 0.1 * expected);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(all_echoes_of_a_body_have_its_level),
-        EFFECT_TEST(levels_keep_the_mean_or_the_median_of_the_power),
-        EFFECT_TEST(a_constant_level_stays_and_a_moved_sensor_has_another_fast_one),
-        EFFECT_TEST(a_level_closes_after_a_turn_of_the_body),
-        EFFECT_TEST(a_late_scan_has_the_level_of_its_instant),
-        EFFECT_TEST(a_class_may_have_levels_of_its_own),
-        EFFECT_TEST(a_parked_car_before_a_standing_radar_keeps_its_level),
-        EFFECT_TEST(levels_change_over_scans_as_knots_pass),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,7 +27,7 @@ static double triangle(double x)
     return x < 0 ? (x + 1) * (x + 1) / 2.5 : 1 - (1.5 - x) * (1.5 - x) / 3.75;
 }
 
-static void limbs_have_the_count_the_swing_and_the_place_of_their_draws(void **state)
+EFFECT_TEST(limbs_have_the_count_the_swing_and_the_place_of_their_draws)
 {
     struct effect_bench *bench = *state;
     static const double border[] = {0.6065306597126334, 0.9097959895689501, 0.9856123220330293};
@@ -58,7 +58,7 @@ static void limbs_have_the_count_the_swing_and_the_place_of_their_draws(void **s
     assert_true(all > FRAMES / 3);
 }
 
-static void a_person_who_does_not_walk_along_the_sight_line_has_no_limbs(void **state)
+EFFECT_TEST(a_person_who_does_not_walk_along_the_sight_line_has_no_limbs)
 {
     struct effect_bench *bench = *state;
     struct echo still = torso(), wheel = torso();
@@ -70,13 +70,4 @@ static void a_person_who_does_not_walk_along_the_sight_line_has_no_limbs(void **
         assert_int_equal(limbs_of(bench, limbs, wheel).count, 0);
         assert_int_equal(limbs_of(bench, EVERY_EFFECT & ~limbs, torso()).count, 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(limbs_have_the_count_the_swing_and_the_place_of_their_draws),
-        EFFECT_TEST(a_person_who_does_not_walk_along_the_sight_line_has_no_limbs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@ static struct effect_measurement turn(struct effect_bench *bench, double azimuth
     return read;
 }
 
-static void a_misaligned_sensor_turns_what_it_reports(void **state)
+EFFECT_TEST(a_misaligned_sensor_turns_what_it_reports)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -28,19 +28,10 @@ static void a_misaligned_sensor_turns_what_it_reports(void **state)
     }
 }
 
-static void a_bias_that_is_zero_at_boresight_is_not_in_the_label_there(void **state)
+EFFECT_TEST(a_bias_that_is_zero_at_boresight_is_not_in_the_label_there)
 {
     struct effect_bench *bench = *state;
     bench->sensor.radome_bias_rad = 0.01;
     bench->sensor.radome_period_rad = 0.5;
     assert_true(turn(bench, 0).effects == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(a_misaligned_sensor_turns_what_it_reports),
-        EFFECT_TEST(a_bias_that_is_zero_at_boresight_is_not_in_the_label_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@ static struct effect_measurement reported(struct effect_bench *bench,
     return exact;
 }
 
-static void values_are_rounded_to_their_steps_and_azimuth_is_wrapped(void **state)
+EFFECT_TEST(values_are_rounded_to_their_steps_and_azimuth_is_wrapped)
 {
     struct effect_bench *bench = *state;
     bench->sensor.range_step_m = 0.5;
@@ -29,7 +29,7 @@ static void values_are_rounded_to_their_steps_and_azimuth_is_wrapped(void **stat
 }
 
 /* None of the three values is off its step, or one of them. */
-static void a_change_of_any_value_is_in_the_label(void **state)
+EFFECT_TEST(a_change_of_any_value_is_in_the_label)
 {
     struct effect_bench *bench = *state;
     bench->sensor.range_step_m = 0.5;
@@ -49,7 +49,7 @@ static void a_change_of_any_value_is_in_the_label(void **state)
                     (cases[i].labelled ? EFFECT_BIT(EFFECT_QUANTISATION) : 0));
 }
 
-static void a_value_without_a_step_stays(void **state)
+EFFECT_TEST(a_value_without_a_step_stays)
 {
     struct effect_bench *bench = *state;
     bench->sensor.azimuth_step_rad = 0.125;
@@ -60,14 +60,4 @@ static void a_value_without_a_step_stays(void **state)
     assert_close(read.range_rate_mps, -3.2, 0);
     assert_close(read.azimuth_rad, 0.25, 0);
     assert_true(read.effects == EFFECT_BIT(EFFECT_QUANTISATION));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(values_are_rounded_to_their_steps_and_azimuth_is_wrapped),
-        EFFECT_TEST(a_change_of_any_value_is_in_the_label),
-        EFFECT_TEST(a_value_without_a_step_stays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

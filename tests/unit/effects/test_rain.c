@@ -2,7 +2,7 @@
 
 /* ITU-R P.838-3 with vertical polarization, there and back: 2.190804 dB at 76.5 GHz and 0.614704 dB
  * at 24.125 GHz over 100 m in 25 mm/h, and 8.948216 dB at 76.5 GHz over 250 m in 50 mm/h. */
-static void rain_attenuates_there_and_back(void **state)
+EFFECT_TEST(rain_attenuates_there_and_back)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -22,7 +22,7 @@ static void rain_attenuates_there_and_back(void **state)
     }
 }
 
-static void rain_counts_by_polarization(void **state)
+EFFECT_TEST(rain_counts_by_polarization)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
@@ -30,13 +30,4 @@ static void rain_counts_by_polarization(void **state)
     bench->sensor.polarization = POLARIZATION_HORIZONTAL;
     double factor = effect_bench_factor(bench, EFFECT_RAIN, &echo);
     assert_close(-20 * log10(factor), 0.2 * 1.125295 * pow(25, 0.718767), 1e-5);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(rain_attenuates_there_and_back),
-        EFFECT_TEST(rain_counts_by_polarization),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@ static struct echo walking_echo(struct effect_bench *bench, double range_rate_mp
     return echo;
 }
 
-static void echoes_that_walk_fade_and_widen_in_either_direction(void **state)
+EFFECT_TEST(echoes_that_walk_fade_and_widen_in_either_direction)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -38,7 +38,7 @@ static void echoes_that_walk_fade_and_widen_in_either_direction(void **state)
         }
 }
 
-static void a_cell_of_which_half_is_told_walks_as_the_whole_one(void **state)
+EFFECT_TEST(a_cell_of_which_half_is_told_walks_as_the_whole_one)
 {
     struct effect_bench *bench = *state;
     bool labelled;
@@ -63,7 +63,7 @@ static bool is_simulated(struct effect_bench *bench, enum range_migration migrat
     return effect_simulates(&scan, EFFECT_RANGE_MIGRATION);
 }
 
-static void it_is_simulated_only_if_the_radar_has_a_window_and_an_echo_walks(void **state)
+EFFECT_TEST(it_is_simulated_only_if_the_radar_has_a_window_and_an_echo_walks)
 {
     struct effect_bench *bench = *state;
     uint64_t alone = EFFECT_BIT(EFFECT_RANGE_MIGRATION);
@@ -78,22 +78,11 @@ static void it_is_simulated_only_if_the_radar_has_a_window_and_an_echo_walks(voi
 }
 
 /* The radar drives, so that the ground walks; ideal has no echo. */
-static void echoes_that_other_effects_add_may_walk(void **state)
+EFFECT_TEST(echoes_that_other_effects_add_may_walk)
 {
     struct effect_bench *bench = *state;
     bench->frame.conditions.clutter_per_m2 = 0.01;
     bench->frame.conditions.clutter_ercs = 0.1;
     assert_true(is_simulated(bench, MIGRATION_HANN, EVERY_EFFECT));
     assert_false(is_simulated(bench, MIGRATION_HANN, EFFECT_BIT(EFFECT_RANGE_MIGRATION)));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(echoes_that_walk_fade_and_widen_in_either_direction),
-        EFFECT_TEST(a_cell_of_which_half_is_told_walks_as_the_whole_one),
-        EFFECT_TEST(it_is_simulated_only_if_the_radar_has_a_window_and_an_echo_walks),
-        EFFECT_TEST(echoes_that_other_effects_add_may_walk),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,7 @@ static struct effect_measurement measure_cell(struct effect_bench *bench, const 
     return read;
 }
 
-static void range_and_rate_get_the_noise_of_their_cell(void **state)
+EFFECT_TEST(range_and_rate_get_the_noise_of_their_cell)
 {
     struct effect_bench *bench = *state;
     const struct cell cell = {.range_m = 10, .range_rate_mps = -3, .members = {&leader, 1, 1}};
@@ -28,7 +28,7 @@ static void range_and_rate_get_the_noise_of_their_cell(void **state)
     }
 }
 
-static void no_range_is_below_0(void **state)
+EFFECT_TEST(no_range_is_below_0)
 {
     struct effect_bench *bench = *state;
     const struct cell cell = {.range_m = 0.1, .members = {&leader, 1, 1}};
@@ -40,13 +40,4 @@ static void no_range_is_below_0(void **state)
         cut += read.range_m == 0;
     }
     assert_in_range(cut, 30, 65);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(range_and_rate_get_the_noise_of_their_cell),
-        EFFECT_TEST(no_range_is_below_0),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
  * (Gunn-East model) has 1.0017 dB over 10 km for 0.75 mm/h at 77 GHz. By hand, a wavelength of 1 cm
  * has 0.00349 + 0.00224 = 0.00573 dB/km in 1 mm/h, one of 2 cm 0.00349 10^1.6/16 + 0.0112 dB/km in
  * 10 mm/h. */
-static void snow_attenuates_there_and_back(void **state)
+EFFECT_TEST(snow_attenuates_there_and_back)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -22,12 +22,4 @@ static void snow_attenuates_there_and_back(void **state)
         double factor = effect_bench_factor(bench, EFFECT_SNOW, &echo);
         assert_close(-20 * log10(factor), cases[i].loss_db, cases[i].slack_db);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(snow_attenuates_there_and_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

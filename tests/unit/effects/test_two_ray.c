@@ -29,7 +29,7 @@ static void prepare(struct effect_bench *bench, struct echo *echo)
     *list_add(&bench->frame.echoes, &bench->arena) = *echo;
 }
 
-static void a_point_rises_and_fades_by_the_interference_of_both_paths(void **state)
+EFFECT_TEST(a_point_rises_and_fades_by_the_interference_of_both_paths)
 {
     struct effect_bench *bench = *state;
     double wave_m = 299792458 / 76.5e9;
@@ -49,7 +49,7 @@ static void a_point_rises_and_fades_by_the_interference_of_both_paths(void **sta
     }
 }
 
-static void an_extended_echo_gets_the_mean_over_all_phases(void **state)
+EFFECT_TEST(an_extended_echo_gets_the_mean_over_all_phases)
 {
     struct effect_bench *bench = *state;
     double direct_m, longer_m;
@@ -61,7 +61,7 @@ static void an_extended_echo_gets_the_mean_over_all_phases(void **state)
                 sqrt(1 + 4 * g * g + g * g * g * g), 1e-12);
 }
 
-static void without_one_of_its_causes_the_road_does_not_mirror(void **state)
+EFFECT_TEST(without_one_of_its_causes_the_road_does_not_mirror)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(20), flat = echo;
@@ -78,14 +78,4 @@ static void without_one_of_its_causes_the_road_does_not_mirror(void **state)
     bench->frame.echoes.items[0].height_m = 0;
     effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_SENSOR);
     assert_true((bench->log.left_out & EFFECT_BIT(EFFECT_TWO_RAY)) != 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(a_point_rises_and_fades_by_the_interference_of_both_paths),
-        EFFECT_TEST(an_extended_echo_gets_the_mean_over_all_phases),
-        EFFECT_TEST(without_one_of_its_causes_the_road_does_not_mirror),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,7 @@ static size_t poisson(double mean, double uniform)
 
 /* Points are a Poisson count of mean 1.5, at -10 dB, with rho uniform from 0.3 to 1 and psi uniform
  * around the wheel. */
-static void points_have_the_count_and_the_rates_of_their_draws(void **state)
+EFFECT_TEST(points_have_the_count_and_the_rates_of_their_draws)
 {
     struct effect_bench *bench = *state;
     size_t all = 0;
@@ -61,7 +61,7 @@ static void points_have_the_count_and_the_rates_of_their_draws(void **state)
     assert_true(all > FRAMES);
 }
 
-static void a_wheel_that_does_not_roll_along_the_sight_line_has_no_points(void **state)
+EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_no_points)
 {
     struct effect_bench *bench = *state;
     struct echo still = hub(), limbs = hub(), plain = hub();
@@ -79,7 +79,7 @@ static void a_wheel_that_does_not_roll_along_the_sight_line_has_no_points(void *
 
 /* A parked car whose speed is the difference of two rounded places is the parked car of a scenario.
  */
-static void points_fade_in_with_the_speed_and_none_is_made_of_rounding(void **state)
+EFFECT_TEST(points_fade_in_with_the_speed_and_none_is_made_of_rounding)
 {
     struct effect_bench *bench = *state;
     double rates[] = {1e-300, 1e-12, -0.05, 0.050001, -0.275, 0.4999999, 0.5};
@@ -98,21 +98,10 @@ static void points_fade_in_with_the_speed_and_none_is_made_of_rounding(void **st
     assert_true(seen > 40);
 }
 
-static void without_the_effect_a_wheel_has_no_points(void **state)
+EFFECT_TEST(without_the_effect_a_wheel_has_no_points)
 {
     struct effect_bench *bench = *state;
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_WHEELS);
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++)
         assert_int_equal(points_of(bench, without, hub()).count, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(points_have_the_count_and_the_rates_of_their_draws),
-        EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_no_points),
-        EFFECT_TEST(points_fade_in_with_the_speed_and_none_is_made_of_rounding),
-        EFFECT_TEST(without_the_effect_a_wheel_has_no_points),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,18 +74,16 @@ static void check_row(const struct outer *outer, const char *const *without, con
     check_columns((struct csv_columns){0}, outer, without, expected);
 }
 
-static void members_are_columns_and_those_of_structs_have_its_name_before_theirs(void **state)
+TEST(members_are_columns_and_those_of_structs_have_its_name_before_theirs)
 {
-    (void)state;
     check_row(NULL, none,
               "x_m,known_m,whole,absent,flag,name,colour,seed,set,inner_size_m,inner_weight\n");
     static const char *const without[] = {"whole", "inner", NULL};
     check_row(NULL, without, "x_m,known_m,absent,flag,name,colour,seed,set\n");
 }
 
-static void values_are_written_as_in_json_and_absent_ones_not_at_all(void **state)
+TEST(values_are_written_as_in_json_and_absent_ones_not_at_all)
 {
-    (void)state;
     struct outer outer = {.x_m = 0.1 + 0.2, .whole = -INT64_C(9007199254740993), .absent = -1};
     check_row(&outer, none, "0.30000000000000004,,-9007199254740993,,false,,none,0,,,\n");
     outer = (struct outer){.x_m = -0.0,
@@ -99,28 +97,24 @@ static void values_are_written_as_in_json_and_absent_ones_not_at_all(void **stat
     check_row(&outer, none, "-0.0,1e-07,0,0,true,plain,red,18446744073709551615,wheel roof,,2\n");
 }
 
-static void
-zeros_stand_for_absent_numbers_where_they_are_wanted_but_not_in_an_absent_struct(void **state)
+TEST(zeros_stand_for_absent_numbers_where_they_are_wanted_but_not_in_an_absent_struct)
 {
-    (void)state;
     check_columns((struct csv_columns){.zeros = true}, &(struct outer){0}, none,
                   "0,0,0,0,false,,none,0,,,\n");
     check_columns((struct csv_columns){.zeros = true}, &(struct outer){.inner.weight = 2}, none,
                   "0,0,0,0,false,,none,0,,0,2\n");
 }
 
-static void names_are_quoted_where_they_must_be(void **state)
+TEST(names_are_quoted_where_they_must_be)
 {
-    (void)state;
     static const char *const without[] = {"x_m",    "known_m", "whole", "absent", "flag",
                                           "colour", "seed",    "set",   "inner",  NULL};
     check_row(&(struct outer){.name = "a, \"b\""}, without, "\"a, \"\"b\"\"\"\n");
     check_row(&(struct outer){.name = "two\nlines"}, without, "\"two\nlines\"\n");
 }
 
-static void the_longest_name_has_room_if_all_of_it_is_quotes(void **state)
+TEST(the_longest_name_has_room_if_all_of_it_is_quotes)
 {
-    (void)state;
     char name[FIELD_NAME_SIZE + 1] = {0}, expected[2 * FIELD_NAME_SIZE + 4] = {0};
     memset(name, '"', FIELD_NAME_SIZE);
     memset(expected, '"', 2 * FIELD_NAME_SIZE + 2);
@@ -128,17 +122,4 @@ static void the_longest_name_has_room_if_all_of_it_is_quotes(void **state)
     static const char *const without[] = {"x_m",    "known_m", "whole", "absent", "flag",
                                           "colour", "seed",    "set",   "inner",  NULL};
     check_row(&(struct outer){.name = name}, without, expected);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(members_are_columns_and_those_of_structs_have_its_name_before_theirs),
-        cmocka_unit_test(values_are_written_as_in_json_and_absent_ones_not_at_all),
-        cmocka_unit_test(
-            zeros_stand_for_absent_numbers_where_they_are_wanted_but_not_in_an_absent_struct),
-        cmocka_unit_test(names_are_quoted_where_they_must_be),
-        cmocka_unit_test(the_longest_name_has_room_if_all_of_it_is_quotes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,7 +56,9 @@ static void check_begins(const struct text *rows, const char *const *expected)
     assert_ptr_equal(at + 1, rows->bytes + rows->length);
 }
 
-static void keys_count_on_from_frame_to_frame_and_join_rows(void **state)
+#define TABLE_TEST(name) TEST_WITH(begin, end, name)
+
+TABLE_TEST(keys_count_on_from_frame_to_frame_and_join_rows)
 {
     struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
@@ -83,7 +85,7 @@ static void keys_count_on_from_frame_to_frame_and_join_rows(void **state)
                                        "1003,1005,right,", NULL});
 }
 
-static void a_sighting_joins_its_scan_and_its_object_and_its_counts_are_never_empty(void **state)
+TABLE_TEST(a_sighting_joins_its_scan_and_its_object_and_its_counts_are_never_empty)
 {
     struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
@@ -101,7 +103,7 @@ static void a_sighting_joins_its_scan_and_its_object_and_its_counts_are_never_em
                                        "1,,right,gone,0,0,0,0,,0,0,0\n", NULL});
 }
 
-static void what_is_of_no_object_has_no_key_of_one(void **state)
+TABLE_TEST(what_is_of_no_object_has_no_key_of_one)
 {
     struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
@@ -113,7 +115,7 @@ static void what_is_of_no_object_has_no_key_of_one(void **state)
                  (const char *const[]){"0,0,,ground,", "0,1,2,a,", NULL});
 }
 
-static void a_sensor_that_did_not_measure_has_no_scan(void **state)
+TABLE_TEST(a_sensor_that_did_not_measure_has_no_scan)
 {
     struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
@@ -127,7 +129,7 @@ static void a_sensor_that_did_not_measure_has_no_scan(void **state)
     check_begins(&sheet->rows[TABLE_LOST], (const char *const[]){",2,left,", "0,2,right,", NULL});
 }
 
-static void a_part_that_runs_out_of_keys_is_refused(void **state)
+TABLE_TEST(a_part_that_runs_out_of_keys_is_refused)
 {
     struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
@@ -138,17 +140,4 @@ static void a_part_that_runs_out_of_keys_is_refused(void **state)
     assert_int_equal(sheet->diag.code, DIAG_DATA);
     assert_string_equal(sheet->diag.text,
                         "a table has more than 1000000000 rows; expected parts of fewer");
-}
-
-int main(void)
-{
-#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
-    const struct CMUnitTest tests[] = {
-        TEST(keys_count_on_from_frame_to_frame_and_join_rows),
-        TEST(a_sighting_joins_its_scan_and_its_object_and_its_counts_are_never_empty),
-        TEST(what_is_of_no_object_has_no_key_of_one),
-        TEST(a_sensor_that_did_not_measure_has_no_scan),
-        TEST(a_part_that_runs_out_of_keys_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

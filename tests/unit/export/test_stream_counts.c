@@ -29,19 +29,10 @@ static void check_shares(size_t cars, const char *first, const char *second)
     arena_free(&arena);
 }
 
-static void a_share_reads_as_none_or_all_only_if_it_is(void **state)
+TEST(a_share_reads_as_none_or_all_only_if_it_is)
 {
-    (void)state;
     check_shares(0, "          1  100.0 %  truck\n", "1 objects");
     check_shares(249, "        249   99.6 %  car\n", "          1    0.4 %  truck\n");
     check_shares(1998, "       1998   99.9 %  car\n", "          1    0.1 %  truck\n");
     check_shares(2499, "       2499  99.96 %  car\n", "          1   0.04 %  truck\n");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_share_reads_as_none_or_all_only_if_it_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

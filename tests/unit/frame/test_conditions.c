@@ -5,9 +5,8 @@
 #include "frame/conditions.h"
 #include "text/record_write.h"
 
-static void what_is_said_replaces_and_what_is_not_stays(void **state)
+TEST(what_is_said_replaces_and_what_is_not_stays)
 {
-    (void)state;
     struct interferer one[] = {{.object = "a"}};
     struct conditions before = {
         .road = ROAD_ASPHALT, .rain_mmph = 5, .fog_gpm3 = 0.1, .interferers = {one, 1, 0}};
@@ -40,9 +39,8 @@ static void what_is_said_replaces_and_what_is_not_stays(void **state)
 }
 
 /* Every member that may change alone, to the most that it may be and to nothing. */
-static void a_change_of_one_member_leaves_all_others(void **state)
+TEST(a_change_of_one_member_leaves_all_others)
 {
-    (void)state;
     const struct field *field = conditions_changes_record.fields;
     for (; field->name != NULL; field++)
         for (int most = 0; most <= 1; most++) {
@@ -69,9 +67,8 @@ static void a_change_of_one_member_leaves_all_others(void **state)
         }
 }
 
-static void impossible_conditions_are_refused(void **state)
+TEST(impossible_conditions_are_refused)
 {
-    (void)state;
     static const struct conditions bad[] = {
         {.rain_mmph = -1}, {.rain_mmph = 501}, {.fog_gpm3 = -0.1}, {.fog_gpm3 = 11}};
     static const struct interferer worse[] = {{.object = "a", .eirp_dbm = 101},
@@ -88,14 +85,4 @@ static void impossible_conditions_are_refused(void **state)
         good = worse[i];
         assert_int_equal(record_write_check(&conditions_record, &conditions, ~0U, &diag), -1);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_said_replaces_and_what_is_not_stays),
-        cmocka_unit_test(a_change_of_one_member_leaves_all_others),
-        cmocka_unit_test(impossible_conditions_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,7 @@
 
 #define EVERY (EFFECT_BIT(EFFECT_COUNT) - 1)
 
-static void a_request_names_what_may_be_simulated(void **state)
+TEST(a_request_names_what_may_be_simulated)
 {
     static const struct {
         const char *text;
@@ -34,7 +34,7 @@ static void a_request_names_what_may_be_simulated(void **state)
     }
 }
 
-static void an_unknown_effect_is_refused_by_name(void **state)
+TEST(an_unknown_effect_is_refused_by_name)
 {
     static const char *const texts[] = {"",          "fog horn", "auto,all",   "all,",
                                         "merging,-", "-none",    "all,-mergin"};
@@ -48,9 +48,8 @@ static void an_unknown_effect_is_refused_by_name(void **state)
     }
 }
 
-static void a_scan_in_which_one_object_needs_an_effect_counts_as_simulated(void **state)
+TEST(a_scan_in_which_one_object_needs_an_effect_counts_as_simulated)
 {
-    (void)state;
     struct effect_log log = {0};
     const struct selection selection = {.allowed = EVERY, .automatic = true, .log = &log};
     effects_note(&selection, EFFECT_OCCLUSION, false);
@@ -64,14 +63,4 @@ static void a_scan_in_which_one_object_needs_an_effect_counts_as_simulated(void 
     assert_int_equal(log.scans_left_out[EFFECT_OCCLUSION], 1);
     assert_int_equal(log.scans_left_out[EFFECT_MERGING], 1);
     assert_int_equal(log.scans_simulated[EFFECT_MERGING], 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_request_names_what_may_be_simulated),
-        cmocka_unit_test(an_unknown_effect_is_refused_by_name),
-        cmocka_unit_test(a_scan_in_which_one_object_needs_an_effect_counts_as_simulated),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
+TEST(losses_are_grouped_by_sensor_stage_and_reason)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     static const char *const sensors[] = {"s", "t"}, *const stages[] = {"ideal", "noise"};
@@ -35,9 +34,8 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
     arena_free(&arena);
 }
 
-static void a_stage_may_have_reasons_of_its_own(void **state)
+TEST(a_stage_may_have_reasons_of_its_own)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     const struct lost_echo echo = {.id.object = "o", .id.reflector = "r"};
@@ -68,9 +66,8 @@ static void a_stage_may_have_reasons_of_its_own(void **state)
     arena_free(&arena);
 }
 
-static void a_frame_without_account_forgets_its_losses(void **state)
+TEST(a_frame_without_account_forgets_its_losses)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     frame_lose(&frame, "ideal", "s", LOSS_BLOCKED,
@@ -80,9 +77,8 @@ static void a_frame_without_account_forgets_its_losses(void **state)
     arena_free(&arena);
 }
 
-static void spans_are_the_sensors_own(void **state)
+TEST(spans_are_the_sensors_own)
 {
-    (void)state;
     static const char *const sensors[] = {"a", "b", "d"};
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
@@ -101,9 +97,8 @@ static void spans_are_the_sensors_own(void **state)
     arena_free(&arena);
 }
 
-static void dropped_parts_are_as_if_they_had_never_been(void **state)
+TEST(dropped_parts_are_as_if_they_had_never_been)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     frame_drop(&frame, PART_SENSORS | PART_TARGETS | PART_LOST);
@@ -117,9 +112,8 @@ static void dropped_parts_are_as_if_they_had_never_been(void **state)
 }
 
 /* An object may have the name that clutter has in its place. */
-static void clutter_and_noise_are_of_no_object(void **state)
+TEST(clutter_and_noise_are_of_no_object)
 {
-    (void)state;
     struct object car = {.id = "roadside"};
     struct contributor part = {.id = {.object = "roadside"}};
     struct target target = {.contributors = {&part, 1, 1}};
@@ -136,17 +130,4 @@ static void clutter_and_noise_are_of_no_object(void **state)
     assert_false(frame_same_object(&clutter, &(struct echo_id){.object = "roadside"}));
     assert_true(frame_same_object(&(struct echo_id){.object = "roadside", .path = PATH_WHEEL},
                                   &(struct echo_id){.object = "roadside"}));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(losses_are_grouped_by_sensor_stage_and_reason),
-        cmocka_unit_test(a_stage_may_have_reasons_of_its_own),
-        cmocka_unit_test(a_frame_without_account_forgets_its_losses),
-        cmocka_unit_test(spans_are_the_sensors_own),
-        cmocka_unit_test(dropped_parts_are_as_if_they_had_never_been),
-        cmocka_unit_test(clutter_and_noise_are_of_no_object),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,9 +6,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static void a_frame_without_contradictions_passes(void **state)
+TEST(a_frame_without_contradictions_passes)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     struct diag diag = {0};
@@ -104,9 +103,8 @@ static void give_a_mirror_no_law(struct frame *frame)
     *list_add(&set->mirrors, frame->arena) = (struct mirror_plane){.radius_m = 1};
 }
 
-static void frames_that_contradict_themselves_are_refused(void **state)
+TEST(frames_that_contradict_themselves_are_refused)
 {
-    (void)state;
     static const struct {
         void (*plant)(struct frame *frame);
         const char *message;
@@ -157,9 +155,8 @@ static int check_parts(void (*plant)(struct frame *frame), unsigned parts, const
     return result;
 }
 
-static void a_part_is_refused_for_its_own_faults_alone(void **state)
+TEST(a_part_is_refused_for_its_own_faults_alone)
 {
-    (void)state;
     static const struct {
         void (*plant)(struct frame *frame);
         unsigned part, another;
@@ -178,9 +175,8 @@ static void a_part_is_refused_for_its_own_faults_alone(void **state)
 }
 
 /* Echoes, cells and targets name their sensors: who lists others may leave them without one. */
-static void new_sensors_are_held_against_all_that_names_one(void **state)
+TEST(new_sensors_are_held_against_all_that_names_one)
 {
-    (void)state;
     struct diag target = {0}, echo = {0}, sighting = {0};
     assert_int_equal(check_parts(report_with_no_sensor, PART_SENSORS, NULL, &target), -1);
     assert_string_equal(target.text, "targets[1].sensor: \"top\" is not in sensors.list");
@@ -195,9 +191,8 @@ static void report_beyond_bounds(struct frame *frame)
     frame->targets.items[1].amplitude_db = 1e5;
 }
 
-static void members_out_of_bounds_are_refused_by_their_path(void **state)
+TEST(members_out_of_bounds_are_refused_by_their_path)
 {
-    (void)state;
     struct diag diag = {0};
     assert_int_equal(check_parts(report_beyond_bounds, PART_TARGETS, NULL, &diag), -1);
     assert_string_equal(diag.text, "targets[0].amplitude_db: 1e+05 is outside [-10000, 10000] dB");
@@ -211,9 +206,8 @@ static void lose_by_too_much(struct frame *frame)
 }
 
 /* A stage is to blame for what it lost itself. */
-static void losses_are_looked_at_where_their_own_stage_wrote_them(void **state)
+TEST(losses_are_looked_at_where_their_own_stage_wrote_them)
 {
-    (void)state;
     struct diag diag = {0};
     assert_int_equal(check_parts(lose_by_too_much, PART_LOST, "ideal", &diag), 0);
     assert_int_equal(check_parts(lose_by_too_much, PART_LOST, "noise", &diag), -1);
@@ -222,9 +216,8 @@ static void losses_are_looked_at_where_their_own_stage_wrote_them(void **state)
 }
 
 /* A document was checked when it was read: no set that has its lists is searched again. */
-static void the_lists_of_a_document_are_not_searched_again(void **state)
+TEST(the_lists_of_a_document_are_not_searched_again)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     struct diag diag = {0};
@@ -236,18 +229,4 @@ static void the_lists_of_a_document_are_not_searched_again(void **state)
     list_add(&frame.reflectors.items[0].points, &arena)->name = "left";
     assert_int_equal(frame_check(&frame, &diag), -1);
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_frame_without_contradictions_passes),
-        cmocka_unit_test(frames_that_contradict_themselves_are_refused),
-        cmocka_unit_test(a_part_is_refused_for_its_own_faults_alone),
-        cmocka_unit_test(new_sensors_are_held_against_all_that_names_one),
-        cmocka_unit_test(members_out_of_bounds_are_refused_by_their_path),
-        cmocka_unit_test(losses_are_looked_at_where_their_own_stage_wrote_them),
-        cmocka_unit_test(the_lists_of_a_document_are_not_searched_again),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,9 +6,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static void a_whole_account_passes_in_any_order(void **state)
+TEST(a_whole_account_passes_in_any_order)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     struct diag diag = {0};
@@ -18,9 +17,8 @@ static void a_whole_account_passes_in_any_order(void **state)
     arena_free(&arena);
 }
 
-static void an_echo_may_feed_several_targets(void **state)
+TEST(an_echo_may_feed_several_targets)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     struct diag diag = {0};
@@ -33,9 +31,8 @@ static void an_echo_may_feed_several_targets(void **state)
 }
 
 /* A frame on its way to targets: its cells, or its echoes, are what is not lost. */
-static void before_there_are_targets_cells_or_echoes_stand_for_them(void **state)
+TEST(before_there_are_targets_cells_or_echoes_stand_for_them)
 {
-    (void)state;
     for (int early = 0; early < 2; early++) {
         struct arena arena = {0};
         struct frame frame = accounted_frame(&arena);
@@ -116,9 +113,8 @@ static void count_one_more(struct frame *frame)
     frame->counts.items[1].pairs++;
 }
 
-static void planted_faults_in_the_account_are_caught(void **state)
+TEST(planted_faults_in_the_account_are_caught)
 {
-    (void)state;
     static const struct {
         void (*plant)(struct frame *frame);
         const char *message;
@@ -149,9 +145,8 @@ static void planted_faults_in_the_account_are_caught(void **state)
 }
 
 /* Direct echoes are those of the pairs; a wheel's and a ghost's come on top. */
-static void echoes_of_other_paths_are_due_beyond_the_pairs(void **state)
+TEST(echoes_of_other_paths_are_due_beyond_the_pairs)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     struct diag diag = {0};
@@ -178,9 +173,8 @@ static void echoes_of_other_paths_are_due_beyond_the_pairs(void **state)
 }
 
 /* Each pair of echoes differs in one member of the identity alone. */
-static void echoes_that_differ_in_one_member_are_two_entries(void **state)
+TEST(echoes_that_differ_in_one_member_are_two_entries)
 {
-    (void)state;
     static const struct echo_id one = {"a", "p", PATH_WALL_OBJECT, "w", 1};
     static const struct echo_id others[] = {{"b", "p", PATH_WALL_OBJECT, "w", 1},
                                             {"a", "q", PATH_WALL_OBJECT, "w", 1},
@@ -202,9 +196,8 @@ static void echoes_that_differ_in_one_member_are_two_entries(void **state)
     }
 }
 
-static void the_same_echo_of_two_sensors_is_one_entry_of_each(void **state)
+TEST(the_same_echo_of_two_sensors_is_one_entry_of_each)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     struct diag diag = {0};
@@ -219,9 +212,8 @@ static void the_same_echo_of_two_sensors_is_one_entry_of_each(void **state)
 }
 
 /* Whatever their hashes are: 20000 echoes, and the last of them once more. */
-static void one_that_is_doubled_is_found_among_many(void **state)
+TEST(one_that_is_doubled_is_found_among_many)
 {
-    (void)state;
     enum { MANY = 20000 };
     struct arena arena = {0};
     struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
@@ -237,19 +229,4 @@ static void one_that_is_doubled_is_found_among_many(void **state)
     assert_string_equal(diag.text,
                         "account: sensor \"s\", object \"a\", reflector \"p\" has two entries");
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_whole_account_passes_in_any_order),
-        cmocka_unit_test(an_echo_may_feed_several_targets),
-        cmocka_unit_test(before_there_are_targets_cells_or_echoes_stand_for_them),
-        cmocka_unit_test(planted_faults_in_the_account_are_caught),
-        cmocka_unit_test(echoes_of_other_paths_are_due_beyond_the_pairs),
-        cmocka_unit_test(echoes_that_differ_in_one_member_are_two_entries),
-        cmocka_unit_test(the_same_echo_of_two_sensors_is_one_entry_of_each),
-        cmocka_unit_test(one_that_is_doubled_is_found_among_many),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

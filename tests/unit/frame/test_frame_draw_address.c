@@ -13,9 +13,8 @@ static bool equal(struct random_address a, struct random_address b)
 
 /* Every part of an address on its own, two parts that run into each other, and bytes that a number
  * carries over. */
-static void addresses_differ_by_each_of_their_parts(void **state)
+TEST(addresses_differ_by_each_of_their_parts)
 {
-    (void)state;
     enum { CASES = 16 };
     struct frame frames[CASES];
     struct echo_id ids[CASES];
@@ -50,9 +49,8 @@ static void addresses_differ_by_each_of_their_parts(void **state)
 
 /* Promises of bytes: FNV-1a and its final mix, worked out apart from this code. Whoever changes one
  * changes every data set made. */
-static void addresses_are_these_on_every_machine(void **state)
+TEST(addresses_are_these_on_every_machine)
 {
-    (void)state;
     static const struct {
         const char *sensor;
         struct echo_id id;
@@ -78,13 +76,4 @@ static void addresses_are_these_on_every_machine(void **state)
         assert_true(address.sensor == cases[i].sensor_hash);
         assert_true(address.item == cases[i].echo_id_hash);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(addresses_differ_by_each_of_their_parts),
-        cmocka_unit_test(addresses_are_these_on_every_machine),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,27 +34,24 @@ static void expect(struct bench *bench, struct frame *again, const char *message
     arena_free(&bench->arena);
 }
 
-static void a_label_of_the_echo_as_it_is_passes(void **state)
+TEST(a_label_of_the_echo_as_it_is_passes)
 {
-    (void)state;
     struct bench bench;
     begin(&bench);
     bench.label->range_m *= 1 + 1e-10;
     expect(&bench, &bench.again, "");
 }
 
-static void a_value_that_is_off_is_named(void **state)
+TEST(a_value_that_is_off_is_named)
 {
-    (void)state;
     struct bench bench;
     begin(&bench);
     bench.label->range_m = 11;
     expect(&bench, &bench.again, "targets[0].contributors[0].range_m: 11; recomputed, it is 10");
 }
 
-static void without_echoes_only_weights_are_checked(void **state)
+TEST(without_echoes_only_weights_are_checked)
 {
-    (void)state;
     struct bench bench;
     begin(&bench);
     bench.label->range_m = 11;
@@ -62,14 +59,4 @@ static void without_echoes_only_weights_are_checked(void **state)
     begin(&bench);
     bench.label->weight = 0.5;
     expect(&bench, NULL, "targets[0].contributors: weights sum to 0.5; expected 1");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_label_of_the_echo_as_it_is_passes),
-        cmocka_unit_test(a_value_that_is_off_is_named),
-        cmocka_unit_test(without_echoes_only_weights_are_checked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,8 @@
  *   - a line feed is white space to jansson, the end of a line to us
  * Both refuse U+0000 in strings, a byte order mark and numbers beyond the doubles, as they may.
  *
- *     build/tests/test_frame_oracle LINES     mutates so many lines, not 10^5, with the time left
+ *     CASES=LINES build/unit/frame test_frame_oracle    mutates so many lines, not 10^5, with the
+ *                                                       time left
  */
 #define _GNU_SOURCE
 #include "check.h"
@@ -426,18 +427,16 @@ static void check_category(const char *fragments, bool is_json)
     }
 }
 
-static void every_category_is_judged_as_jansson_judges_it(void **state)
+TEST(every_category_is_judged_as_jansson_judges_it)
 {
-    (void)state;
     for (size_t i = 0; i < COUNT(valid); i++)
         check_category(valid[i].fragments, true);
     for (size_t i = 0; i < COUNT(invalid); i++)
         check_category(invalid[i].fragments, false);
 }
 
-static void the_lines_to_be_mutated_are_frames(void **state)
+TEST(the_lines_to_be_mutated_are_frames)
 {
-    (void)state;
     for (size_t i = 0; i < COUNT(parts); i++) {
         char line[LINE_SIZE];
         int length = snprintf(line, sizeof line, "%s%s", HEAD, parts[i]);
@@ -447,9 +446,8 @@ static void the_lines_to_be_mutated_are_frames(void **state)
     }
 }
 
-static void values_nest_in_extra_to_our_own_limit(void **state)
+TEST(values_nest_in_extra_to_our_own_limit)
 {
-    (void)state;
     for (size_t depth = JSON_SCAN_DEPTH - 1; depth <= 2 * JSON_SCAN_DEPTH; depth++) {
         struct arena arena = {0};
         struct frame frame = {.arena = &arena};
@@ -471,9 +469,8 @@ static void values_nest_in_extra_to_our_own_limit(void **state)
     }
 }
 
-static void a_key_may_stand_twice_inside_extra_alone(void **state)
+TEST(a_key_may_stand_twice_inside_extra_alone)
 {
-    (void)state;
     static const char *const taken[] = {HEAD ",\"extra\":{\"k\":1,\"k\":2}}",
                                         HEAD ",\"extra\":[{\"k\":[{\"a\":0,\"\\u0061\":1}]}]}"};
     static const char *const refused[] = {
@@ -567,9 +564,9 @@ static size_t change(char *line, size_t length, uint64_t *random)
     }
 }
 
-static void mutated_lines_are_judged_as_jansson_judges_them(void **state)
+TEST(mutated_lines_are_judged_as_jansson_judges_them)
 {
-    int64_t lines = *(const int64_t *)*state, taken = 0;
+    int64_t lines = (int64_t)check_cases(100000), taken = 0;
     struct progress progress;
     progress_begin(&progress, "lines");
     uint64_t random = 5;
@@ -587,17 +584,4 @@ static void mutated_lines_are_judged_as_jansson_judges_them(void **state)
     progress_end(&progress);
     print_message("%lld of %lld lines were taken\n", (long long)taken, (long long)lines);
     assert_in_range(taken, lines / 20, lines / 2);
-}
-
-int main(int count, char **words)
-{
-    int64_t lines = count > 1 ? atoll(words[1]) : 100000;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_category_is_judged_as_jansson_judges_it),
-        cmocka_unit_test(the_lines_to_be_mutated_are_frames),
-        cmocka_unit_test(values_nest_in_extra_to_our_own_limit),
-        cmocka_unit_test(a_key_may_stand_twice_inside_extra_alone),
-        cmocka_unit_test_prestate(mutated_lines_are_judged_as_jansson_judges_them, &lines),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

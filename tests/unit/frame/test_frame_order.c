@@ -27,9 +27,8 @@ static struct text written(const struct frame *frame)
         memcpy(&(list).items[i_ - 1], kept_, sizeof kept_);                                        \
     }
 
-static void every_order_of_a_frame_becomes_the_canonical_one(void **state)
+TEST(every_order_of_a_frame_becomes_the_canonical_one)
 {
-    (void)state;
     static const char *const names[] = {"a", "b", "ba", "B", "\xc3\xa9"};
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
@@ -86,9 +85,8 @@ static void every_order_of_a_frame_becomes_the_canonical_one(void **state)
     arena_free(&arena);
 }
 
-static void targets_keep_their_sensors_order(void **state)
+TEST(targets_keep_their_sensors_order)
 {
-    (void)state;
     static const char *const sensors[] = {"c", "a", "b"};
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
@@ -119,9 +117,8 @@ static const char *order_of(struct frame *frame, size_t count, const char *const
     return text;
 }
 
-static void objects_are_found_by_id_in_order(void **state)
+TEST(objects_are_found_by_id_in_order)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     assert_string_equal(order_of(&frame, 3, (const char *[]){"c", "a", "b"}), "abc");
@@ -138,9 +135,8 @@ static void objects_are_found_by_id_in_order(void **state)
 }
 
 /* A strict total order: antisymmetric and transitive, equal only to itself. */
-static void ties_are_decided_by_a_total_order(void **state)
+TEST(ties_are_decided_by_a_total_order)
 {
-    (void)state;
     struct contributor all[32];
     for (unsigned i = 0; i < 32; i++)
         all[i] = (struct contributor){.range_m = i >> 4 & 1,
@@ -161,9 +157,8 @@ static int sign(int order)
     return (order > 0) - (order < 0);
 }
 
-static void names_are_ordered_by_their_bytes(void **state)
+TEST(names_are_ordered_by_their_bytes)
 {
-    (void)state;
     static const char *const ascending[] = {NULL, "", "B", "a", "ab", "b", "ba", "\xc3\xa9"};
     for (int i = 0; i < (int)COUNT(ascending); i++)
         for (int j = 0; j < (int)COUNT(ascending); j++)
@@ -173,9 +168,8 @@ static void names_are_ordered_by_their_bytes(void **state)
 
 /* Numbers whose binary digits are the members, the first the heaviest: object, reflector, path,
  * mirror, number. */
-static void echo_ids_are_ordered_by_their_members_one_after_the_other(void **state)
+TEST(echo_ids_are_ordered_by_their_members_one_after_the_other)
 {
-    (void)state;
     struct echo_id all[32];
     for (unsigned i = 0; i < 32; i++)
         all[i] = (struct echo_id){.object = i >> 4 & 1 ? "b" : "a",
@@ -188,9 +182,8 @@ static void echo_ids_are_ordered_by_their_members_one_after_the_other(void **sta
             assert_int_equal(sign(frame_order_echo_ids(&all[i], &all[j])), (i > j) - (i < j));
 }
 
-static void a_cells_leader_stays_first_whatever_its_name(void **state)
+TEST(a_cells_leader_stays_first_whatever_its_name)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     *list_add(&frame.cells, &arena) =
@@ -211,9 +204,8 @@ static void lose_two(struct frame *frame, const char *stage)
 }
 
 /* Only what a stage may have written is sorted after it. */
-static void other_parts_and_other_stages_losses_stay_as_they_are(void **state)
+TEST(other_parts_and_other_stages_losses_stay_as_they_are)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     lose_two(&frame, "ideal");
@@ -230,19 +222,4 @@ static void other_parts_and_other_stages_losses_stay_as_they_are(void **state)
     assert_string_equal(frame.echoes.items[0].id.object, "a");
     assert_string_equal(frame.lost.items[0].echoes.items[0].id.object, "a");
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_order_of_a_frame_becomes_the_canonical_one),
-        cmocka_unit_test(targets_keep_their_sensors_order),
-        cmocka_unit_test(objects_are_found_by_id_in_order),
-        cmocka_unit_test(names_are_ordered_by_their_bytes),
-        cmocka_unit_test(echo_ids_are_ordered_by_their_members_one_after_the_other),
-        cmocka_unit_test(ties_are_decided_by_a_total_order),
-        cmocka_unit_test(a_cells_leader_stays_first_whatever_its_name),
-        cmocka_unit_test(other_parts_and_other_stages_losses_stay_as_they_are),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,17 +45,15 @@ static int add(struct bench *bench, check *add_to, uint64_t seed, int64_t number
     return add_to(&bench->completeness, &frame, next_place(bench), &bench->arena, &bench->diag);
 }
 
-static void nothing_at_all_is_not_complete(void **state)
+TEST(nothing_at_all_is_not_complete)
 {
-    (void)state;
     struct bench bench = begin();
     assert_int_equal(frame_sequence_end(&bench.completeness, &bench.diag), -1);
     assert_string_equal(bench.diag.text, "no frame at all; expected whole scenes");
 }
 
-static void scenes_may_interleave(void **state)
+TEST(scenes_may_interleave)
 {
-    (void)state;
     struct bench bench = begin();
     for (int64_t number = 0; number < 3; number++) {
         assert_int_equal(follow(&bench, "a", number, number == 2), 0);
@@ -65,9 +63,8 @@ static void scenes_may_interleave(void **state)
     arena_free(&bench.arena);
 }
 
-static void gaps_repetitions_and_what_comes_after_the_end_are_refused(void **state)
+TEST(gaps_repetitions_and_what_comes_after_the_end_are_refused)
 {
-    (void)state;
     static const struct {
         int64_t first, second;
         bool last;
@@ -89,9 +86,8 @@ static void gaps_repetitions_and_what_comes_after_the_end_are_refused(void **sta
     }
 }
 
-static void a_scene_without_its_end_is_told(void **state)
+TEST(a_scene_without_its_end_is_told)
 {
-    (void)state;
     struct bench bench = begin();
     assert_int_equal(follow(&bench, "whole", 0, true), 0);
     assert_int_equal(follow(&bench, "cut", 0, false), 0);
@@ -100,9 +96,8 @@ static void a_scene_without_its_end_is_told(void **state)
     arena_free(&bench.arena);
 }
 
-static void two_seeds_of_a_name_are_two_scenes(void **state)
+TEST(two_seeds_of_a_name_are_two_scenes)
 {
-    (void)state;
     check *const checks[] = {frame_sequence_follow, frame_sequence_ascend, frame_sequence_once};
     for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++) {
         struct bench bench = begin();
@@ -116,9 +111,8 @@ static void two_seeds_of_a_name_are_two_scenes(void **state)
     }
 }
 
-static void a_stream_joined_with_itself_is_refused_with_both_places(void **state)
+TEST(a_stream_joined_with_itself_is_refused_with_both_places)
 {
-    (void)state;
     static const struct {
         check *check;
         const char *message;
@@ -139,9 +133,8 @@ static void a_stream_joined_with_itself_is_refused_with_both_places(void **state
     }
 }
 
-static void a_shuffled_stream_has_each_frame_once(void **state)
+TEST(a_shuffled_stream_has_each_frame_once)
 {
-    (void)state;
     static const int64_t order[] = {2, 0, 3, 1};
     struct bench bench = begin();
     for (size_t i = 0; i < 4; i++)
@@ -151,9 +144,8 @@ static void a_shuffled_stream_has_each_frame_once(void **state)
     arena_free(&bench.arena);
 }
 
-static void each_of_many_scenes_is_remembered(void **state)
+TEST(each_of_many_scenes_is_remembered)
 {
-    (void)state;
     enum { SCENES = 20000 };
     struct bench bench = begin();
     char name[32];
@@ -168,19 +160,4 @@ static void each_of_many_scenes_is_remembered(void **state)
         assert_int_equal(follow(&bench, name, 1, true), -1);
     }
     arena_free(&bench.arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_at_all_is_not_complete),
-        cmocka_unit_test(scenes_may_interleave),
-        cmocka_unit_test(gaps_repetitions_and_what_comes_after_the_end_are_refused),
-        cmocka_unit_test(a_scene_without_its_end_is_told),
-        cmocka_unit_test(two_seeds_of_a_name_are_two_scenes),
-        cmocka_unit_test(a_stream_joined_with_itself_is_refused_with_both_places),
-        cmocka_unit_test(a_shuffled_stream_has_each_frame_once),
-        cmocka_unit_test(each_of_many_scenes_is_remembered),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

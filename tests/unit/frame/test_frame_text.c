@@ -88,9 +88,8 @@ static void assert_reads_as_rich(const char *line)
     arena_free(&arena);
 }
 
-static void a_rich_frame_comes_back_byte_for_byte(void **state)
+TEST(a_rich_frame_comes_back_byte_for_byte)
 {
-    (void)state;
     assert_reads_as_rich(rich);
 }
 
@@ -128,9 +127,8 @@ static void print_shuffled(json_t *tree, const char *key, uint64_t *random, stru
     }
 }
 
-static void keys_may_come_in_any_order_with_any_white_space(void **state)
+TEST(keys_may_come_in_any_order_with_any_white_space)
 {
-    (void)state;
     json_t *tree = json_loads(rich, JSON_DECODE_INT_AS_REAL, NULL);
     assert_non_null(tree);
     struct arena arena[2] = {0};
@@ -166,9 +164,8 @@ static void keys_may_come_in_any_order_with_any_white_space(void **state)
 }
 
 /* Every use of an id points to the same place, so that comparing them is cheap. */
-static void equal_names_of_a_frame_are_one_pointer(void **state)
+TEST(equal_names_of_a_frame_are_one_pointer)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     struct diag diag;
@@ -191,9 +188,8 @@ static char *with(const char *from, const char *to)
     return line;
 }
 
-static void a_number_may_be_spelled_in_any_way(void **state)
+TEST(a_number_may_be_spelled_in_any_way)
 {
-    (void)state;
     static const char *const spellings[][2] = {
         {"\"time_s\":0.28", "\"time_s\":28e-2"},
         {"\"time_s\":0.28", "\"time_s\":0.280000000000000000000000000"},
@@ -217,9 +213,8 @@ static void a_number_may_be_spelled_in_any_way(void **state)
     }
 }
 
-static void what_is_absent_stays_absent(void **state)
+TEST(what_is_absent_stays_absent)
 {
-    (void)state;
     static const char head[] = "{\"version\":0,\"scene\":\"a\",\"frame\":0,\"time_s\":0,"
                                "\"interval_s\":1,\"seed\":\"0\",\"ego\":\"e\"";
     static const char *const tails[] = {"}\n", ",\"objects\":[]}\n",
@@ -243,9 +238,8 @@ static void what_is_absent_stays_absent(void **state)
     }
 }
 
-static void faults_are_named_with_their_path_value_and_expectation(void **state)
+TEST(faults_are_named_with_their_path_value_and_expectation)
 {
-    (void)state;
 #define OBJECT_KEYS                                                                                \
     "id, class, x_m, y_m, yaw_rad, vx_mps, vy_mps, yaw_rate_radps, length_m, width_m, height_m, "  \
     "travelled_m, extra"
@@ -314,9 +308,8 @@ static void faults_are_named_with_their_path_value_and_expectation(void **state)
     }
 }
 
-static void no_beginning_of_a_frame_is_a_frame(void **state)
+TEST(no_beginning_of_a_frame_is_a_frame)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     for (size_t length = 0; length < sizeof rich - 2; length++) {
@@ -336,9 +329,8 @@ static void no_beginning_of_a_frame_is_a_frame(void **state)
 }
 
 /* Whatever one changed byte makes of the line: refused, or read and written the same way twice. */
-static void a_changed_byte_is_refused_or_read_for_good(void **state)
+TEST(a_changed_byte_is_refused_or_read_for_good)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     uint64_t random = 11;
@@ -375,9 +367,8 @@ static struct frame frame_with_extra(struct arena *arena, size_t length)
     return (struct frame){.scene = "a", .interval_s = 1, .ego = "e", .extra = extra};
 }
 
-static void extra_is_carried_up_to_its_limit(void **state)
+TEST(extra_is_carried_up_to_its_limit)
 {
-    (void)state;
     for (size_t length = FIELD_RAW_SIZE - 1; length <= FIELD_RAW_SIZE + 1; length++) {
         struct arena arena[2] = {0};
         struct frame written = frame_with_extra(&arena[0], length), read = {.arena = &arena[1]};
@@ -398,9 +389,8 @@ static void extra_is_carried_up_to_its_limit(void **state)
     }
 }
 
-static void a_line_is_written_up_to_its_limit(void **state)
+TEST(a_line_is_written_up_to_its_limit)
 {
-    (void)state;
     struct arena arena = {0};
     struct text text = {0};
     struct diag diag = {0};
@@ -417,21 +407,4 @@ static void a_line_is_written_up_to_its_limit(void **state)
     assert_string_equal(diag.text, "a line of 16777217 bytes; at most 16777216 are allowed");
     text_free(&text);
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rich_frame_comes_back_byte_for_byte),
-        cmocka_unit_test(keys_may_come_in_any_order_with_any_white_space),
-        cmocka_unit_test(equal_names_of_a_frame_are_one_pointer),
-        cmocka_unit_test(a_number_may_be_spelled_in_any_way),
-        cmocka_unit_test(what_is_absent_stays_absent),
-        cmocka_unit_test(faults_are_named_with_their_path_value_and_expectation),
-        cmocka_unit_test(no_beginning_of_a_frame_is_a_frame),
-        cmocka_unit_test(a_changed_byte_is_refused_or_read_for_good),
-        cmocka_unit_test(extra_is_carried_up_to_its_limit),
-        cmocka_unit_test(a_line_is_written_up_to_its_limit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

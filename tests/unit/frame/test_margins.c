@@ -4,9 +4,8 @@
 
 #include "frame/margins.h"
 
-static void a_margin_is_the_least_that_was_noted(void **state)
+TEST(a_margin_is_the_least_that_was_noted)
 {
-    (void)state;
     struct margins margins = {0};
     assert_int_equal(margins.present, 0);
     margins_note(&margins, MARGIN_LEADER, 3);
@@ -20,9 +19,8 @@ static void a_margin_is_the_least_that_was_noted(void **state)
     assert_close(margins.sign, 0, 0);
 }
 
-static void every_kind_has_its_member(void **state)
+TEST(every_kind_has_its_member)
 {
-    (void)state;
     struct margins margins = {0};
     for (int kind = 0; kind < 7; kind++)
         margins_note(&margins, (enum margin)(1 << kind), kind);
@@ -34,9 +32,8 @@ static void every_kind_has_its_member(void **state)
     assert_int_equal(margins.present, 127);
 }
 
-static void merging_keeps_the_least_of_each(void **state)
+TEST(merging_keeps_the_least_of_each)
 {
-    (void)state;
     struct margins one = {0}, other = {0};
     margins_note(&one, MARGIN_SIGHT, 1);
     margins_note(&one, MARGIN_SIGN, 0.5);
@@ -52,22 +49,10 @@ static void merging_keeps_the_least_of_each(void **state)
     assert_close(other.sight_m, 2, 0);
 }
 
-static void amplitudes_are_apart_in_decibels(void **state)
+TEST(amplitudes_are_apart_in_decibels)
 {
-    (void)state;
     static const double cases[][3] = {{10, 1, 20}, {1, 10, 20},          {3, 3, 0},
                                       {0, 1, 1e4}, {1e300, 1e-300, 1e4}, {100, 1, 40}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_close(margins_between_db(cases[i][0], cases[i][1]), cases[i][2], 1e-12);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_margin_is_the_least_that_was_noted),
-        cmocka_unit_test(every_kind_has_its_member),
-        cmocka_unit_test(merging_keeps_the_least_of_each),
-        cmocka_unit_test(amplitudes_are_apart_in_decibels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,9 +19,8 @@ static void assert_vector(struct vec2 actual, double x, double y)
     assert_close(actual.y, y, 1e-14);
 }
 
-static void a_point_lies_its_inset_behind_its_place_on_the_outline(void **state)
+TEST(a_point_lies_its_inset_behind_its_place_on_the_outline)
 {
-    (void)state;
     struct point_reflector point = {.x = 0.5, .y = -0.25};
     assert_vector(reflectors_point_place(&northward, &point), 10.5, 22);
     point.inset_m = 0.3;
@@ -30,9 +29,8 @@ static void a_point_lies_its_inset_behind_its_place_on_the_outline(void **state)
     assert_vector(reflectors_point_place(&northward, &point), 10.2, 22);
 }
 
-static void posts_stand_at_their_spacing_from_the_first(void **state)
+TEST(posts_stand_at_their_spacing_from_the_first)
 {
-    (void)state;
     static const struct post_row row = {.from_x = -0.5, .to_x = 0.5, .spacing_m = 1.5};
     assert_vector(reflectors_post_place(&northward, &row, 0), 10, 18);
     assert_vector(reflectors_post_place(&northward, &row, 1), 10, 19.5);
@@ -44,9 +42,8 @@ static void posts_stand_at_their_spacing_from_the_first(void **state)
 }
 
 /* Of 4 m in steps of 2 m, and of 0.3 m in steps of 0.1 m: as doubles their ratio is below 3. */
-static void a_post_on_the_end_of_its_row_is_one(void **state)
+TEST(a_post_on_the_end_of_its_row_is_one)
 {
-    (void)state;
     struct post_row row = {.from_x = -0.5, .to_x = 0.5, .spacing_m = 2};
     int64_t first, end;
     reflectors_posts_within(&northward, &row, (struct vec2){10, 20}, 100, &first, &end);
@@ -58,9 +55,8 @@ static void a_post_on_the_end_of_its_row_is_one(void **state)
     assert_int_equal(end, 4);
 }
 
-static void a_row_without_length_is_one_post(void **state)
+TEST(a_row_without_length_is_one_post)
 {
-    (void)state;
     static const struct post_row row = {
         .from_x = 0.5, .from_y = 0.5, .to_x = 0.5, .to_y = 0.5, .spacing_m = 2};
     int64_t first, end;
@@ -70,9 +66,8 @@ static void a_row_without_length_is_one_post(void **state)
     assert_vector(reflectors_post_place(&northward, &row, 0), 9, 22);
 }
 
-static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
+TEST(rows_are_expanded_in_range_and_no_post_is_missed)
 {
-    (void)state;
     uint64_t random = 6;
     for (int i = 0; i < 20000; i++) {
         struct box box = {.motion.position_m = {sample_between(&random, -50, 50),
@@ -106,9 +101,8 @@ static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
 }
 
 /* Posts 3 to 9 stand from 5 m to 19 m along the row, at 6 m, 8 m and so on; 2 and 10 are beside. */
-static void a_cut_keeps_the_posts_between_two_lengths_and_one_on_each_side(void **state)
+TEST(a_cut_keeps_the_posts_between_two_lengths_and_one_on_each_side)
 {
-    (void)state;
     static const struct {
         double first_m, end_m;
         int64_t first, end;
@@ -125,9 +119,8 @@ static void a_cut_keeps_the_posts_between_two_lengths_and_one_on_each_side(void 
 }
 
 /* Half of the raised cosine between 1 and 2 rad is at 1.5 rad off the facing. */
-static void visibility_follows_the_angle_from_which_a_point_is_seen(void **state)
+TEST(visibility_follows_the_angle_from_which_a_point_is_seen)
 {
-    (void)state;
     static const struct point_reflector left = {
         .y = 0.5, .facing_rad = PI / 2, .full_rad = 1, .zero_rad = 2};
     struct vec2 place = reflectors_point_place(&northward, &left);
@@ -144,9 +137,8 @@ static void visibility_follows_the_angle_from_which_a_point_is_seen(void **state
 }
 
 /* 3 dB down half a width off the facing, and no more than its depth behind. */
-static void a_lobe_lies_around_the_facing_of_its_point(void **state)
+TEST(a_lobe_lies_around_the_facing_of_its_point)
 {
-    (void)state;
     static const struct point_reflector left = {.facing_rad = PI / 2,
                                                 .lobe = {.width_rad = 0.5, .depth_db = 20}};
     struct vec2 place = reflectors_point_place(&northward, &left);
@@ -180,9 +172,8 @@ static struct vec2 in_own_frame(const struct box *box, struct vec2 place)
     return vec2_turn_back(vec2_sub(place, box->motion.position_m), box->heading);
 }
 
-static void a_point_that_is_surely_unseen_has_no_visibility(void **state)
+TEST(a_point_that_is_surely_unseen_has_no_visibility)
 {
-    (void)state;
     uint64_t random = 21;
     int dark = 0, plain = 0;
     for (int i = 0; i < 100000; i++) {
@@ -205,9 +196,8 @@ static void a_point_that_is_surely_unseen_has_no_visibility(void **state)
     assert_true(plain > 0.75 * dark && dark > 30000);
 }
 
-static void a_plane_that_surely_has_no_foot_has_none(void **state)
+TEST(a_plane_that_surely_has_no_foot_has_none)
 {
-    (void)state;
     uint64_t random = 22;
     int none = 0, plain = 0;
     for (int i = 0; i < 100000; i++) {
@@ -247,9 +237,8 @@ static struct reflector_set set_of(const struct names *names, struct arena *aren
     return set;
 }
 
-static void reflectors_of_one_set_have_names_of_their_own(void **state)
+TEST(reflectors_of_one_set_have_names_of_their_own)
 {
-    (void)state;
     static const struct {
         struct names names;
         const char *twice; /* NULL: none */
@@ -278,9 +267,8 @@ static void reflectors_of_one_set_have_names_of_their_own(void **state)
     }
 }
 
-static void one_name_among_many_is_found_twice(void **state)
+TEST(one_name_among_many_is_found_twice)
 {
-    (void)state;
     enum { MANY = 1000 };
     static char names[MANY][16];
     struct arena arena = {0};
@@ -296,9 +284,8 @@ static void one_name_among_many_is_found_twice(void **state)
 }
 
 /* The share is of the box that holds all reflectors: 1 while none stands out of the object's. */
-static void a_shape_holds_all_reflectors_of_its_set(void **state)
+TEST(a_shape_holds_all_reflectors_of_its_set)
 {
-    (void)state;
     struct arena arena = {0};
     struct reflector_set set = {.model = "m"};
     *list_add(&set.points, &arena) =
@@ -324,9 +311,8 @@ static void a_shape_holds_all_reflectors_of_its_set(void **state)
 }
 
 /* Of points, sides and rows; a reflector without a height, 0, does not count. */
-static void a_shape_tells_the_range_of_heights_of_its_set(void **state)
+TEST(a_shape_tells_the_range_of_heights_of_its_set)
 {
-    (void)state;
     struct arena arena = {0};
     struct reflector_set set = {.model = "m"};
     list_add(&set.points, &arena);
@@ -342,9 +328,8 @@ static void a_shape_tells_the_range_of_heights_of_its_set(void **state)
     arena_free(&arena);
 }
 
-static void a_set_has_its_documents_shape_until_one_of_its_lists_changes(void **state)
+TEST(a_set_has_its_documents_shape_until_one_of_its_lists_changes)
 {
-    (void)state;
     struct arena arena = {0};
     struct point_reflector points[] = {{.name = "a"}}, others[] = {{.name = "a"}};
     const struct reflectors_shape known = {.share = 7};
@@ -364,26 +349,4 @@ static void a_set_has_its_documents_shape_until_one_of_its_lists_changes(void **
     list_add(&set.mirrors, &arena)->reflection = 1;
     assert_false(reflectors_unchanged(&set));
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_point_lies_its_inset_behind_its_place_on_the_outline),
-        cmocka_unit_test(posts_stand_at_their_spacing_from_the_first),
-        cmocka_unit_test(a_post_on_the_end_of_its_row_is_one),
-        cmocka_unit_test(a_row_without_length_is_one_post),
-        cmocka_unit_test(rows_are_expanded_in_range_and_no_post_is_missed),
-        cmocka_unit_test(a_cut_keeps_the_posts_between_two_lengths_and_one_on_each_side),
-        cmocka_unit_test(visibility_follows_the_angle_from_which_a_point_is_seen),
-        cmocka_unit_test(a_lobe_lies_around_the_facing_of_its_point),
-        cmocka_unit_test(a_point_that_is_surely_unseen_has_no_visibility),
-        cmocka_unit_test(a_plane_that_surely_has_no_foot_has_none),
-        cmocka_unit_test(reflectors_of_one_set_have_names_of_their_own),
-        cmocka_unit_test(one_name_among_many_is_found_twice),
-        cmocka_unit_test(a_shape_holds_all_reflectors_of_its_set),
-        cmocka_unit_test(a_shape_tells_the_range_of_heights_of_its_set),
-        cmocka_unit_test(a_set_has_its_documents_shape_until_one_of_its_lists_changes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,9 +16,8 @@ static uint64_t after(const char *text, uint64_t before, int64_t number)
     return frame.sections;
 }
 
-static void words_change_what_the_frame_says(void **state)
+TEST(words_change_what_the_frame_says)
 {
-    (void)state;
     static const struct {
         const char *text;
         uint64_t before, after;
@@ -38,9 +37,8 @@ static void words_change_what_the_frame_says(void **state)
         assert_int_equal(after(cases[i].text, cases[i].before, 7), cases[i].after);
 }
 
-static void an_account_of_every_tenth_frame_is_in_frames_0_10_and_20(void **state)
+TEST(an_account_of_every_tenth_frame_is_in_frames_0_10_and_20)
 {
-    (void)state;
     for (int64_t number = 0; number < 30; number++) {
         uint64_t due = number % 10 == 0 ? CARRY_ACCOUNT : 0;
         assert_int_equal(after("account:every=10", 0, number), due);
@@ -49,9 +47,8 @@ static void an_account_of_every_tenth_frame_is_in_frames_0_10_and_20(void **stat
     }
 }
 
-static void what_is_no_section_is_refused(void **state)
+TEST(what_is_no_section_is_refused)
 {
-    (void)state;
     static const struct {
         const char *text, *message;
     } cases[] = {
@@ -77,9 +74,8 @@ static void what_is_no_section_is_refused(void **state)
     }
 }
 
-static void a_word_is_taken_until_its_stage_has_run(void **state)
+TEST(a_word_is_taken_until_its_stage_has_run)
 {
-    (void)state;
     static const struct {
         const char *word;
         unsigned before, after; /* parts of a frame that still takes it, and that does not */
@@ -105,9 +101,8 @@ static void a_word_is_taken_until_its_stage_has_run(void **state)
     }
 }
 
-static void parts_go_when_no_later_stage_reads_them(void **state)
+TEST(parts_go_when_no_later_stage_reads_them)
 {
-    (void)state;
     static const struct {
         uint64_t carried;
         unsigned present, left;
@@ -130,9 +125,8 @@ static void parts_go_when_no_later_stage_reads_them(void **state)
     }
 }
 
-static void margins_that_are_left_out_go_at_once(void **state)
+TEST(margins_that_are_left_out_go_at_once)
 {
-    (void)state;
     struct echo echo = {.margins.present = MARGIN_SIGHT};
     struct lost_echo lost = {.margins.present = MARGIN_SIGHT};
     struct lost_group group = {.echoes = {&lost, 1, 1}};
@@ -148,9 +142,8 @@ static void margins_that_are_left_out_go_at_once(void **state)
     assert_int_equal(lost.margins.present, 0);
 }
 
-static void quality_that_is_left_out_goes_at_once(void **state)
+TEST(quality_that_is_left_out_goes_at_once)
 {
-    (void)state;
     struct target target = {.quality = {.snr_db = 20, .present = QUALITY_NOISE}};
     struct frame frame = {.sections = CARRY_QUALITY};
     struct sections_change change;
@@ -160,18 +153,4 @@ static void quality_that_is_left_out_goes_at_once(void **state)
     assert_int_equal(sections_read("-quality", &change, &diag), 0);
     assert_int_equal(sections_apply(&change, &frame, &diag), 0);
     assert_int_equal(target.quality.present, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_change_what_the_frame_says),
-        cmocka_unit_test(an_account_of_every_tenth_frame_is_in_frames_0_10_and_20),
-        cmocka_unit_test(what_is_no_section_is_refused),
-        cmocka_unit_test(a_word_is_taken_until_its_stage_has_run),
-        cmocka_unit_test(parts_go_when_no_later_stage_reads_them),
-        cmocka_unit_test(margins_that_are_left_out_go_at_once),
-        cmocka_unit_test(quality_that_is_left_out_goes_at_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,9 +5,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static void levels_begin_at_their_lower_border(void **state)
+TEST(levels_begin_at_their_lower_border)
 {
-    (void)state;
     static const struct {
         int64_t in_view, blocked;
         int visibility;
@@ -30,9 +29,8 @@ static struct contributor from(const char *object, enum path path, const char *m
 
 /* A target of car and van together, one of the car alone with a wheel, one of the car's ghost with
  * clutter beside it, and a false alarm. */
-static void targets_count_once_for_an_object_and_kind(void **state)
+TEST(targets_count_once_for_an_object_and_kind)
 {
-    (void)state;
     struct contributor both[] = {from("car", PATH_DIRECT, NULL), from("car", PATH_DIRECT, NULL),
                                  from("van", PATH_DIRECT, NULL)};
     struct contributor alone[] = {from("car", PATH_DIRECT, NULL), from("car", PATH_WHEEL, NULL)};
@@ -56,13 +54,4 @@ static void targets_count_once_for_an_object_and_kind(void **state)
         assert_int_equal(sightings[i].merged, due[i][1]);
         assert_int_equal(sightings[i].ghosts, due[i][2]);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(levels_begin_at_their_lower_border),
-        cmocka_unit_test(targets_count_once_for_an_object_and_kind),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

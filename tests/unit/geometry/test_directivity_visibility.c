@@ -9,9 +9,8 @@ static double degrees(double angle_deg)
     return angle_deg * (PI / 180);
 }
 
-static void known_directions_enclose_known_angles(void **state)
+TEST(known_directions_enclose_known_angles)
 {
-    (void)state;
     static const struct {
         struct vec2 a, b;
         double angle_rad;
@@ -42,9 +41,8 @@ static double long_angle_rad(struct vec2 a, struct vec2 b)
 }
 
 /* Nearly parallel and nearly opposite pairs, where acos of the dot product fails. */
-static void nearly_parallel_directions_keep_their_angle(void **state)
+TEST(nearly_parallel_directions_keep_their_angle)
 {
-    (void)state;
     uint64_t sample = 12;
     for (int i = 0; i < 300000; i++) {
         struct vec2 a = {sample_between(&sample, -50, 50), sample_between(&sample, -50, 50)};
@@ -61,9 +59,8 @@ static void nearly_parallel_directions_keep_their_angle(void **state)
 }
 
 /* Values of a car's corner (MODEL 2.1: full to 30°, zero at 75°) and of its limits. */
-static void shapes_have_their_closed_form_values(void **state)
+TEST(shapes_have_their_closed_form_values)
 {
-    (void)state;
     static const struct {
         enum visibility_shape shape;
         double full_deg, zero_deg, delta_deg, value;
@@ -109,9 +106,8 @@ static void shapes_have_their_closed_form_values(void **state)
                      cases[i].value, 1e-15);
 }
 
-static void hard_includes_its_edge_and_the_tapered_shapes_end_in_zero(void **state)
+TEST(hard_includes_its_edge_and_the_tapered_shapes_end_in_zero)
 {
-    (void)state;
     static const enum visibility_shape tapered[] = {VISIBILITY_RAISED_COSINE, VISIBILITY_LINEAR,
                                                     VISIBILITY_COSINE};
     uint64_t sample = 5;
@@ -133,9 +129,8 @@ static void hard_includes_its_edge_and_the_tapered_shapes_end_in_zero(void **sta
     }
 }
 
-static void every_shape_falls_from_one_to_zero(void **state)
+TEST(every_shape_falls_from_one_to_zero)
 {
-    (void)state;
     for (enum visibility_shape shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE;
          shape++) {
         double before = 1;
@@ -149,9 +144,8 @@ static void every_shape_falls_from_one_to_zero(void **state)
     }
 }
 
-static void along_a_vector_visibility_is_that_at_its_angle(void **state)
+TEST(along_a_vector_visibility_is_that_at_its_angle)
 {
-    (void)state;
     uint64_t sample = 7;
     size_t plain = 0;
     for (int i = 0; i < 200000; i++) {
@@ -185,9 +179,8 @@ static void along_a_vector_visibility_is_that_at_its_angle(void **state)
 }
 
 /* Viewers within slack_m of the edge of visibility. */
-static void a_point_surely_unseen_is_unseen_by_all_viewers_nearby(void **state)
+TEST(a_point_surely_unseen_is_unseen_by_all_viewers_nearby)
 {
-    (void)state;
     uint64_t sample = 27;
     int unseen = 0;
     for (int i = 0; i < 300000; i++) {
@@ -208,18 +201,4 @@ static void a_point_surely_unseen_is_unseen_by_all_viewers_nearby(void **state)
     assert_true(unseen > 50000);
     assert_false(directivity_surely_zero(directivity_dark_cosine(PI), (struct vec2){1, 0},
                                          (struct vec2){-9, 0}, 0));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_directions_enclose_known_angles),
-        cmocka_unit_test(nearly_parallel_directions_keep_their_angle),
-        cmocka_unit_test(shapes_have_their_closed_form_values),
-        cmocka_unit_test(hard_includes_its_edge_and_the_tapered_shapes_end_in_zero),
-        cmocka_unit_test(every_shape_falls_from_one_to_zero),
-        cmocka_unit_test(along_a_vector_visibility_is_that_at_its_angle),
-        cmocka_unit_test(a_point_surely_unseen_is_unseen_by_all_viewers_nearby),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

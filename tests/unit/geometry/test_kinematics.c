@@ -6,9 +6,8 @@
 
 __extension__ typedef __int128 wide;
 
-static void known_points_are_read_as_computed_by_hand(void **state)
+TEST(known_points_are_read_as_computed_by_hand)
 {
-    (void)state;
     static const struct {
         struct vec2 sensor_m, sensor_mps, boresight, point_m, point_mps;
         struct kinematics kinematics;
@@ -41,9 +40,8 @@ static void known_points_are_read_as_computed_by_hand(void **state)
     }
 }
 
-static void range_and_azimuth_are_those_the_point_was_placed_at(void **state)
+TEST(range_and_azimuth_are_those_the_point_was_placed_at)
 {
-    (void)state;
     uint64_t sample = 1;
     for (int i = 0; i < 100000; i++) {
         double range_m = sample_between(&sample, 0.1, 300);
@@ -74,9 +72,8 @@ static struct vec2 mirror(struct vec2 a)
     return (struct vec2){a.x, -a.y};
 }
 
-static void a_mirrored_scene_negates_the_azimuth_and_nothing_else(void **state)
+TEST(a_mirrored_scene_negates_the_azimuth_and_nothing_else)
 {
-    (void)state;
     uint64_t sample = 2;
     for (int i = 0; i < 200000; i++) {
         struct vec2 sensor_m = sample_vector(&sample, 100);
@@ -96,9 +93,8 @@ static void a_mirrored_scene_negates_the_azimuth_and_nothing_else(void **state)
 
 /* Coordinates and speeds are whole numbers of 2^-30, so v · r is known exactly. Its products take
  * up to 81 bits and cancel down to the last 40. */
-static void nearly_tangential_motion_keeps_its_sign_and_its_size(void **state)
+TEST(nearly_tangential_motion_keeps_its_sign_and_its_size)
 {
-    (void)state;
     uint64_t sample = 35;
     for (int i = 0; i < 300000; i++) {
         int64_t x = sample_integer(&sample, INT64_C(1) << 42);
@@ -115,15 +111,4 @@ static void nearly_tangential_motion_keeps_its_sign_and_its_size(void **state)
         assert_true((kinematics.range_rate_mps > 0) == (product > 0));
         assert_true((kinematics.range_rate_mps < 0) == (product < 0));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_points_are_read_as_computed_by_hand),
-        cmocka_unit_test(range_and_azimuth_are_those_the_point_was_placed_at),
-        cmocka_unit_test(a_mirrored_scene_negates_the_azimuth_and_nothing_else),
-        cmocka_unit_test(nearly_tangential_motion_keeps_its_sign_and_its_size),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

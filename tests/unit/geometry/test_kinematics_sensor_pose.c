@@ -16,9 +16,8 @@ static void assert_vector(struct vec2 actual, double x, double y)
     assert_close(actual.y, y, 1e-14);
 }
 
-static void a_sensor_stands_at_its_mount_turned_with_the_ego(void **state)
+TEST(a_sensor_stands_at_its_mount_turned_with_the_ego)
 {
-    (void)state;
     const struct motion ego = turning_ego();
     struct sensor_pose front = kinematics_sensor_pose(&ego, 5, 0, 0);
     assert_vector(front.position_m, 13, 24);
@@ -26,9 +25,8 @@ static void a_sensor_stands_at_its_mount_turned_with_the_ego(void **state)
     assert_vector(left_front.position_m, 13 - 0.8, 24 + 0.6);
 }
 
-static void a_sensor_moves_with_the_ego_and_aside_with_its_turn(void **state)
+TEST(a_sensor_moves_with_the_ego_and_aside_with_its_turn)
 {
-    (void)state;
     const struct motion ego = turning_ego();
     struct sensor_pose centre = kinematics_sensor_pose(&ego, 0, 0, 0);
     assert_vector(centre.velocity_mps, 3, 4);
@@ -40,9 +38,8 @@ static void a_sensor_moves_with_the_ego_and_aside_with_its_turn(void **state)
     assert_vector(rear_looking.velocity_mps, 1, 5.5);
 }
 
-static void a_sensor_looks_along_its_own_yaw_from_the_ego_s(void **state)
+TEST(a_sensor_looks_along_its_own_yaw_from_the_ego_s)
 {
-    (void)state;
     const struct motion ego = turning_ego();
     assert_vector(kinematics_sensor_pose(&ego, 5, 1, 0).boresight, 0.6, 0.8);
     assert_vector(kinematics_sensor_pose(&ego, 5, 1, PI / 2).boresight, -0.8, 0.6);
@@ -51,9 +48,8 @@ static void a_sensor_looks_along_its_own_yaw_from_the_ego_s(void **state)
 }
 
 /* A central difference of the mount's place 0.1 ms earlier and later. */
-static void the_velocity_is_the_rate_of_change_of_the_position(void **state)
+TEST(the_velocity_is_the_rate_of_change_of_the_position)
 {
-    (void)state;
     uint64_t sample = 1;
     for (int i = 0; i < 1000; i++) {
         struct motion ego = {
@@ -70,15 +66,4 @@ static void the_velocity_is_the_rate_of_change_of_the_position(void **state)
         assert_close(moved_m.x / (2 * step_s), velocity_mps.x, 1e-6);
         assert_close(moved_m.y / (2 * step_s), velocity_mps.y, 1e-6);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sensor_stands_at_its_mount_turned_with_the_ego),
-        cmocka_unit_test(a_sensor_moves_with_the_ego_and_aside_with_its_turn),
-        cmocka_unit_test(a_sensor_looks_along_its_own_yaw_from_the_ego_s),
-        cmocka_unit_test(the_velocity_is_the_rate_of_change_of_the_position),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

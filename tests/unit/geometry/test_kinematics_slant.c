@@ -7,9 +7,8 @@
 #define DEGREE (PI / 180)
 
 /* The example of MODEL 14.2: half a metre of difference in height. */
-static void slant_ranges_are_those_of_the_model(void **state)
+TEST(slant_ranges_are_those_of_the_model)
 {
-    (void)state;
     static const struct {
         double distance_m, extra_m, cosine;
     } rows[] = {{3, 0.041381, 0.986394},
@@ -32,9 +31,8 @@ static double ulps(double actual, long double expected)
 }
 
 /* A line array along y reads the angle between the sight line and the plane across it. */
-static void azimuths_are_those_of_a_cone(void **state)
+TEST(azimuths_are_those_of_a_cone)
 {
-    (void)state;
     uint64_t sample = 19;
     for (int i = 0; i < 100000; i++) {
         double distance_m = sample_between(&sample, 0.5, 100);
@@ -52,9 +50,8 @@ static void azimuths_are_those_of_a_cone(void **state)
     }
 }
 
-static void abeam_the_azimuth_is_90_degrees_less_the_elevation(void **state)
+TEST(abeam_the_azimuth_is_90_degrees_less_the_elevation)
 {
-    (void)state;
     struct slant elevation = kinematics_slant(3, 4);
     double up_rad = atan2(4, 3);
     assert_close(kinematics_slant_azimuth_rad(elevation, PI / 2), PI / 2 - up_rad, 1e-15);
@@ -62,9 +59,8 @@ static void abeam_the_azimuth_is_90_degrees_less_the_elevation(void **state)
     assert_close(kinematics_slant_azimuth_rad(elevation, 0), 0, 0);
 }
 
-static void at_equal_heights_nothing_changes(void **state)
+TEST(at_equal_heights_nothing_changes)
 {
-    (void)state;
     uint64_t sample = 20;
     for (int i = 0; i < 10000; i++) {
         double distance_m = sample_between(&sample, 1e-3, 300);
@@ -78,9 +74,8 @@ static void at_equal_heights_nothing_changes(void **state)
     }
 }
 
-static void half_the_power_is_left_at_half_the_width(void **state)
+TEST(half_the_power_is_left_at_half_the_width)
 {
-    (void)state;
     for (int deg = 1; deg <= 20; deg++)
         for (int sign = -1; sign <= 1; sign += 2) {
             struct slant edge =
@@ -91,9 +86,8 @@ static void half_the_power_is_left_at_half_the_width(void **state)
         }
 }
 
-static void the_zenith_and_the_sensors_own_place_have_answers(void **state)
+TEST(the_zenith_and_the_sensors_own_place_have_answers)
 {
-    (void)state;
     struct slant zenith = kinematics_slant(0, 2);
     assert_close(zenith.range_m, 2, 0);
     assert_close(zenith.cosine, 0, 0);
@@ -103,17 +97,4 @@ static void the_zenith_and_the_sensors_own_place_have_answers(void **state)
     assert_close(here.range_m, 0, 0);
     assert_close(here.cosine, 1, 0);
     assert_close(kinematics_slant_amplitude_factor(here, 5 * DEGREE), 1, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slant_ranges_are_those_of_the_model),
-        cmocka_unit_test(azimuths_are_those_of_a_cone),
-        cmocka_unit_test(abeam_the_azimuth_is_90_degrees_less_the_elevation),
-        cmocka_unit_test(at_equal_heights_nothing_changes),
-        cmocka_unit_test(half_the_power_is_left_at_half_the_width),
-        cmocka_unit_test(the_zenith_and_the_sensors_own_place_have_answers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

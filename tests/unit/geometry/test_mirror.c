@@ -32,9 +32,8 @@ static struct mirror random_mirror(uint64_t *sample)
     return mirror_of(a, b, body, random_place(sample, 40));
 }
 
-static void the_example_of_the_model_has_its_image_and_its_bounce(void **state)
+TEST(the_example_of_the_model_has_its_image_and_its_bounce)
 {
-    (void)state;
     struct mirror wall = mirror_between((struct vec2){-10, 4}, (struct vec2){50, 4});
     struct mirror_image image = mirror_image(&wall, (struct vec2){30, -2}, (struct vec2){-5, 0});
     assert_close(image.place_m.x, 30, 0);
@@ -47,9 +46,8 @@ static void the_example_of_the_model_has_its_image_and_its_bounce(void **state)
     assert_close(bounce.y, 4, 1e-15);
 }
 
-static void known_walls_mirror_or_do_not(void **state)
+TEST(known_walls_mirror_or_do_not)
 {
-    (void)state;
     static const struct {
         struct vec2 a, b, sensor, point;
         bool exists;
@@ -104,9 +102,8 @@ static void known_walls_mirror_or_do_not(void **state)
     }
 }
 
-static void a_bounce_lies_on_the_wall_and_its_legs_add_up_to_the_image(void **state)
+TEST(a_bounce_lies_on_the_wall_and_its_legs_add_up_to_the_image)
 {
-    (void)state;
     uint64_t sample = 71;
     int found = 0;
     for (int i = 0; i < 200000; i++) {
@@ -132,9 +129,8 @@ static void a_bounce_lies_on_the_wall_and_its_legs_add_up_to_the_image(void **st
 
 /* Fermat: of all ways by the wall's line the mirrored one is the shortest. Golden section finds it
  * from the lengths alone; it exists if its parameter lies inside the wall. */
-static void the_bounce_is_the_shortest_way_by_the_wall(void **state)
+TEST(the_bounce_is_the_shortest_way_by_the_wall)
 {
-    (void)state;
     uint64_t sample = 72;
     int inside = 0, outside = 0;
     for (int i = 0; i < 5000; i++) {
@@ -172,9 +168,8 @@ static void the_bounce_is_the_shortest_way_by_the_wall(void **state)
 }
 
 /* Two pieces of a wall along an axis: a wave that bounces off their joint bounces off both. */
-static void a_joint_of_two_pieces_along_an_axis_never_loses_the_bounce(void **state)
+TEST(a_joint_of_two_pieces_along_an_axis_never_loses_the_bounce)
 {
-    (void)state;
     uint64_t sample = 73;
     for (int i = 0; i < 100000; i++) {
         double joint = (double)sample_integer(&sample, 1 << 20) * 0x1p-14;
@@ -195,9 +190,8 @@ static void a_joint_of_two_pieces_along_an_axis_never_loses_the_bounce(void **st
     }
 }
 
-static void a_mirrored_scene_has_the_mirrored_answer_to_the_last_bit(void **state)
+TEST(a_mirrored_scene_has_the_mirrored_answer_to_the_last_bit)
 {
-    (void)state;
     uint64_t sample = 74;
     int found = 0;
     for (int i = 0; i < 100000; i++) {
@@ -244,9 +238,8 @@ static struct vec2 image_after(const struct mirror *mirror, struct vec2 point, s
 
 /* The central difference misses the derivative by a constant times step^2 (third derivatives of
  * a wall 100 m long turning at 1 rad/s under points of 40 m/s), and by rounding over the step. */
-static void the_images_velocity_is_the_derivative_of_its_place(void **state)
+TEST(the_images_velocity_is_the_derivative_of_its_place)
 {
-    (void)state;
     static const double steps_s[] = {1e-2, 1e-3, 1e-4, 1e-5};
     uint64_t sample = 75;
     for (int i = 0; i < 3000; i++) {
@@ -266,9 +259,8 @@ static void the_images_velocity_is_the_derivative_of_its_place(void **state)
     }
 }
 
-static void no_wall_that_mirrors_a_point_of_the_disc_is_left_out(void **state)
+TEST(no_wall_that_mirrors_a_point_of_the_disc_is_left_out)
 {
-    (void)state;
     uint64_t sample = 76;
     int mirrored = 0, left_out = 0, needless = 0;
     for (int i = 0; i < 1000000; i++) {
@@ -300,9 +292,8 @@ static void no_wall_that_mirrors_a_point_of_the_disc_is_left_out(void **state)
 }
 
 /* Built so that the disc just touches one of the two rays through the wall's ends. */
-static void a_disc_that_touches_the_mirrored_sector_is_not_left_out(void **state)
+TEST(a_disc_that_touches_the_mirrored_sector_is_not_left_out)
 {
-    (void)state;
     uint64_t sample = 77;
     for (int i = 0; i < 100000; i++) {
         struct vec2 b = {sample_between(&sample, 1, 30), 4};
@@ -324,9 +315,8 @@ static void a_disc_that_touches_the_mirrored_sector_is_not_left_out(void **state
 
 /* Lines of 60 m, some of them along the wall or towards its ends. What is kept has few places too
  * many, so that a cut at the wrong side would be seen. */
-static void a_clipped_line_keeps_every_place_with_a_bounce(void **state)
+TEST(a_clipped_line_keeps_every_place_with_a_bounce)
 {
-    (void)state;
     uint64_t sample = 78;
     int mirrored = 0, left_out = 0, needless = 0;
     for (int i = 0; i < 200000; i++) {
@@ -355,21 +345,4 @@ static void a_clipped_line_keeps_every_place_with_a_bounce(void **state)
     assert_true(mirrored > 100000);
     assert_true(left_out > 500000);
     assert_true(needless < 1000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_example_of_the_model_has_its_image_and_its_bounce),
-        cmocka_unit_test(known_walls_mirror_or_do_not),
-        cmocka_unit_test(a_bounce_lies_on_the_wall_and_its_legs_add_up_to_the_image),
-        cmocka_unit_test(the_bounce_is_the_shortest_way_by_the_wall),
-        cmocka_unit_test(a_joint_of_two_pieces_along_an_axis_never_loses_the_bounce),
-        cmocka_unit_test(a_mirrored_scene_has_the_mirrored_answer_to_the_last_bit),
-        cmocka_unit_test(the_images_velocity_is_the_derivative_of_its_place),
-        cmocka_unit_test(no_wall_that_mirrors_a_point_of_the_disc_is_left_out),
-        cmocka_unit_test(a_disc_that_touches_the_mirrored_sector_is_not_left_out),
-        cmocka_unit_test(a_clipped_line_keeps_every_place_with_a_bounce),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,9 +42,8 @@ static double power_db(const struct mirror_ghost *ghost, const struct kinematics
     return 20 * log10(ghost->ercs_factor * ratio * ratio);
 }
 
-static void the_example_of_the_model_has_its_ghosts(void **state)
+TEST(the_example_of_the_model_has_its_ghosts)
 {
-    (void)state;
     struct mirror_image image = image_in(&STANDARD);
     struct kinematics direct = look_at(&STANDARD, &STANDARD.object);
     struct kinematics mirrored = look_at(&STANDARD, &image);
@@ -68,9 +67,8 @@ static void the_example_of_the_model_has_its_ghosts(void **state)
     }
 }
 
-static void a_wall_that_reflects_nothing_has_ghosts_of_zero_and_never_nan(void **state)
+TEST(a_wall_that_reflects_nothing_has_ghosts_of_zero_and_never_nan)
 {
-    (void)state;
     struct mirror_image image = image_in(&STANDARD);
     struct kinematics direct = look_at(&STANDARD, &STANDARD.object);
     struct kinematics mirrored = look_at(&STANDARD, &image);
@@ -143,9 +141,8 @@ static bool measure(const struct scene *scene, double range_m[PATHS])
 }
 
 /* The wall turns and drives, so do the sensor and the object. */
-static void ranges_are_half_the_legs_and_rates_their_derivatives(void **state)
+TEST(ranges_are_half_the_legs_and_rates_their_derivatives)
 {
-    (void)state;
     static const double steps_s[] = {1e-3, 1e-4, 1e-5};
     uint64_t sample = 78;
     int found = 0;
@@ -175,14 +172,4 @@ static void ranges_are_half_the_legs_and_rates_their_derivatives(void **state)
         }
     }
     assert_true(found > 3000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_example_of_the_model_has_its_ghosts),
-        cmocka_unit_test(a_wall_that_reflects_nothing_has_ghosts_of_zero_and_never_nan),
-        cmocka_unit_test(ranges_are_half_the_legs_and_rates_their_derivatives),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,9 +9,8 @@ static struct vec2 unit(struct vec2 a, struct vec2 b)
     return vec2_scale(1 / vec2_length(way), way);
 }
 
-static void known_sides_have_known_feet(void **state)
+TEST(known_sides_have_known_feet)
 {
-    (void)state;
     static const struct {
         struct vec2 a, b;
         double margin_m;
@@ -65,9 +64,8 @@ static void known_sides_have_known_feet(void **state)
 
 /* Sides are built around their foot: it lies at t along the side from the nearer end, the sensor
  * straight outwards of it. */
-static void the_foot_is_where_the_side_was_built_around(void **state)
+TEST(the_foot_is_where_the_side_was_built_around)
 {
-    (void)state;
     uint64_t sample = 7;
     for (int i = 0; i < 100000; i++) {
         struct vec2 along = vec2_heading(sample_between(&sample, -3.2, 3.2));
@@ -93,9 +91,8 @@ static void the_foot_is_where_the_side_was_built_around(void **state)
     }
 }
 
-static void a_mirrored_side_has_the_mirrored_foot_to_the_last_bit(void **state)
+TEST(a_mirrored_side_has_the_mirrored_foot_to_the_last_bit)
 {
-    (void)state;
     uint64_t sample = 8;
     int found = 0;
     for (int i = 0; i < 100000; i++) {
@@ -119,9 +116,8 @@ static void a_mirrored_side_has_the_mirrored_foot_to_the_last_bit(void **state)
 /* Two collinear walls on a lattice of 2^-40 m, the sensor straight before their joint or a little
  * to either side: with walls along (m, c m + 1) and the offset (c, -1) it is off by one part in
  * 2^80. Exactly straight before it, both walls hold the foot. */
-static void a_joint_of_collinear_walls_never_loses_the_foot(void **state)
+TEST(a_joint_of_collinear_walls_never_loses_the_foot)
 {
-    (void)state;
     uint64_t sample = 33;
     for (int i = 0; i < 200000; i++) {
         double m = (double)sample_integer(&sample, INT64_C(1) << 40);
@@ -139,15 +135,4 @@ static void a_joint_of_collinear_walls_never_loses_the_foot(void **state)
         assert_int_equal(mirror_specular_point(before, joint, step, 0, sensor, &foot), side >= 0);
         assert_int_equal(mirror_specular_point(joint, after, step, 0, sensor, &foot), side <= 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_sides_have_known_feet),
-        cmocka_unit_test(the_foot_is_where_the_side_was_built_around),
-        cmocka_unit_test(a_mirrored_side_has_the_mirrored_foot_to_the_last_bit),
-        cmocka_unit_test(a_joint_of_collinear_walls_never_loses_the_foot),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,9 +39,8 @@ static struct motion drive(size_t i, struct vec2 from_m, double duration_s)
                         drives[i].yaw_rate_radps, duration_s);
 }
 
-static void a_drive_ends_where_numerical_integration_ends(void **state)
+TEST(a_drive_ends_where_numerical_integration_ends)
 {
-    (void)state;
     for (size_t i = 0; i < DRIVES; i++) {
         double duration_s = drives[i].duration_s;
         struct vec2 moved_m = integrate_drive_m(i, duration_s);
@@ -57,9 +56,8 @@ static void a_drive_ends_where_numerical_integration_ends(void **state)
     }
 }
 
-static void a_drive_starts_at_its_place_and_shifts_with_it(void **state)
+TEST(a_drive_starts_at_its_place_and_shifts_with_it)
 {
-    (void)state;
     for (size_t i = 0; i < DRIVES; i++) {
         struct motion start = drive(i, (struct vec2){3, -4}, 0);
         assert_true(start.position_m.x == 3 && start.position_m.y == -4);
@@ -85,9 +83,8 @@ static double series_j1(double h)
 
 /* Two seconds that come to rest at half time, in the frame of the heading there: only the term of
  * j1 is left, and the turn is h = omega. */
-static void a_reversal_at_half_time_leaves_the_sideways_term_alone(void **state)
+TEST(a_reversal_at_half_time_leaves_the_sideways_term_alone)
 {
-    (void)state;
     for (int i = 0; i < 4000; i++) {
         double h = i < 1000 ? 1e-300 * pow(10, i * 0.3) : (i - 999) * 1e-3;
         for (int sign = -1; sign <= 1; sign += 2) {
@@ -99,9 +96,8 @@ static void a_reversal_at_half_time_leaves_the_sideways_term_alone(void **state)
 }
 
 /* Expected from the first terms of the series of sine and cosine in omega t. */
-static void a_hardly_turning_step_is_not_lost_to_rounding(void **state)
+TEST(a_hardly_turning_step_is_not_lost_to_rounding)
 {
-    (void)state;
     static const double rates_radps[] = {0, 1e-300, 1.3e-14, -1.3e-14, 1e-9, 1e-6, -1e-4};
     for (size_t i = 0; i < sizeof rates_radps / sizeof *rates_radps; i++) {
         long double turn_rad = (long double)rates_radps[i] * 0.1L;
@@ -117,9 +113,8 @@ static void a_hardly_turning_step_is_not_lost_to_rounding(void **state)
     }
 }
 
-static void a_full_circle_ends_at_its_start(void **state)
+TEST(a_full_circle_ends_at_its_start)
 {
-    (void)state;
     struct motion body = {{5, 7}, {10, 0}, 0, 0.5};
     struct motion half = motion_after(body, 2 * PI);
     assert_close(half.position_m.x, 5, 1e-14);
@@ -132,9 +127,8 @@ static void a_full_circle_ends_at_its_start(void **state)
     assert_close(full.yaw_rad, 2 * PI, 1e-15);
 }
 
-static void going_forth_and_back_returns(void **state)
+TEST(going_forth_and_back_returns)
 {
-    (void)state;
     uint64_t sample = 4;
     for (int i = 0; i < 100000; i++) {
         struct motion body = {
@@ -154,18 +148,16 @@ static void going_forth_and_back_returns(void **state)
     }
 }
 
-static void a_crabbing_body_moves_along_its_velocity_and_not_its_yaw(void **state)
+TEST(a_crabbing_body_moves_along_its_velocity_and_not_its_yaw)
 {
-    (void)state;
     struct motion end = motion_after((struct motion){{1, 1}, {0, 3}, 0.4, 0}, 2);
     assert_close(end.position_m.x, 1, 0);
     assert_close(end.position_m.y, 7, 0);
     assert_close(end.yaw_rad, 0.4, 0);
 }
 
-static void the_path_length_counts_reversing_forward(void **state)
+TEST(the_path_length_counts_reversing_forward)
 {
-    (void)state;
     static const struct {
         double speed_mps, acceleration_mps2, duration_s, length_m;
     } cases[] = {
@@ -182,9 +174,8 @@ static void the_path_length_counts_reversing_forward(void **state)
 }
 
 /* Straight lines: the length is the way to the turning point and from there, whatever the turn. */
-static void the_path_length_is_the_sum_of_its_two_ways(void **state)
+TEST(the_path_length_is_the_sum_of_its_two_ways)
 {
-    (void)state;
     uint64_t sample = 6;
     for (int i = 0; i < 100000; i++) {
         double speed_mps = sample_between(&sample, -50, 50);
@@ -202,9 +193,8 @@ static void the_path_length_is_the_sum_of_its_two_ways(void **state)
     }
 }
 
-static void a_material_point_moves_with_its_body(void **state)
+TEST(a_material_point_moves_with_its_body)
 {
-    (void)state;
     struct motion body = {{10, 20}, {3, 4}, 0.5, 2};
     struct vec2 own = motion_velocity_at(&body, body.position_m);
     assert_true(own.x == 3 && own.y == 4);
@@ -216,9 +206,8 @@ static void a_material_point_moves_with_its_body(void **state)
 
 /* The velocity of a point fixed to the body against the place of that point a little earlier and
  * later. */
-static void a_material_points_velocity_is_the_rate_of_its_place(void **state)
+TEST(a_material_points_velocity_is_the_rate_of_its_place)
 {
-    (void)state;
     const struct motion body = {{10, 20}, {3, 4}, 0.5, 2};
     const struct vec2 own_m = {1.5, -0.7};
     struct vec2 places[3];
@@ -231,9 +220,8 @@ static void a_material_points_velocity_is_the_rate_of_its_place(void **state)
     assert_close(velocity_mps.y, (places[2].y - places[0].y) / 2e-4, 1e-7);
 }
 
-static void a_mirrored_drive_ends_mirrored_to_the_last_bit(void **state)
+TEST(a_mirrored_drive_ends_mirrored_to_the_last_bit)
 {
-    (void)state;
     for (size_t i = 0; i < DRIVES; i++) {
         struct motion left = drive(i, (struct vec2){3, 4}, drives[i].duration_s);
         struct motion right = motion_drive((struct vec2){3, -4}, -drives[i].yaw_rad,
@@ -274,9 +262,8 @@ static void assert_vectors_close(struct vec2 actual, struct vec2 expected, doubl
     assert_close(actual.y, expected.y, tolerance);
 }
 
-static void a_hermite_span_of_a_cubic_is_that_cubic(void **state)
+TEST(a_hermite_span_of_a_cubic_is_that_cubic)
 {
-    (void)state;
     static const struct vec2 straight[4] = {{3, -2}, {10, 5}, {0, 0}, {0, 0}};
     static const struct vec2 braking[4] = {{3, -2}, {10, 0}, {-1.5, 0}, {0, 0}};
     static const struct vec2 lane_change[4] = {{-40, 7}, {20, 0}, {0.3, 0.7}, {-0.2, -0.11}};
@@ -293,9 +280,8 @@ static void a_hermite_span_of_a_cubic_is_that_cubic(void **state)
     }
 }
 
-static void a_hermite_span_keeps_its_end_velocities_and_a_standing_body(void **state)
+TEST(a_hermite_span_keeps_its_end_velocities_and_a_standing_body)
 {
-    (void)state;
     const struct vec2 from_m = {0.1, 0.7}, to_m = {30.3, -0.9}, rest = {0, 0};
     const struct vec2 from_mps = {13.7, 0.3}, to_mps = {9.1, -2.2};
     struct hermite at;
@@ -330,9 +316,8 @@ static double least_mps(double from_mps, double to_mps)
     return least;
 }
 
-static void a_monotone_share_stops_spans_from_running_back_and_leaves_all_others(void **state)
+TEST(a_monotone_share_stops_spans_from_running_back_and_leaves_all_others)
 {
-    (void)state;
     for (int i = 0; i <= 60; i++) {
         for (int k = 0; k <= 60; k++) {
             double from_mps = i / 10.0, to_mps = k / 10.0;
@@ -345,26 +330,4 @@ static void a_monotone_share_stops_spans_from_running_back_and_leaves_all_others
     assert_true(motion_monotone_share(0, 0, 0) == 1);
     assert_true(motion_monotone_share(1, 0, 0) == 0);
     assert_true(motion_monotone_share(1, 2, 1e-300) < 1e-299);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_drive_ends_where_numerical_integration_ends),
-        cmocka_unit_test(a_drive_starts_at_its_place_and_shifts_with_it),
-        cmocka_unit_test(a_reversal_at_half_time_leaves_the_sideways_term_alone),
-        cmocka_unit_test(a_hardly_turning_step_is_not_lost_to_rounding),
-        cmocka_unit_test(a_full_circle_ends_at_its_start),
-        cmocka_unit_test(going_forth_and_back_returns),
-        cmocka_unit_test(a_crabbing_body_moves_along_its_velocity_and_not_its_yaw),
-        cmocka_unit_test(the_path_length_counts_reversing_forward),
-        cmocka_unit_test(the_path_length_is_the_sum_of_its_two_ways),
-        cmocka_unit_test(a_material_point_moves_with_its_body),
-        cmocka_unit_test(a_material_points_velocity_is_the_rate_of_its_place),
-        cmocka_unit_test(a_mirrored_drive_ends_mirrored_to_the_last_bit),
-        cmocka_unit_test(a_hermite_span_of_a_cubic_is_that_cubic),
-        cmocka_unit_test(a_hermite_span_keeps_its_end_velocities_and_a_standing_body),
-        cmocka_unit_test(a_monotone_share_stops_spans_from_running_back_and_leaves_all_others),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,18 +14,16 @@ static void assert_vector(struct vec2 actual, double x, double y, double toleran
     assert_close(actual.y, y, tolerance);
 }
 
-static void a_place_is_a_fraction_of_length_and_width(void **state)
+TEST(a_place_is_a_fraction_of_length_and_width)
 {
-    (void)state;
     assert_vector(motion_box_place(&car, 0, 0), 10, 20, 0);
     assert_vector(motion_box_place(&car, 0.5, 0), 11.5, 22, 1e-14);
     assert_vector(motion_box_place(&car, 0, 0.5), 9.2, 20.6, 1e-14);
     assert_vector(motion_box_place(&car, -1, -0.5), 10 - 3 + 0.8, 20 - 4 - 0.6, 1e-14);
 }
 
-static void the_outline_is_counter_clockwise_from_the_front_left(void **state)
+TEST(the_outline_is_counter_clockwise_from_the_front_left)
 {
-    (void)state;
     struct vec2 corner[4];
     motion_box_outline(&car, corner);
     assert_vector(corner[0], 11.5 - 0.8, 22 + 0.6, 1e-14);
@@ -44,9 +42,8 @@ static struct box random_box(uint64_t *sample)
 }
 
 /* Walls meet at corners, and sight lines run through them: both ways to one must agree. */
-static void corners_are_the_places_of_their_fractions(void **state)
+TEST(corners_are_the_places_of_their_fractions)
 {
-    (void)state;
     static const double x[4] = {0.5, -0.5, -0.5, 0.5}, y[4] = {0.5, 0.5, -0.5, -0.5};
     uint64_t sample = 1;
     for (int i = 0; i < 100000; i++) {
@@ -58,9 +55,8 @@ static void corners_are_the_places_of_their_fractions(void **state)
     }
 }
 
-static void a_direction_is_that_from_one_place_to_another(void **state)
+TEST(a_direction_is_that_from_one_place_to_another)
 {
-    (void)state;
     uint64_t sample = 2;
     for (int i = 0; i < 10000; i++) {
         const struct box box = random_box(&sample);
@@ -75,9 +71,8 @@ static void a_direction_is_that_from_one_place_to_another(void **state)
     }
 }
 
-static void sides_of_boxes_that_are_turned_alike_have_one_direction(void **state)
+TEST(sides_of_boxes_that_are_turned_alike_have_one_direction)
 {
-    (void)state;
     uint64_t sample = 3;
     for (int i = 0; i < 10000; i++) {
         const struct box box = random_box(&sample);
@@ -86,16 +81,4 @@ static void sides_of_boxes_that_are_turned_alike_have_one_direction(void **state
         assert_true(vec2_same(motion_box_along(&box, -0.2, 0.5, 0.1, 0.5), box.heading));
         assert_true(vec2_same(motion_box_along(&box, 0.5, -0.5, 0.5, 0.5), left));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_place_is_a_fraction_of_length_and_width),
-        cmocka_unit_test(the_outline_is_counter_clockwise_from_the_front_left),
-        cmocka_unit_test(corners_are_the_places_of_their_fractions),
-        cmocka_unit_test(a_direction_is_that_from_one_place_to_another),
-        cmocka_unit_test(sides_of_boxes_that_are_turned_alike_have_one_direction),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

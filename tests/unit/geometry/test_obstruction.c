@@ -30,9 +30,8 @@ static struct obstruction_line random_case(uint64_t *random, struct vec2 corners
                                      sample_between(random, 0, 3), sample_between(random, 0, 3)};
 }
 
-static void in_a_flat_world_only_the_outline_decides(void **state)
+TEST(in_a_flat_world_only_the_outline_decides)
 {
-    (void)state;
     uint64_t random = 1;
     int blocked = 0;
     for (int i = 0; i < 100000; i++) {
@@ -45,7 +44,7 @@ static void in_a_flat_world_only_the_outline_decides(void **state)
     assert_true(blocked > 10000);
 }
 
-static void a_line_above_the_top_all_along_is_free(void **state)
+TEST(a_line_above_the_top_all_along_is_free)
 {
     static const struct {
         struct obstruction_line line;
@@ -79,9 +78,8 @@ static bool contains(const struct vec2 *corners, struct vec2 place)
 }
 
 /* Compared with the lowest of many places on the line that are inside. */
-static void the_lowest_place_over_a_body_counts(void **state)
+TEST(the_lowest_place_over_a_body_counts)
 {
-    (void)state;
     enum { STEPS = 500 };
     uint64_t random = 2;
     int over = 0;
@@ -108,9 +106,8 @@ static void the_lowest_place_over_a_body_counts(void **state)
 
 /* A line below the bottom passes, at the height that is farthest from the road; so does the
  * unfolded line that the road mirrors, and a body without a bottom lets none pass. */
-static void a_line_passes_under_a_body_with_a_bottom(void **state)
+TEST(a_line_passes_under_a_body_with_a_bottom)
 {
-    (void)state;
     static const struct {
         double from_height_m, to_height_m, bottom_m, clear_m;
     } cases[] = {
@@ -135,9 +132,8 @@ static void a_line_passes_under_a_body_with_a_bottom(void **state)
 /* ITU-R P.526, equations (26) and (31), written out: a sensor at 0.5 m and a corner of a car at
  * 0.48 m, 40 m away, with a van of 6.5 m whose underside is at 0.19 m; the wave goes by the road.
  */
-static void a_van_costs_a_knife_edge_under_it(void **state)
+TEST(a_van_costs_a_knife_edge_under_it)
 {
-    (void)state;
     const double wavelength_m = 299792458 / 76.5e9, sensor_m = 0.5, corner_m = 0.48, far_m = 40;
     int from_10_to_14_db = 0;
     for (double begin_m = 8; begin_m < 26; begin_m += 0.1) {
@@ -161,17 +157,15 @@ static void a_van_costs_a_knife_edge_under_it(void **state)
     assert_in_range(from_10_to_14_db, 10, 40);
 }
 
-static void a_line_inside_from_end_to_end_is_free(void **state)
+TEST(a_line_inside_from_end_to_end_is_free)
 {
-    (void)state;
     const struct obstruction_line line = {{9, 0.5}, {11, -0.9}, 1, 1};
     assert_close(obstruction_of(car, 4, UP_TO(HIGH), &line, 0).factor, 1, 0);
     assert_close(obstruction_of(car, 4, UP_TO(HIGH), &line, WAVELENGTH_M).factor, 1, 0);
 }
 
-static void soft_shadows_begin_where_hard_ones_do(void **state)
+TEST(soft_shadows_begin_where_hard_ones_do)
 {
-    (void)state;
     uint64_t random = 3;
     double edge = obstruction_edge_amplitude_factor(0);
     int soft = 0;
@@ -191,9 +185,8 @@ static void soft_shadows_begin_where_hard_ones_do(void **state)
 }
 
 /* Compared with the factor without diffraction and with that of an endless body. */
-static void a_factor_that_diffraction_or_height_changes_is_marked(void **state)
+TEST(a_factor_that_diffraction_or_height_changes_is_marked)
 {
-    (void)state;
     uint64_t random = 6;
     int bent = 0, over = 0;
     for (int i = 0; i < 100000; i++) {
@@ -215,9 +208,8 @@ static void a_factor_that_diffraction_or_height_changes_is_marked(void **state)
 
 /* The line moves sideways past a pole, and upwards over a wall: no step is larger than the steepest
  * slope. */
-static void shadows_change_without_jumps(void **state)
+TEST(shadows_change_without_jumps)
 {
-    (void)state;
     const struct vec2 pole[] = {{10, 0.3}, {9.9, 0.3}, {9.9, -0.3}, {10, -0.3}};
     const double steps_m = 1e-4;
     double last = obstruction_edge_amplitude_factor(2 * sqrt(2));
@@ -238,9 +230,8 @@ static void shadows_change_without_jumps(void **state)
 }
 
 /* auto leaves out bodies for this reason. */
-static void edges_out_of_reach_change_nothing(void **state)
+TEST(edges_out_of_reach_change_nothing)
 {
-    (void)state;
     uint64_t random = 4;
     int clear = 0;
     for (int i = 0; i < 300000; i++) {
@@ -262,29 +253,10 @@ static void edges_out_of_reach_change_nothing(void **state)
     assert_true(clear > 100000);
 }
 
-static void a_line_of_length_zero_has_no_diffraction(void **state)
+TEST(a_line_of_length_zero_has_no_diffraction)
 {
-    (void)state;
     const struct obstruction_line inside = {{10, 0}, {10, 0}, 1, 1},
                                   corner = {{8, 1}, {8, 1}, 1, 1};
     assert_close(obstruction_of(car, 4, UP_TO(HIGH), &inside, WAVELENGTH_M).factor, 1, 0);
     assert_close(obstruction_of(car, 4, UP_TO(HIGH), &corner, WAVELENGTH_M).factor, 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(in_a_flat_world_only_the_outline_decides),
-        cmocka_unit_test(a_line_above_the_top_all_along_is_free),
-        cmocka_unit_test(the_lowest_place_over_a_body_counts),
-        cmocka_unit_test(a_line_passes_under_a_body_with_a_bottom),
-        cmocka_unit_test(a_van_costs_a_knife_edge_under_it),
-        cmocka_unit_test(a_line_inside_from_end_to_end_is_free),
-        cmocka_unit_test(soft_shadows_begin_where_hard_ones_do),
-        cmocka_unit_test(a_factor_that_diffraction_or_height_changes_is_marked),
-        cmocka_unit_test(shadows_change_without_jumps),
-        cmocka_unit_test(edges_out_of_reach_change_nothing),
-        cmocka_unit_test(a_line_of_length_zero_has_no_diffraction),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,9 +5,8 @@
 #include "knife_edge.h"
 
 /* Values of ITU-R P.526's formula, and of Fresnel's integral, which it approximates. */
-static void losses_are_as_published(void **state)
+TEST(losses_are_as_published)
 {
-    (void)state;
     static const struct {
         double parameter, loss_db, exact_db;
     } rows[] = {{0, 6.032852, 6.020600}, {1, 13.925729, 13.864105}, {2, 19.042860, 19.090962}};
@@ -17,17 +16,15 @@ static void losses_are_as_published(void **state)
     }
 }
 
-static void losses_are_fresnels_at_the_edge_and_behind(void **state)
+TEST(losses_are_fresnels_at_the_edge_and_behind)
 {
-    (void)state;
     for (double parameter = -0.77; parameter < 12; parameter += 0.01)
         assert_close(knife_edge_db(parameter), knife_edge_exact_db(parameter), 0.15);
 }
 
 /* The example of MODEL 14.4: 0.3 m inside the shadow half way over 30 m. */
-static void shadows_are_as_deep_as_published(void **state)
+TEST(shadows_are_as_deep_as_published)
 {
-    (void)state;
     static const struct {
         double carrier_hz, loss_db;
     } rows[] = {{24.125e9, 32.4}, {76.5e9, 41.6}};
@@ -39,9 +36,8 @@ static void shadows_are_as_deep_as_published(void **state)
     }
 }
 
-static void deeper_is_darker(void **state)
+TEST(deeper_is_darker)
 {
-    (void)state;
     double before = 1;
     for (double parameter = -2; parameter < 100; parameter += 0.01) {
         double factor = obstruction_edge_amplitude_factor(parameter);
@@ -50,9 +46,8 @@ static void deeper_is_darker(void **state)
     }
 }
 
-static void outside_the_shadow_all_is_seen(void **state)
+TEST(outside_the_shadow_all_is_seen)
 {
-    (void)state;
     assert_close(obstruction_edge_amplitude_factor(-0.78), 1, 0);
     assert_close(obstruction_edge_amplitude_factor(-1e300), 1, 0);
     assert_close(obstruction_edge_amplitude_factor((double)-INFINITY), 1, 0);
@@ -67,16 +62,14 @@ static void outside_the_shadow_all_is_seen(void **state)
     assert_true(obstruction_edge_amplitude_factor(nextafter(-0.78, 0)) > 0.999);
 }
 
-static void far_inside_nothing_is_left(void **state)
+TEST(far_inside_nothing_is_left)
 {
-    (void)state;
     assert_close(obstruction_edge_amplitude_factor(1e300), 0, 0);
     assert_close(obstruction_edge_amplitude_factor((double)INFINITY), 0, 0);
 }
 
-static void ends_at_the_edge_count_as_a_tenth_of_a_metre(void **state)
+TEST(ends_at_the_edge_count_as_a_tenth_of_a_metre)
 {
-    (void)state;
     double near = obstruction_edge_parameter(0.2, 0.1, 20, 0.004);
     assert_close(obstruction_edge_parameter(0.2, 0, 20, 0.004), near, 0);
     assert_close(obstruction_edge_parameter(0.2, 20, 1e-9, 0.004), near, 0);
@@ -86,9 +79,8 @@ static void ends_at_the_edge_count_as_a_tenth_of_a_metre(void **state)
 
 /* A line 2 cm beside a low box, along its side, and the same line one unit in the last place aside
  * to either end: half way it is above the top, so that the edge takes nothing. */
-static void a_line_along_a_side_loses_what_lines_just_off_it_lose(void **state)
+TEST(a_line_along_a_side_loses_what_lines_just_off_it_lose)
 {
-    (void)state;
     static const struct vec2 box[] = {{10, -2}, {20, -2}, {20, -0.02}, {10, -0.02}};
     const struct obstruction_heights low = {.top_m = 0.75}, high = {.top_m = 3};
     for (int step = -2; step <= 2; step++) {
@@ -98,19 +90,4 @@ static void a_line_along_a_side_loses_what_lines_just_off_it_lose(void **state)
         assert_close(obstruction_of(box, 4, high, &line, 0.0039).factor,
                      obstruction_edge_amplitude_factor(parameter), 1e-12);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(losses_are_as_published),
-        cmocka_unit_test(losses_are_fresnels_at_the_edge_and_behind),
-        cmocka_unit_test(shadows_are_as_deep_as_published),
-        cmocka_unit_test(deeper_is_darker),
-        cmocka_unit_test(outside_the_shadow_all_is_seen),
-        cmocka_unit_test(far_inside_nothing_is_left),
-        cmocka_unit_test(ends_at_the_edge_count_as_a_tenth_of_a_metre),
-        cmocka_unit_test(a_line_along_a_side_loses_what_lines_just_off_it_lose),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static void make_car(struct vec2 centre, double yaw_rad, struct vec2 corners[4])
         corners[i] = on_lattice(vec2_add(centre, vec2_turn(own[i], vec2_heading(yaw_rad))));
 }
 
-static void closed_segments_touch_as_tabulated(void **state)
+TEST(closed_segments_touch_as_tabulated)
 {
-    (void)state;
     static const struct {
         struct vec2 p, q, a, b;
         bool touch;
@@ -122,9 +121,8 @@ static struct vec2 whole_place(struct lattice_point p)
     return (struct vec2){p.x, p.y};
 }
 
-static void all_segments_of_a_small_lattice_agree_with_cramers_rule(void **state)
+TEST(all_segments_of_a_small_lattice_agree_with_cramers_rule)
 {
-    (void)state;
     for (int n = 0; n < 65536; n++) {
         struct lattice_point p = digits(n), q = digits(n >> 4), a = digits(n >> 8),
                              b = digits(n >> 12);
@@ -134,9 +132,8 @@ static void all_segments_of_a_small_lattice_agree_with_cramers_rule(void **state
     }
 }
 
-static void the_answer_does_not_depend_on_the_order_of_anything(void **state)
+TEST(the_answer_does_not_depend_on_the_order_of_anything)
 {
-    (void)state;
     for (int n = 0; n < 65536; n++) {
         struct vec2 p = place(digits(n)), q = place(digits(n >> 4)), a = place(digits(n >> 8)),
                     b = place(digits(n >> 12));
@@ -147,9 +144,8 @@ static void the_answer_does_not_depend_on_the_order_of_anything(void **state)
     }
 }
 
-static void a_ray_through_a_cars_corner_is_always_blocked(void **state)
+TEST(a_ray_through_a_cars_corner_is_always_blocked)
 {
-    (void)state;
     uint64_t sample = 29;
     for (int i = 0; i < 250000; i++) {
         struct vec2 corners[4];
@@ -163,9 +159,8 @@ static void a_ray_through_a_cars_corner_is_always_blocked(void **state)
 
 /* Multiples by powers of two are exact, so the corner lies on the ray; but its distances from the
  * ends of the ray are rounded, and only exact signs see it there. */
-static void a_wall_that_ends_on_a_ray_through_the_origin_blocks_it(void **state)
+TEST(a_wall_that_ends_on_a_ray_through_the_origin_blocks_it)
 {
-    (void)state;
     static const double starts[] = {-0x1p-30, 0x1p-40, -1, 0x1p-3};
     uint64_t sample = 28;
     for (int i = 0; i < 250000; i++) {
@@ -179,9 +174,8 @@ static void a_wall_that_ends_on_a_ray_through_the_origin_blocks_it(void **state)
     }
 }
 
-static void a_ray_through_a_guard_rails_joint_is_always_blocked(void **state)
+TEST(a_ray_through_a_guard_rails_joint_is_always_blocked)
 {
-    (void)state;
     uint64_t sample = 31;
     for (int i = 0; i < 250000; i++) {
         struct vec2 posts[3];
@@ -196,9 +190,8 @@ static void a_ray_through_a_guard_rails_joint_is_always_blocked(void **state)
 }
 
 /* Without a lattice the line misses the joint by a rounding, to one side or the other. */
-static void a_ray_close_by_a_joint_cannot_slip_between_two_walls(void **state)
+TEST(a_ray_close_by_a_joint_cannot_slip_between_two_walls)
 {
-    (void)state;
     static const struct vec2 posts[3] = {{-4.3, 20.1}, {0.1, 20.3}, {4.7, 20.2}};
     uint64_t sample = 30;
     for (int i = 0; i < 250000; i++) {
@@ -210,9 +203,8 @@ static void a_ray_close_by_a_joint_cannot_slip_between_two_walls(void **state)
     }
 }
 
-static void an_outline_blocks_where_it_is_touched(void **state)
+TEST(an_outline_blocks_where_it_is_touched)
 {
-    (void)state;
     static const struct vec2 box[4] = {{10, -1}, {14, -1}, {14, 1}, {10, 1}};
     static const struct {
         struct vec2 from, to;
@@ -248,9 +240,8 @@ static void an_outline_blocks_where_it_is_touched(void **state)
         assert_int_equal(obstruction_blocks(box, 4, cases[i].from, cases[i].to), cases[i].blocked);
 }
 
-static void outlines_of_few_corners_are_points_and_segments(void **state)
+TEST(outlines_of_few_corners_are_points_and_segments)
 {
-    (void)state;
     static const struct vec2 corners[3] = {{5, 0}, {5, 4}, {5, 4}};
     static const struct {
         size_t count;
@@ -267,27 +258,9 @@ static void outlines_of_few_corners_are_points_and_segments(void **state)
             cases[i].blocked);
 }
 
-static void the_edge_from_the_last_corner_to_the_first_blocks_too(void **state)
+TEST(the_edge_from_the_last_corner_to_the_first_blocks_too)
 {
-    (void)state;
     static const struct vec2 triangle[3] = {{5, -2}, {9, 0}, {5, 2}};
     assert_true(obstruction_blocks(triangle, 3, (struct vec2){0, 0}, (struct vec2){6, 0}));
     assert_true(obstruction_blocks(triangle, 3, (struct vec2){6, 0}, (struct vec2){0, 0.5}));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_segments_touch_as_tabulated),
-        cmocka_unit_test(all_segments_of_a_small_lattice_agree_with_cramers_rule),
-        cmocka_unit_test(the_answer_does_not_depend_on_the_order_of_anything),
-        cmocka_unit_test(a_ray_through_a_cars_corner_is_always_blocked),
-        cmocka_unit_test(a_wall_that_ends_on_a_ray_through_the_origin_blocks_it),
-        cmocka_unit_test(a_ray_through_a_guard_rails_joint_is_always_blocked),
-        cmocka_unit_test(a_ray_close_by_a_joint_cannot_slip_between_two_walls),
-        cmocka_unit_test(an_outline_blocks_where_it_is_touched),
-        cmocka_unit_test(outlines_of_few_corners_are_points_and_segments),
-        cmocka_unit_test(the_edge_from_the_last_corner_to_the_first_blocks_too),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,9 +42,8 @@ static void check_lattice(struct lattice_point a, struct lattice_point b, struct
                      lattice_sign(a, b, c));
 }
 
-static void known_triples_have_their_sign_in_every_order(void **state)
+TEST(known_triples_have_their_sign_in_every_order)
 {
-    (void)state;
     static const struct {
         struct vec2 a, b, c;
         int sign;
@@ -76,9 +75,8 @@ static void known_triples_have_their_sign_in_every_order(void **state)
         check_all_orders(cases[i].a, cases[i].b, cases[i].c, cases[i].sign);
 }
 
-static void every_point_of_a_fine_grid_has_its_side_of_a_diagonal(void **state)
+TEST(every_point_of_a_fine_grid_has_its_side_of_a_diagonal)
 {
-    (void)state;
     const struct lattice_point q = {INT64_C(12) << 53, INT64_C(12) << 53};
     const struct lattice_point r = {INT64_C(24) << 53, INT64_C(24) << 53};
     for (int64_t i = 0; i < 256; i++) {
@@ -90,9 +88,8 @@ static void every_point_of_a_fine_grid_has_its_side_of_a_diagonal(void **state)
     }
 }
 
-static void near_collinear_triples_agree_with_integer_arithmetic(void **state)
+TEST(near_collinear_triples_agree_with_integer_arithmetic)
 {
-    (void)state;
     static const double units_m[] = {1, 0x1p-30, 0x1p-465, 0x1p413};
     uint64_t sample = 1;
     for (int i = 0; i < 200000; i++) {
@@ -110,9 +107,8 @@ static void near_collinear_triples_agree_with_integer_arithmetic(void **state)
 }
 
 /* Offsets from one lattice step to the size of the figure take every way through the filter. */
-static void every_distance_from_the_line_agrees_with_integer_arithmetic(void **state)
+TEST(every_distance_from_the_line_agrees_with_integer_arithmetic)
 {
-    (void)state;
     uint64_t sample = 2;
     for (int i = 0; i < 200000; i++) {
         struct lattice_point a = {sample_integer(&sample, INT64_C(1) << 45),
@@ -128,9 +124,8 @@ static void every_distance_from_the_line_agrees_with_integer_arithmetic(void **s
 }
 
 /* Points abreast of a, or off by a lattice step along or across. */
-static void the_order_along_a_direction_agrees_with_integer_arithmetic(void **state)
+TEST(the_order_along_a_direction_agrees_with_integer_arithmetic)
 {
-    (void)state;
     uint64_t sample = 4;
     for (int i = 0; i < 200000; i++) {
         struct lattice_point a = {sample_integer(&sample, INT64_C(1) << 45),
@@ -152,9 +147,8 @@ static void the_order_along_a_direction_agrees_with_integer_arithmetic(void **st
     }
 }
 
-static void mirroring_and_quarter_turns_keep_the_answer(void **state)
+TEST(mirroring_and_quarter_turns_keep_the_answer)
 {
-    (void)state;
     uint64_t sample = 3;
     for (int i = 0; i < 100000; i++) {
         struct vec2 p[3], turned[3], mirrored[3];
@@ -169,17 +163,4 @@ static void mirroring_and_quarter_turns_keep_the_answer(void **state)
         assert_int_equal(predicates_orientation(turned[0], turned[1], turned[2]), sign);
         assert_int_equal(predicates_orientation(mirrored[0], mirrored[1], mirrored[2]), -sign);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_triples_have_their_sign_in_every_order),
-        cmocka_unit_test(every_point_of_a_fine_grid_has_its_side_of_a_diagonal),
-        cmocka_unit_test(near_collinear_triples_agree_with_integer_arithmetic),
-        cmocka_unit_test(every_distance_from_the_line_agrees_with_integer_arithmetic),
-        cmocka_unit_test(the_order_along_a_direction_agrees_with_integer_arithmetic),
-        cmocka_unit_test(mirroring_and_quarter_turns_keep_the_answer),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,7 +31,7 @@ static bool blocks(const struct box *box, struct vec2 place)
     return obstruction_blocks(corners, 4, (struct vec2){0, 0}, place);
 }
 
-static void a_box_before_another_overlaps_it_and_a_wider_one_covers_it(void **state)
+TEST(a_box_before_another_overlaps_it_and_a_wider_one_covers_it)
 {
     static const struct {
         struct vec2 front_m, front_half_m, behind_m, behind_half_m;
@@ -83,9 +83,8 @@ static struct box any_box(uint64_t *random, double far_m)
                         vec2_heading(turned_rad)};
 }
 
-static void no_line_that_touches_is_called_clear_and_none_that_passes_hidden(void **state)
+TEST(no_line_that_touches_is_called_clear_and_none_that_passes_hidden)
 {
-    (void)state;
     uint64_t random = 1;
     int touched = 0, clear = 0, covered = 0;
     for (int i = 0; i < 300000; i++) {
@@ -112,9 +111,8 @@ static void no_line_that_touches_is_called_clear_and_none_that_passes_hidden(voi
 }
 
 /* A line through a corner, exact but for rounding, is neither called clear nor hidden. */
-static void a_place_in_line_with_a_corner_is_unsure(void **state)
+TEST(a_place_in_line_with_a_corner_is_unsure)
 {
-    (void)state;
     uint64_t random = 2;
     int corners = 0;
     for (int i = 0; i < 100000; i++) {
@@ -137,9 +135,8 @@ static void a_place_in_line_with_a_corner_is_unsure(void **state)
     assert_true(corners > 100000);
 }
 
-static void a_box_is_no_nearer_and_no_farther_than_said(void **state)
+TEST(a_box_is_no_nearer_and_no_farther_than_said)
 {
-    (void)state;
     uint64_t random = 3;
     for (int i = 0; i < 100000; i++) {
         struct box box = any_box(&random, 40);
@@ -153,9 +150,8 @@ static void a_box_is_no_nearer_and_no_farther_than_said(void **state)
     assert_close(seen(&box).farthest_m, hypot(33, 5), 1e-5);
 }
 
-static void a_box_that_reaches_between_two_directions_is_not_outside_of_them(void **state)
+TEST(a_box_that_reaches_between_two_directions_is_not_outside_of_them)
 {
-    (void)state;
     uint64_t random = 4;
     int inside = 0, outside = 0;
     for (int i = 0; i < 100000; i++) {
@@ -173,16 +169,4 @@ static void a_box_that_reaches_between_two_directions_is_not_outside_of_them(voi
         outside += silhouette_outside(&all, right, left);
     }
     assert_true(inside > 20000 && outside > 20000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_before_another_overlaps_it_and_a_wider_one_covers_it),
-        cmocka_unit_test(no_line_that_touches_is_called_clear_and_none_that_passes_hidden),
-        cmocka_unit_test(a_place_in_line_with_a_corner_is_unsure),
-        cmocka_unit_test(a_box_is_no_nearer_and_no_farther_than_said),
-        cmocka_unit_test(a_box_that_reaches_between_two_directions_is_not_outside_of_them),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -96,7 +96,9 @@ static bool is_found(const struct silhouette_index *index, size_t count, size_t 
     return false;
 }
 
-static void every_body_before_a_corner_is_found_in_order(void **state)
+FIXTURE(start, stop);
+
+TEST(every_body_before_a_corner_is_found_in_order)
 {
     static const struct vec2 sensor = {0, 0};
     uint64_t random = 1;
@@ -120,7 +122,7 @@ static void every_body_before_a_corner_is_found_in_order(void **state)
     assert_true(blocked > 100000);
 }
 
-static void a_search_in_one_direction_finds_few_bodies(void **state)
+TEST(a_search_in_one_direction_finds_few_bodies)
 {
     struct arena *arena = *state;
     struct silhouette_index index = silhouette_index_begin(MOST, arena);
@@ -161,7 +163,7 @@ static void random_line(uint64_t *random, struct vec2 *from, struct vec2 *to)
     }
 }
 
-static void every_body_that_a_line_touches_is_found(void **state)
+TEST(every_body_that_a_line_touches_is_found)
 {
     uint64_t random = 2;
     size_t touched = 0;
@@ -183,7 +185,7 @@ static void every_body_that_a_line_touches_is_found(void **state)
     assert_true(touched > 100000);
 }
 
-static void everywhere_finds_all_entries_and_nothing_else(void **state)
+TEST(everywhere_finds_all_entries_and_nothing_else)
 {
     struct arena *arena = *state;
     struct silhouette_index index = silhouette_index_begin(130, arena);
@@ -198,15 +200,4 @@ static void everywhere_finds_all_entries_and_nothing_else(void **state)
     struct vec2 behind = {-50, 1}, left = {0, 50};
     assert_int_equal(silhouette_index_find(&index, silhouette_span_between(left, behind)), 0);
     assert_int_equal(silhouette_index_find(&index, silhouette_span_between(left, ahead_m)), 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_body_before_a_corner_is_found_in_order),
-        cmocka_unit_test(a_search_in_one_direction_finds_few_bodies),
-        cmocka_unit_test(every_body_that_a_line_touches_is_found),
-        cmocka_unit_test(everywhere_finds_all_entries_and_nothing_else),
-    };
-    return cmocka_run_group_tests(tests, start, stop);
 }

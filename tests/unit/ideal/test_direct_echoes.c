@@ -15,7 +15,7 @@ static const struct lost_group *only_loss(const struct scene *scene)
     return &scene->frame.lost.items[0];
 }
 
-static void the_first_blocker_by_id_is_named(void **state)
+SCENE_TEST(the_first_blocker_by_id_is_named)
 {
     struct scene *scene = *state;
     add_point(scene, add_set(scene, "far"))->ercs = 1;
@@ -40,7 +40,7 @@ static void the_first_blocker_by_id_is_named(void **state)
 
 /* The pole of "p", which faces along x, is 30 m ahead and 40 m left of the sensor, which is on its
  * dark side; of the flat side from (20, -1) to (20, 1) the sensor sees the edge. */
-static void what_sends_no_echo_is_lost_where_it_is(void **state)
+SCENE_TEST(what_sends_no_echo_is_lost_where_it_is)
 {
     struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "p");
@@ -58,7 +58,7 @@ static void what_sends_no_echo_is_lost_where_it_is(void **state)
     assert_close(side->azimuth_rad, 0.89606, 0);
 }
 
-static void an_object_does_not_block_itself_and_the_ego_blocks_nothing(void **state)
+SCENE_TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing)
 {
     struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
@@ -70,7 +70,7 @@ static void an_object_does_not_block_itself_and_the_ego_blocks_nothing(void **st
     assert_close(scene->frame.echoes.items[0].range_m, 24, 1e-12);
 }
 
-static void wheel_houses_are_seen_under_raised_vehicles_only(void **state)
+SCENE_TEST(wheel_houses_are_seen_under_raised_vehicles_only)
 {
     struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "far");
@@ -101,9 +101,8 @@ static void wheel_houses_are_seen_under_raised_vehicles_only(void **state)
     assert_close(scene->frame.echoes.items[1].ercs, 0.5, 0);
 }
 
-static void every_loss_has_its_reason(void **state)
+SCENE_TEST(every_loss_has_its_reason)
 {
-    (void)state;
     static const struct {
         double x_m, y_m, facing_rad;
         enum loss reason;
@@ -126,7 +125,7 @@ static void every_loss_has_its_reason(void **state)
     }
 }
 
-static void planes_mirror_from_the_foot_of_the_perpendicular(void **state)
+SCENE_TEST(planes_mirror_from_the_foot_of_the_perpendicular)
 {
     struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
@@ -152,7 +151,7 @@ static double lobe_of(double off_degrees, double below_degrees)
     return pow(10, -fmin(across_db + upright_db, 20) / 20);
 }
 
-static void a_lobe_depends_on_direction_and_height_of_the_sensor(void **state)
+SCENE_TEST(a_lobe_depends_on_direction_and_height_of_the_sensor)
 {
     struct scene *scene = *state;
     struct object *object = add_object(scene, "o", 10, 0);
@@ -177,7 +176,7 @@ static void a_lobe_depends_on_direction_and_height_of_the_sensor(void **state)
     assert_near(scene->frame.echoes.items->ercs, 0.5 * lobe_of(0, 10), 1e-12);
 }
 
-static void posts_become_echoes_with_their_numbers(void **state)
+SCENE_TEST(posts_become_echoes_with_their_numbers)
 {
     struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "rail");
@@ -219,9 +218,8 @@ static struct margins only_margins(const struct scene *scene)
 
 /* A pole at (x, y) that is seen within 1 rad of -x, a sensor at (0, 0) that sees from 1 to 100 m
  * and 45 degrees to either side, and, if box_x is not 0, a box of 4 m by 2 m at (box_x, 0). */
-static void a_margin_is_the_distance_from_another_answer(void **state)
+SCENE_TEST(a_margin_is_the_distance_from_another_answer)
 {
-    (void)state;
     static const struct {
         double x_m, y_m, box_x_m;
         int reason; /* -1: seen */
@@ -272,9 +270,8 @@ static void a_margin_is_the_distance_from_another_answer(void **state)
     }
 }
 
-static void an_echo_from_under_a_truck_can_change_in_two_ways(void **state)
+SCENE_TEST(an_echo_from_under_a_truck_can_change_in_two_ways)
 {
-    (void)state;
     static const struct {
         double truck_y_m, wall_y_m, margin_m;
     } cases[] = {
@@ -300,7 +297,7 @@ static void an_echo_from_under_a_truck_can_change_in_two_ways(void **state)
     }
 }
 
-static void the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end(void **state)
+SCENE_TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end)
 {
     struct scene *scene = *state;
     scene->frame.sections |= CARRY_MARGINS;
@@ -317,7 +314,7 @@ static void the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end(void *
     assert_close(only_margins(scene).sight_m, 0.5, 1e-12);
 }
 
-static void without_margins_no_entry_has_any(void **state)
+SCENE_TEST(without_margins_no_entry_has_any)
 {
     struct scene *scene = *state;
     add_point(scene, add_set(scene, "a"));
@@ -345,9 +342,8 @@ static void assert_same_echoes(const struct echo *one, const struct echo *other,
     text_free(&texts[1]);
 }
 
-static void auto_without_an_account_finds_the_same_echoes(void **state)
+SCENE_TEST(auto_without_an_account_finds_the_same_echoes)
 {
-    (void)state;
     uint64_t random = 5;
     size_t echoes = 0, pairs = 0;
     for (int i = 0; i < 3000; i++) {
@@ -369,24 +365,4 @@ static void auto_without_an_account_finds_the_same_echoes(void **state)
         remove_scene(&place);
     }
     assert_true(echoes > 5000 && pairs > 100000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        SCENE_TEST(the_first_blocker_by_id_is_named),
-        SCENE_TEST(what_sends_no_echo_is_lost_where_it_is),
-        SCENE_TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing),
-        SCENE_TEST(wheel_houses_are_seen_under_raised_vehicles_only),
-        SCENE_TEST(every_loss_has_its_reason),
-        SCENE_TEST(planes_mirror_from_the_foot_of_the_perpendicular),
-        SCENE_TEST(a_lobe_depends_on_direction_and_height_of_the_sensor),
-        SCENE_TEST(posts_become_echoes_with_their_numbers),
-        SCENE_TEST(a_margin_is_the_distance_from_another_answer),
-        SCENE_TEST(an_echo_from_under_a_truck_can_change_in_two_ways),
-        SCENE_TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end),
-        SCENE_TEST(without_margins_no_entry_has_any),
-        SCENE_TEST(auto_without_an_account_finds_the_same_echoes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

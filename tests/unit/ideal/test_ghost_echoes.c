@@ -139,8 +139,10 @@ static int paths_of(struct scene *scene)
     return paths;
 }
 
+#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, name)
+
 /* The case to check against of MODEL 14.1. */
-static void a_pole_before_a_wall_has_the_ghosts_of_the_model(void **state)
+SCENE_TEST(a_pole_before_a_wall_has_the_ghosts_of_the_model)
 {
     struct scene *scene = *state;
     add_standard_pole(scene);
@@ -176,7 +178,7 @@ static void a_pole_before_a_wall_has_the_ghosts_of_the_model(void **state)
     }
 }
 
-static void bounces_and_the_selection_say_which_ghosts_there_are(void **state)
+SCENE_TEST(bounces_and_the_selection_say_which_ghosts_there_are)
 {
     struct scene *scene = *state;
     static const int paths[] = {0, 0, OUT | BACK, OUT | BACK | BOTH};
@@ -192,7 +194,7 @@ static void bounces_and_the_selection_say_which_ghosts_there_are(void **state)
 
 /* The legs of the standard case are (0, 0) to (12, 4) and on to (30, -2), and (0, 0) to (30, -2).
  */
-static void every_leg_must_be_free(void **state)
+SCENE_TEST(every_leg_must_be_free)
 {
     struct scene *scene = *state;
     static const struct {
@@ -220,7 +222,7 @@ static void every_leg_must_be_free(void **state)
 }
 
 /* A box with a pole at its far left corner, (12, 2), whose image is (12, 6). */
-static void an_object_hides_its_own_bounce_but_not_its_reflectors(void **state)
+SCENE_TEST(an_object_hides_its_own_bounce_but_not_its_reflectors)
 {
     struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
@@ -241,7 +243,7 @@ static void an_object_hides_its_own_bounce_but_not_its_reflectors(void **state)
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
 }
 
-static void no_body_mirrors_itself_and_every_mirror_has_its_ghosts(void **state)
+SCENE_TEST(no_body_mirrors_itself_and_every_mirror_has_its_ghosts)
 {
     struct scene *scene = *state;
     add_standard_pole(scene);
@@ -266,7 +268,7 @@ static void no_body_mirrors_itself_and_every_mirror_has_its_ghosts(void **state)
     assert_near(scene->frame.echoes.items[1].ercs, scene->frame.echoes.items[0].ercs / 3, 1e-15);
 }
 
-static void two_walls_in_line_are_one(void **state)
+SCENE_TEST(two_walls_in_line_are_one)
 {
     struct scene *scene = *state;
     for (int step = -4; step <= 4; step++) {
@@ -289,7 +291,7 @@ static double raised_cosine(double full_rad, double zero_rad, double delta_rad)
     return 0.5 * (1 + cos(PI * (delta_rad - full_rad) / (zero_rad - full_rad)));
 }
 
-static void both_one_way_ghosts_are_equally_strong(void **state)
+SCENE_TEST(both_one_way_ghosts_are_equally_strong)
 {
     struct scene *scene = *state;
     add_standard_pole(scene);
@@ -321,7 +323,7 @@ static void both_one_way_ghosts_are_equally_strong(void **state)
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
 }
 
-static void limits_hold_for_the_ghost_and_its_last_leg(void **state)
+SCENE_TEST(limits_hold_for_the_ghost_and_its_last_leg)
 {
     struct scene *scene = *state;
     static const struct {
@@ -355,7 +357,7 @@ static void limits_hold_for_the_ghost_and_its_last_leg(void **state)
     assert_int_equal(paths_of(scene), BOTH);
 }
 
-static void planes_have_a_ghost_at_the_foot_of_the_sensors_image(void **state)
+SCENE_TEST(planes_have_a_ghost_at_the_foot_of_the_sensors_image)
 {
     struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
@@ -403,7 +405,7 @@ static void planes_have_a_ghost_at_the_foot_of_the_sensors_image(void **state)
 
 /* The wave of the standard case meets the wall at an angle of cosine 10/sqrt(1000), after 0.4 of
  * its way. */
-static void a_material_mirrors_by_angle_and_polarization(void **state)
+SCENE_TEST(a_material_mirrors_by_angle_and_polarization)
 {
     struct scene *scene = *state;
     double cosine = 10 / sqrt(1000);
@@ -427,7 +429,7 @@ static void a_material_mirrors_by_angle_and_polarization(void **state)
         }
 }
 
-static void a_curved_mirror_spreads_the_wave_at_every_bounce(void **state)
+SCENE_TEST(a_curved_mirror_spreads_the_wave_at_every_bounce)
 {
     struct scene *scene = *state;
     add_standard_pole(scene);
@@ -447,7 +449,7 @@ static void a_curved_mirror_spreads_the_wave_at_every_bounce(void **state)
                 1e-14);
 }
 
-static void posts_have_ghosts_by_their_names(void **state)
+SCENE_TEST(posts_have_ghosts_by_their_names)
 {
     struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
@@ -482,7 +484,7 @@ static void set_motion(struct object *object, uint64_t *sample)
 }
 
 /* Sensor, wall and object all move and turn. */
-static void rates_are_derivatives_of_ranges(void **state)
+SCENE_TEST(rates_are_derivatives_of_ranges)
 {
     struct scene *scene = *state;
     uint64_t sample = 1;
@@ -557,7 +559,7 @@ static void limit_sensor(struct scene *scene, uint64_t *sample)
         scene->frame.reflectors.items[i].points.items->z = sample_between(sample, 0.1, 2);
 }
 
-static void auto_leaves_out_no_ghost(void **state)
+SCENE_TEST(auto_leaves_out_no_ghost)
 {
     struct scene *scene = *state;
     uint64_t sample = 2;
@@ -594,7 +596,7 @@ static void auto_leaves_out_no_ghost(void **state)
 }
 
 /* A wall of 2 m whose middle mirrors the pole to the sensor. */
-static void auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view(void **state)
+SCENE_TEST(auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view)
 {
     static const struct {
         double x_m, y_m;             /* of the pole, whose box reaches 0.1 m nearer */
@@ -644,7 +646,7 @@ static void auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view(void **stat
     }
 }
 
-static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
+SCENE_TEST(margins_tell_how_near_a_ghost_is_to_vanishing)
 {
     struct scene *scene = *state;
     add_standard_pole(scene);
@@ -678,7 +680,7 @@ static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
     }
 }
 
-static void a_ghost_in_a_wall_that_moved_has_the_label_latency(void **state)
+SCENE_TEST(a_ghost_in_a_wall_that_moved_has_the_label_latency)
 {
     struct scene *scene = *state;
     add_standard_pole(scene);
@@ -698,7 +700,7 @@ static void a_ghost_in_a_wall_that_moved_has_the_label_latency(void **state)
 }
 
 /* The standard case with a pole 3 m above the sensor: every path is longer by that height. */
-static void heights_count_on_every_leg(void **state)
+SCENE_TEST(heights_count_on_every_leg)
 {
     struct scene *scene = *state;
     add_standard_pole(scene);
@@ -763,7 +765,7 @@ static void heights_count_on_every_leg(void **state)
 }
 
 /* The factor of a knife edge counts both ways, its root one way. */
-static void soft_shadows_count_once_for_every_leg(void **state)
+SCENE_TEST(soft_shadows_count_once_for_every_leg)
 {
     struct scene *scene = *state;
     static const struct {
@@ -800,32 +802,4 @@ static void soft_shadows_count_once_for_every_leg(void **state)
         assert_near(ercs[1][0] / ercs[0][0], pow(factor, cases[i].one_way), 1e-9);
         assert_near(ercs[1][1] / ercs[0][1], pow(factor, cases[i].both), 1e-9);
     }
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(a_pole_before_a_wall_has_the_ghosts_of_the_model),
-        TEST(bounces_and_the_selection_say_which_ghosts_there_are),
-        TEST(every_leg_must_be_free),
-        TEST(an_object_hides_its_own_bounce_but_not_its_reflectors),
-        TEST(no_body_mirrors_itself_and_every_mirror_has_its_ghosts),
-        TEST(two_walls_in_line_are_one),
-        TEST(both_one_way_ghosts_are_equally_strong),
-        TEST(limits_hold_for_the_ghost_and_its_last_leg),
-        TEST(planes_have_a_ghost_at_the_foot_of_the_sensors_image),
-        TEST(a_material_mirrors_by_angle_and_polarization),
-        TEST(a_curved_mirror_spreads_the_wave_at_every_bounce),
-        TEST(posts_have_ghosts_by_their_names),
-        TEST(rates_are_derivatives_of_ranges),
-        TEST(auto_leaves_out_no_ghost),
-        TEST(auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view),
-        TEST(margins_tell_how_near_a_ghost_is_to_vanishing),
-        TEST(a_ghost_in_a_wall_that_moved_has_the_label_latency),
-        TEST(heights_count_on_every_leg),
-        TEST(soft_shadows_count_once_for_every_leg),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,9 +29,8 @@ static void check_path(const char *text, struct mirror_ghost ghost, const struct
             ghost.kinematics.azimuth_rad / DEGREE, power_db(ghost, direct));
 }
 
-static void the_example_of_ghosts(void **state)
+TEST(the_example_of_ghosts)
 {
-    (void)state;
     struct vec2 place_m = {30, -2}, velocity_mps = {-5, 0};
     struct mirror mirror = mirror_of((struct vec2){-10, 4}, (struct vec2){50, 4},
                                      (struct motion){.yaw_rad = 0}, origin);
@@ -47,9 +46,8 @@ static void the_example_of_ghosts(void **state)
     check_path("wall_object_wall # # # #", mirror_ghost_both_ways(0.9, &seen), &direct);
 }
 
-static void materials_of_mirrors(void **state)
+TEST(materials_of_mirrors)
 {
-    (void)state;
     struct material_permittivity concrete = reflection_permittivity(MATERIAL_CONCRETE, 77e9);
     PRINTED("14.1", "concrete has # TE, # TM at 60 deg",
             cabs(reflection_fresnel(&concrete, MATERIAL_TE, 0.5)),
@@ -63,9 +61,8 @@ static struct slant raised(double distance_m)
     return kinematics_slant(distance_m, 0.5);
 }
 
-static void elevations(void **state)
+TEST(elevations)
 {
-    (void)state;
 #define OVER(d) raised(d).range_m - (d)
     PRINTED("14.2", "R - d is #, #, #, # m and cos ε #, #, #, #", OVER(3), OVER(5), OVER(10),
             OVER(30), raised(3).cosine, raised(5).cosine, raised(10).cosine, raised(30).cosine);
@@ -91,9 +88,8 @@ static double asphalt_db(double degrees)
     return -2 * units_amplitude_db(cabs(once));
 }
 
-static void heights(void **state)
+TEST(heights)
 {
-    (void)state;
     PRINTED("14.3", "dry asphalt takes # dB there and back at 1.4 deg", asphalt_db(1.4));
     PRINTED("14.3", "there and back, in dB # # # # # # # # # # #", under_db(8), under_db(10),
             under_db(12), under_db(13), under_db(14), under_db(18), under_db(20), under_db(21),
@@ -106,9 +102,8 @@ static double shadow_db(double carrier_hz)
            knife_edge_db(obstruction_edge_parameter(0.3, 15, 15, units_wavelength_m(carrier_hz)));
 }
 
-static void edges(void **state)
+TEST(edges)
 {
-    (void)state;
     PRINTED("14.4", "J is #, #, # dB at nu = 0, 1, 2, where Fresnel's integral has #, #, #.",
             knife_edge_db(0), knife_edge_db(1), knife_edge_db(2), knife_edge_exact_db(0),
             knife_edge_exact_db(1), knife_edge_exact_db(2));
@@ -123,16 +118,14 @@ static double rail_ercs(double range_m)
     return radar_ercs(reflection_curved_cross_section_m2((double)INFINITY, 0.04, range_m));
 }
 
-static void curvature_and_latency(void **state)
+TEST(curvature_and_latency)
 {
-    (void)state;
     PRINTED("14.5", "so # at 10 m and # at 100 m", rail_ercs(10), rail_ercs(100));
     PRINTED("14.6", "# m at 30 m/s and 50 ms", 30 * 0.05);
 }
 
-static void wheels_and_limbs(void **state)
+TEST(wheels_and_limbs)
 {
-    (void)state;
     double part_mps = 13.8889 * cos(30 * DEGREE);
     double square = (1 - 0.3 * 0.3 * 0.3) / (3 * 0.7);
     PRINTED("14.11", "give 0 to # m/s, a deviation of # m/s sqrt(<ρ^2>), with <ρ^2> = #",
@@ -142,28 +135,12 @@ static void wheels_and_limbs(void **state)
             exp(-MICRO_DOPPLER_WHEEL_COUNT));
 }
 
-static void clutter(void **state)
+TEST(clutter)
 {
-    (void)state;
     struct motion ego = {.velocity_mps = {20, 0}, .yaw_rate_radps = 0.3};
     struct sensor_pose pose = kinematics_sensor_pose(&ego, 3.6, 0.7, 0);
     double rate_mps = ground_return_range_rate_mps(pose.velocity_mps, pose.boresight, 40 * DEGREE);
     PRINTED("14.13", "at (3.6, 0.7) m make # m/s at 40 deg", rate_mps);
     PRINTED("14.13", "0.003 per m^2 make # points in the beam of `lrr77-full`",
             0.003 * ground_return_area_m2(0.2, 250, 18 * DEGREE));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_example_of_ghosts),
-        cmocka_unit_test(materials_of_mirrors),
-        cmocka_unit_test(elevations),
-        cmocka_unit_test(heights),
-        cmocka_unit_test(edges),
-        cmocka_unit_test(curvature_and_latency),
-        cmocka_unit_test(wheels_and_limbs),
-        cmocka_unit_test(clutter),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

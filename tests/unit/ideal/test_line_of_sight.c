@@ -18,7 +18,7 @@ static void add_two_walls(struct scene *scene)
     scene->sensor.mount_yaw_rad = PI / 2;
 }
 
-static void the_joint_of_two_walls_mirrors_once(void **state)
+SCENE_TEST(the_joint_of_two_walls_mirrors_once)
 {
     struct scene *scene = *state;
     static const double sensor_x_m[] = {10, 10 - 0x1p-49, 10 + 0x1p-49};
@@ -36,7 +36,7 @@ static void the_joint_of_two_walls_mirrors_once(void **state)
 
 /* The second wall begins a nanometre beyond the end of the first: neither hides a foot on the
  * other, but their ends are two vertices. */
-static void the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farther_on(void **state)
+SCENE_TEST(the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farther_on)
 {
     struct scene *scene = *state;
     add_two_walls(scene);
@@ -47,7 +47,7 @@ static void the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farthe
 }
 
 /* A side that stands out of its body's box, in line with the side of a wall behind that body. */
-static void a_body_hides_nothing_of_a_wall_that_it_joins(void **state)
+SCENE_TEST(a_body_hides_nothing_of_a_wall_that_it_joins)
 {
     struct scene *scene = *state;
     struct reflector_set *wall = add_set(scene, "wall"), *front = add_set(scene, "front");
@@ -72,9 +72,8 @@ static void a_body_hides_nothing_of_a_wall_that_it_joins(void **state)
 }
 
 /* Circles around and within bodies decide most lines; the exact test must agree on all. */
-static void a_line_is_blocked_where_it_touches_an_outline(void **state)
+SCENE_TEST(a_line_is_blocked_where_it_touches_an_outline)
 {
-    (void)state;
     uint64_t random = 11;
     size_t blocked = 0, lines = 0;
     for (int i = 0; i < 2000; i++) {
@@ -105,7 +104,7 @@ static void a_line_is_blocked_where_it_touches_an_outline(void **state)
 }
 
 /* A plane from corner to corner of a car of 4 m by 2 m at (10, 20) that heads along (0.6, 0.8). */
-static void a_side_has_the_place_and_direction_of_its_plane(void **state)
+SCENE_TEST(a_side_has_the_place_and_direction_of_its_plane)
 {
     struct scene *scene = *state;
     add_set(scene, "a");
@@ -133,7 +132,7 @@ static void add_body(struct scene *scene, const char *id, double x_m, double lef
 }
 
 /* By ITU-R P.526, J(0) is 6.03 dB each way. */
-static void a_touched_edge_takes_six_decibels_each_way(void **state)
+SCENE_TEST(a_touched_edge_takes_six_decibels_each_way)
 {
     struct scene *scene = *state;
     scene->sensor.diffraction = true;
@@ -146,7 +145,7 @@ static void a_touched_edge_takes_six_decibels_each_way(void **state)
     assert_true(seen.effects == EFFECT_BIT(EFFECT_DIFFRACTION));
 }
 
-static void factors_of_two_bodies_multiply(void **state)
+SCENE_TEST(factors_of_two_bodies_multiply)
 {
     struct scene *scene = *state;
     scene->sensor.diffraction = true;
@@ -163,7 +162,7 @@ static void factors_of_two_bodies_multiply(void **state)
     assert_close(line_of_sight_along(&look, &ahead, both, 2).factor, 1, 0);
 }
 
-static void raised_bodies_do_not_block_a_line_under_them(void **state)
+SCENE_TEST(raised_bodies_do_not_block_a_line_under_them)
 {
     struct scene *scene = *state;
     add_body(scene, "a", 20, -1);
@@ -179,7 +178,7 @@ static void raised_bodies_do_not_block_a_line_under_them(void **state)
     assert_close(line_of_sight_margin_m(&look, NULL, 0, &ahead, true, false), 5, 1e-14);
 }
 
-static void the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body(void **state)
+SCENE_TEST(the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body)
 {
     struct scene *scene = *state;
     struct look look = look_at(scene, 10);
@@ -198,7 +197,7 @@ static void the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body(voi
 }
 
 /* The line crosses two bodies, 0.75 m and 0.25 m inside their nearest sides. */
-static void the_margin_of_a_blocked_line_is_its_greatest_depth_in_a_body(void **state)
+SCENE_TEST(the_margin_of_a_blocked_line_is_its_greatest_depth_in_a_body)
 {
     struct scene *scene = *state;
     add_body(scene, "a", 20, -1.25);
@@ -211,7 +210,7 @@ static void the_margin_of_a_blocked_line_is_its_greatest_depth_in_a_body(void **
 
 /* A line that rises from 1 m to 3 m over the road: over a body from 18 m to 22 m it is at least 1.6
  * m high. */
-static void the_margin_of_a_line_over_a_body_is_its_height_above_the_top(void **state)
+SCENE_TEST(the_margin_of_a_line_over_a_body_is_its_height_above_the_top)
 {
     struct scene *scene = *state;
     static const struct obstruction_line rising = {{0, 0}, {60, 0}, 1, 3};
@@ -268,9 +267,8 @@ static struct line_of_sight past_each(const struct look *look, const struct look
     return all;
 }
 
-static void the_blockers_of_a_body_let_the_same_pass_as_all_bodies(void **state)
+SCENE_TEST(the_blockers_of_a_body_let_the_same_pass_as_all_bodies)
 {
-    (void)state;
     uint64_t random = 12;
     size_t blocked = 0, bent = 0, lines = 0;
     for (int i = 0; i < 1000; i++) {
@@ -299,9 +297,8 @@ static void the_blockers_of_a_body_let_the_same_pass_as_all_bodies(void **state)
     assert_true(blocked > lines / 20 && blocked < lines / 2 && bent > 100);
 }
 
-static void where_a_set_is_all_hidden_each_of_its_points_is_blocked(void **state)
+SCENE_TEST(where_a_set_is_all_hidden_each_of_its_points_is_blocked)
 {
-    (void)state;
     uint64_t random = 13;
     size_t hidden = 0;
     for (int i = 0; i < 1000; i++) {
@@ -322,24 +319,4 @@ static void where_a_set_is_all_hidden_each_of_its_points_is_blocked(void **state
         remove_scene(&place);
     }
     assert_true(hidden > 200);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        SCENE_TEST(the_joint_of_two_walls_mirrors_once),
-        SCENE_TEST(the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farther_on),
-        SCENE_TEST(a_body_hides_nothing_of_a_wall_that_it_joins),
-        SCENE_TEST(a_line_is_blocked_where_it_touches_an_outline),
-        SCENE_TEST(a_side_has_the_place_and_direction_of_its_plane),
-        SCENE_TEST(a_touched_edge_takes_six_decibels_each_way),
-        SCENE_TEST(factors_of_two_bodies_multiply),
-        SCENE_TEST(raised_bodies_do_not_block_a_line_under_them),
-        SCENE_TEST(the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body),
-        SCENE_TEST(the_margin_of_a_blocked_line_is_its_greatest_depth_in_a_body),
-        SCENE_TEST(the_margin_of_a_line_over_a_body_is_its_height_above_the_top),
-        SCENE_TEST(the_blockers_of_a_body_let_the_same_pass_as_all_bodies),
-        SCENE_TEST(where_a_set_is_all_hidden_each_of_its_points_is_blocked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@
 /* The box from (-2, -1) to (2, 1). */
 static const struct vec2 outline[4] = {{2, 1}, {-2, 1}, {-2, -1}, {2, -1}};
 
-static void a_facing_margin_is_an_angle_times_the_range(void **state)
+TEST(a_facing_margin_is_an_angle_times_the_range)
 {
-    (void)state;
     static const struct {
         enum visibility_shape shape;
         double zero_rad, yaw_rad, margin_m;
@@ -31,9 +30,8 @@ static void a_facing_margin_is_an_angle_times_the_range(void **state)
 }
 
 /* The side from (0, 4) to (0, 0), whose outer face looks along -x, not flat 0.5 m from its ends. */
-static void a_foot_margin_is_the_way_to_the_border(void **state)
+TEST(a_foot_margin_is_the_way_to_the_border)
 {
-    (void)state;
     static const struct {
         struct vec2 sensor;
         double margin_m;
@@ -46,9 +44,8 @@ static void a_foot_margin_is_the_way_to_the_border(void **state)
                      cases[i].margin_m, 1e-15);
 }
 
-static void a_clear_sight_line_is_a_distance_from_the_outline(void **state)
+TEST(a_clear_sight_line_is_a_distance_from_the_outline)
 {
-    (void)state;
     static const struct {
         struct vec2 from, to;
         double margin_m;
@@ -67,9 +64,8 @@ static void a_clear_sight_line_is_a_distance_from_the_outline(void **state)
     }
 }
 
-static void a_blocked_sight_line_is_a_depth_in_the_outline(void **state)
+TEST(a_blocked_sight_line_is_a_depth_in_the_outline)
 {
-    (void)state;
     static const struct {
         struct vec2 from, to;
         double margin_m;
@@ -91,9 +87,8 @@ static void a_blocked_sight_line_is_a_depth_in_the_outline(void **state)
     }
 }
 
-static void an_outline_without_size_is_a_point(void **state)
+TEST(an_outline_without_size_is_a_point)
 {
-    (void)state;
     static const struct vec2 point[4] = {{1, 2}, {1, 2}, {1, 2}, {1, 2}};
     assert_close(line_of_sight_outline_margin_m(point, 4, (struct vec2){0, 0}, (struct vec2){4, 0}),
                  2, 0);
@@ -101,16 +96,4 @@ static void an_outline_without_size_is_a_point(void **state)
                  0, 0);
     assert_true(isnan(line_of_sight_foot_margin_m(point[0], point[1], (struct vec2){1, 0}, 0,
                                                   (struct vec2){0, 0})));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_facing_margin_is_an_angle_times_the_range),
-        cmocka_unit_test(a_foot_margin_is_the_way_to_the_border),
-        cmocka_unit_test(a_clear_sight_line_is_a_distance_from_the_outline),
-        cmocka_unit_test(a_blocked_sight_line_is_a_depth_in_the_outline),
-        cmocka_unit_test(an_outline_without_size_is_a_point),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

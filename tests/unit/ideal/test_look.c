@@ -2,7 +2,7 @@
 
 #include "look_scene.h"
 
-static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
+SCENE_TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego)
 {
     struct scene *scene = *state;
     struct object *ego = scene->frame.objects.items;
@@ -32,7 +32,7 @@ static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
     assert_close(echo->ercs, 0.5, 0);
 }
 
-static void a_late_measurement_shows_where_everything_was(void **state)
+SCENE_TEST(a_late_measurement_shows_where_everything_was)
 {
     struct scene *scene = *state;
     struct object *ego = scene->frame.objects.items;
@@ -62,7 +62,7 @@ static void a_late_measurement_shows_where_everything_was(void **state)
     assert_close(echo[1].range_rate_mps, (-10 * x + 2 * y) / hypot(x, y), 1e-9);
 }
 
-static void a_set_that_lists_an_unknown_object_is_refused(void **state)
+SCENE_TEST(a_set_that_lists_an_unknown_object_is_refused)
 {
     struct scene *scene = *state;
     struct look look;
@@ -74,7 +74,7 @@ static void a_set_that_lists_an_unknown_object_is_refused(void **state)
 }
 
 /* Eight at one place, of which five stay; a taller one, and one of another set, block otherwise. */
-static void bodies_that_block_alike_stand_for_each_other(void **state)
+SCENE_TEST(bodies_that_block_alike_stand_for_each_other)
 {
     struct scene *scene = *state;
     static const char *const ids[] = {"a", "b", "c", "d", "f", "g", "h", "i", "tall", "other"};
@@ -98,7 +98,7 @@ static void bodies_that_block_alike_stand_for_each_other(void **state)
 
 /* Places on and in the disc, as much above or below the sensor as is said. A steep sight line moves
  * a place outside the borders into view. */
-static void a_disc_out_of_view_has_no_place_in_view(void **state)
+SCENE_TEST(a_disc_out_of_view_has_no_place_in_view)
 {
     struct scene *scene = *state;
     uint64_t random = 9;
@@ -128,16 +128,4 @@ static void a_disc_out_of_view_has_no_place_in_view(void **state)
         outside += out;
     }
     assert_true(outside > 30000 && in_view > 100000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        SCENE_TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego),
-        SCENE_TEST(a_late_measurement_shows_where_everything_was),
-        SCENE_TEST(bodies_that_block_alike_stand_for_each_other),
-        SCENE_TEST(a_disc_out_of_view_has_no_place_in_view),
-        SCENE_TEST(a_set_that_lists_an_unknown_object_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

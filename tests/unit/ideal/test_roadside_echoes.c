@@ -83,7 +83,7 @@ static struct vec2 world_place(const struct look *look, const struct echo *echo)
     return vec2_add(look->pose.position_m, vec2_scale(echo->range_m, ray));
 }
 
-static void the_same_scatterer_stays_in_the_world(void **state)
+SCENE_TEST(the_same_scatterer_stays_in_the_world)
 {
     struct scene *scene = *state;
     struct look first, second;
@@ -115,7 +115,7 @@ static void the_same_scatterer_stays_in_the_world(void **state)
     assert_true(same > (int)before.count / 2);
 }
 
-static void scatterers_stand_and_have_labels_of_their_own(void **state)
+SCENE_TEST(scatterers_stand_and_have_labels_of_their_own)
 {
     struct scene *scene = *state;
     struct look look;
@@ -140,7 +140,7 @@ static void scatterers_stand_and_have_labels_of_their_own(void **state)
 
 /* A rail out of sight, before all others in the list, changes nothing but the numbers in the names.
  */
-static void a_strip_out_of_sight_changes_no_echo_of_another_strip(void **state)
+SCENE_TEST(a_strip_out_of_sight_changes_no_echo_of_another_strip)
 {
     struct scene *scene = *state;
     struct look look;
@@ -161,7 +161,7 @@ static void a_strip_out_of_sight_changes_no_echo_of_another_strip(void **state)
 }
 
 /* A car 20 m ahead, 4 m by 2 m, between the sensor and the cross rail. */
-static void a_body_hides_what_stands_behind_it(void **state)
+SCENE_TEST(a_body_hides_what_stands_behind_it)
 {
     struct scene *scene = *state;
     struct look look;
@@ -183,7 +183,7 @@ static void a_body_hides_what_stands_behind_it(void **state)
 
 /* 9 dB more of threshold leave out what is weaker by that much, and change no other echo. The
  * weakest is 14 dB below the threshold, but for the way from it to the middle of its cell. */
-static void a_higher_threshold_only_leaves_out_the_weakest(void **state)
+SCENE_TEST(a_higher_threshold_only_leaves_out_the_weakest)
 {
     struct scene *scene = *state;
     struct look look;
@@ -209,7 +209,7 @@ static void a_higher_threshold_only_leaves_out_the_weakest(void **state)
     assert_near(strongest, faintest, 0.2);
 }
 
-static void auto_makes_the_echoes_of_all(void **state)
+SCENE_TEST(auto_makes_the_echoes_of_all)
 {
     struct scene *scene = *state;
     uint64_t random = 5;
@@ -232,7 +232,7 @@ static void auto_makes_the_echoes_of_all(void **state)
     }
 }
 
-static void without_strips_or_the_effect_there_are_no_echoes(void **state)
+SCENE_TEST(without_strips_or_the_effect_there_are_no_echoes)
 {
     struct scene *scene = *state;
     struct look look;
@@ -245,18 +245,4 @@ static void without_strips_or_the_effect_there_are_no_echoes(void **state)
     none.allowed |= EFFECT_BIT(EFFECT_ROADSIDE);
     assert_true(see_as(scene, &none, &look).count > 0);
     assert_true((log.simulated & EFFECT_BIT(EFFECT_ROADSIDE)) != 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        SCENE_TEST(the_same_scatterer_stays_in_the_world),
-        SCENE_TEST(scatterers_stand_and_have_labels_of_their_own),
-        SCENE_TEST(a_strip_out_of_sight_changes_no_echo_of_another_strip),
-        SCENE_TEST(a_body_hides_what_stands_behind_it),
-        SCENE_TEST(a_higher_threshold_only_leaves_out_the_weakest),
-        SCENE_TEST(auto_makes_the_echoes_of_all),
-        SCENE_TEST(without_strips_or_the_effect_there_are_no_echoes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

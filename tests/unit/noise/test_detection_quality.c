@@ -44,7 +44,7 @@ static struct quality quality_of(struct effect_bench *bench, const struct detect
 
 /* The bench's amplitude is ERCS A_phi (10 m/R)^2, so 40 at 20 m is that of an ERCS of 160/A_phi.
  * At 30 degrees u is pi/4 and A_phi is si(u) cos 30 cos u, 0.551329 (MODEL 7.1). */
-static void strength_is_over_noise_and_over_a_reflector_of_ten_square_metres(void **state)
+EFFECT_TEST(strength_is_over_noise_and_over_a_reflector_of_ten_square_metres)
 {
     struct effect_bench *bench = *state;
     struct cell cell = {0};
@@ -64,7 +64,7 @@ static void strength_is_over_noise_and_over_a_reflector_of_ten_square_metres(voi
 
 /* The ego heads north at 20 m/s and turns left at 0.1 rad/s; the sensor is 2 m ahead and 1 m to the
  * left, and looks left by 30 degrees, so that the sight is at 60 degrees from the heading. */
-static void places_are_in_four_frames_and_the_rate_is_less_the_sensors_own(void **state)
+EFFECT_TEST(places_are_in_four_frames_and_the_rate_is_less_the_sensors_own)
 {
     struct effect_bench *bench = *state;
     bench->frame.objects.items[0] = (struct object){.id = "ego",
@@ -100,7 +100,7 @@ static void places_are_in_four_frames_and_the_rate_is_less_the_sensors_own(void 
 }
 
 /* Half a second before, the ego was 10 m further south. */
-static void places_are_those_of_the_instant_that_the_scan_shows(void **state)
+EFFECT_TEST(places_are_those_of_the_instant_that_the_scan_shows)
 {
     struct effect_bench *bench = *state;
     bench->frame.objects.items[0] =
@@ -116,7 +116,7 @@ static void places_are_those_of_the_instant_that_the_scan_shows(void **state)
 }
 
 /* -60 m/s that reads -4 is off by -56 m/s, two intervals of 28; the strongest part decides. */
-static void the_label_tells_folds_and_merged_echoes(void **state)
+EFFECT_TEST(the_label_tells_folds_and_merged_echoes)
 {
     struct effect_bench *bench = *state;
     struct cell cell = {0};
@@ -157,7 +157,7 @@ static struct effect_measurement estimated(struct effect_bench *bench,
 /* An amplitude of sqrt(101) over noise of 1 is that of an echo of power 100: range and rate have a
  * tenth of their factor, 0.5 cells. At 30 degrees an azimuth has sqrt 2/pi over the amplitude,
  * sqrt(1 + tan^2 45) and cos 30 (MODEL 14.21). */
-static void standard_deviations_follow_the_amplitude_that_was_measured(void **state)
+EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured)
 {
     struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
@@ -181,7 +181,7 @@ static void standard_deviations_follow_the_amplitude_that_was_measured(void **st
 }
 
 /* A real delta/sum of 0.1 is 0.1 · 100/sqrt(1.01/2) standard deviations from that of one echo. */
-static void an_azimuth_of_several_echoes_has_a_wider_deviation(void **state)
+EFFECT_TEST(an_azimuth_of_several_echoes_has_a_wider_deviation)
 {
     struct effect_bench *bench = *state;
     struct cell cell = {0};
@@ -200,7 +200,7 @@ static void an_azimuth_of_several_echoes_has_a_wider_deviation(void **state)
                 sqrt(1 + 100 * 100 / (1.01 / 2) * 0.01), 1e-9);
 }
 
-static void noise_that_is_not_simulated_has_no_deviation(void **state)
+EFFECT_TEST(noise_that_is_not_simulated_has_no_deviation)
 {
     struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
@@ -219,7 +219,7 @@ static void noise_that_is_not_simulated_has_no_deviation(void **state)
     assert_close(known.range_sigma_m, 0, 0);
 }
 
-static void false_alarms_are_expected_where_they_are_made(void **state)
+EFFECT_TEST(false_alarms_are_expected_where_they_are_made)
 {
     struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
@@ -236,7 +236,7 @@ static void false_alarms_are_expected_where_they_are_made(void **state)
     assert_close(source.existence.false_alarms, 0, 0);
 }
 
-static void rounding_adds_its_own_deviation(void **state)
+EFFECT_TEST(rounding_adds_its_own_deviation)
 {
     struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
@@ -252,20 +252,4 @@ static void rounding_adds_its_own_deviation(void **state)
     source.scan = NULL;
     quality = quality_of(bench, &source, &measurement, &target);
     assert_near(quality.range_sd_m, 0.1, 1e-12);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(strength_is_over_noise_and_over_a_reflector_of_ten_square_metres),
-        EFFECT_TEST(places_are_in_four_frames_and_the_rate_is_less_the_sensors_own),
-        EFFECT_TEST(places_are_those_of_the_instant_that_the_scan_shows),
-        EFFECT_TEST(the_label_tells_folds_and_merged_echoes),
-        EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured),
-        EFFECT_TEST(an_azimuth_of_several_echoes_has_a_wider_deviation),
-        EFFECT_TEST(noise_that_is_not_simulated_has_no_deviation),
-        EFFECT_TEST(false_alarms_are_expected_where_they_are_made),
-        EFFECT_TEST(rounding_adds_its_own_deviation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,9 +9,8 @@
 
 /* By hand: with one echo of mean power 9 and 1/2 false alarm from 4 on, a power of 4 has the
  * densities exp(-0.4)/10 and 1/2, one of 14 has exp(-1.4)/10 and exp(-10)/2. */
-static void probabilities_are_those_of_bayes_rule(void **state)
+TEST(probabilities_are_those_of_bayes_rule)
 {
-    (void)state;
     const struct existence existence = {.echoes = 1,
                                         .snr = 9,
                                         .false_alarms = 0.5,
@@ -25,9 +24,8 @@ static void probabilities_are_those_of_bayes_rule(void **state)
     assert_near(detection_quality_existence(&existence, 14), echo / (echo + exp(-10) / 2), 1e-14);
 }
 
-static void powers_that_one_cause_alone_can_have_are_certain(void **state)
+TEST(powers_that_one_cause_alone_can_have_are_certain)
 {
-    (void)state;
     struct existence existence = {.echoes = 1,
                                   .snr = 9,
                                   .false_alarms = 0.5,
@@ -45,9 +43,8 @@ static void powers_that_one_cause_alone_can_have_are_certain(void **state)
 
 /* Where the prior's mean is below that of the noise's tail, strong detections are rarer echoes than
  * noise, and no density underflows on the way. */
-static void densities_below_the_least_double_still_compare(void **state)
+TEST(densities_below_the_least_double_still_compare)
 {
-    (void)state;
     const struct existence existence = {.echoes = 1,
                                         .snr = 1e-3,
                                         .false_alarms = 0.5,
@@ -61,9 +58,8 @@ static void densities_below_the_least_double_still_compare(void **state)
 
 /* Marcum's Q1(sqrt(2 z) S/(s w), sqrt(2 z_T)/w), integrated numerically (MODEL 14.21): the share of
  * the echoes of power z that met z_T before the noise. */
-static void echoes_that_fail_the_first_threshold_are_taken_out_of_the_expected_ones(void **state)
+TEST(echoes_that_fail_the_first_threshold_are_taken_out_of_the_expected_ones)
 {
-    (void)state;
     static const struct {
         double snr, rise, power, first, share;
     } rows[] = {{10, 1, 4, 5, 0.326459988433},
@@ -93,9 +89,8 @@ struct bin {
 
 /* A world drawn from the prior: echoes of exponential power in complex Gaussian noise, and false
  * alarms above the threshold. */
-static void of_detections_with_a_probability_so_many_are_echoes(void **state)
+TEST(of_detections_with_a_probability_so_many_are_echoes)
 {
-    (void)state;
     const struct existence existence = {.echoes = 3,
                                         .snr = 30,
                                         .false_alarms = 1,
@@ -123,16 +118,4 @@ static void of_detections_with_a_probability_so_many_are_echoes(void **state)
         assert_close(bins[i].echoes, bins[i].expected, 3 * sqrt(bins[i].variance) + 1e-9);
     }
     assert_true(filled >= 8);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(probabilities_are_those_of_bayes_rule),
-        cmocka_unit_test(powers_that_one_cause_alone_can_have_are_certain),
-        cmocka_unit_test(echoes_that_fail_the_first_threshold_are_taken_out_of_the_expected_ones),
-        cmocka_unit_test(densities_below_the_least_double_still_compare),
-        cmocka_unit_test(of_detections_with_a_probability_so_many_are_echoes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static struct cell_span false_alarms_of(struct bench *bench, double mean, uint64
     return false_alarm_cells_of(&bench->frame, &context);
 }
 
-static void every_false_alarm_is_within_the_limits_of_its_sensor(void **state)
+TEST(every_false_alarm_is_within_the_limits_of_its_sensor)
 {
-    (void)state;
     size_t seen = 0;
     for (uint64_t i = 0; i < 500; i++) {
         struct bench bench;
@@ -80,9 +79,8 @@ static void every_false_alarm_is_within_the_limits_of_its_sensor(void **state)
     assert_true(seen > 1400 && seen < 1600);
 }
 
-static void a_larger_mean_adds_to_the_same_false_alarms(void **state)
+TEST(a_larger_mean_adds_to_the_same_false_alarms)
 {
-    (void)state;
     for (uint64_t i = 0; i < 100; i++) {
         struct bench bench, more;
         struct cell_span few = false_alarms_of(&bench, 2, i, true);
@@ -95,9 +93,8 @@ static void a_larger_mean_adds_to_the_same_false_alarms(void **state)
     }
 }
 
-static void without_a_mean_or_a_measurement_there_are_no_false_alarms(void **state)
+TEST(without_a_mean_or_a_measurement_there_are_no_false_alarms)
 {
-    (void)state;
     static const struct {
         double mean;
         bool measured;
@@ -112,9 +109,8 @@ static void without_a_mean_or_a_measurement_there_are_no_false_alarms(void **sta
 
 /* Noise alone passes an amplitude A with P(A) = exp(-(A / sigma)^2), so the share of false alarms
  * above A is P(A) / P(threshold). */
-static void amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold(void **state)
+TEST(amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold)
 {
-    (void)state;
     for (double uniform = 0x1p-53; uniform < 1; uniform = uniform * 1.2 + 1e-4) {
         double amplitude = false_alarm_cells_amplitude(2, 0.7, uniform);
         assert_true(amplitude >= 2);
@@ -122,15 +118,4 @@ static void amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold(vo
     }
     assert_close(false_alarm_cells_amplitude(2, 0, 0.5), 2, 0);
     assert_near(false_alarm_cells_amplitude(1e200, 1e200, 0.5), 1e200 * sqrt(1 + log(2)), 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold),
-        cmocka_unit_test(every_false_alarm_is_within_the_limits_of_its_sensor),
-        cmocka_unit_test(a_larger_mean_adds_to_the_same_false_alarms),
-        cmocka_unit_test(without_a_mean_or_a_measurement_there_are_no_false_alarms),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

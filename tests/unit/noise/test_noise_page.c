@@ -5,9 +5,8 @@
 #include "documents/suite_file.h"
 #include "radar/detection.h"
 
-static void rounding(void **state)
+TEST(rounding)
 {
-    (void)state;
     PRINTED("9", "step/sqrt(12) [T]: # m, # m/s, # deg", 0.2 / sqrt(12), 0.25 / sqrt(12),
             0.1 / sqrt(12));
 }
@@ -26,9 +25,8 @@ static double above_db(const char *name)
     return above;
 }
 
-static void false_alarms(void **state)
+TEST(false_alarms)
 {
-    (void)state;
     PRINTED("14.9", "one look at noise, # for a threshold 6 dB above it",
             detection_in_noise(0, units_amplitude_from_db(6), 1));
     PRINTED("14.9", "6400 cells at 1e-4 make #, the shipped mean [A], and # % of the scans",
@@ -37,18 +35,7 @@ static void false_alarms(void **state)
             above_db("lrr77-full"), above_db("radarscenes77-full"));
 }
 
-static void quality(void **state)
+TEST(quality)
 {
-    (void)state;
     PRINTED("14.21", "# % of single echoes look merged", 100 * erfc(3 / sqrt(2)));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rounding),
-        cmocka_unit_test(false_alarms),
-        cmocka_unit_test(quality),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

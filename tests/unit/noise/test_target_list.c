@@ -63,9 +63,8 @@ static void add_all(struct list *list)
     add_measurement(list, "f", 10, 3);
 }
 
-static void targets_come_strongest_or_nearest_first(void **state)
+TEST(targets_come_strongest_or_nearest_first)
 {
-    (void)state;
     static const struct {
         enum list_order order;
         int64_t limit;
@@ -92,9 +91,8 @@ static void targets_come_strongest_or_nearest_first(void **state)
     }
 }
 
-static void the_order_of_the_measurements_does_not_matter(void **state)
+TEST(the_order_of_the_measurements_does_not_matter)
 {
-    (void)state;
     uint64_t random = 2;
     for (int round = 0; round < 200; round++) {
         struct list list;
@@ -111,9 +109,8 @@ static void the_order_of_the_measurements_does_not_matter(void **state)
     }
 }
 
-static void a_target_has_its_measurement_and_the_label_of_its_cell(void **state)
+TEST(a_target_has_its_measurement_and_the_label_of_its_cell)
 {
-    (void)state;
     struct list list;
     begin_list(&list, LIST_STRONGEST);
     add_measurement(&list, "a", 10, 3);
@@ -147,9 +144,8 @@ static void a_target_has_its_measurement_and_the_label_of_its_cell(void **state)
 }
 
 /* The list has amplitudes 5, 5, 3, 3, 2 or ranges 10, 10, 10, 20, 30 m in its order. */
-static void a_limit_gives_margins_to_both_sides_of_the_cut(void **state)
+TEST(a_limit_gives_margins_to_both_sides_of_the_cut)
 {
-    (void)state;
     const double db_5_3 = 20 * log10(5.0 / 3), db_3_2 = 20 * log10(3.0 / 2),
                  db_5_2 = 20 * log10(2.5);
     const struct {
@@ -195,9 +191,8 @@ static void a_limit_gives_margins_to_both_sides_of_the_cut(void **state)
     }
 }
 
-static void an_amplitude_that_is_no_number_makes_no_target(void **state)
+TEST(an_amplitude_that_is_no_number_makes_no_target)
 {
-    (void)state;
     struct list list;
     begin_list(&list, LIST_STRONGEST);
     add_measurement(&list, "a", 10, (double)NAN);
@@ -228,9 +223,8 @@ static struct target round_target(struct list *list, const struct effect_measure
     return target;
 }
 
-static void a_listed_target_is_rounded_and_its_label_is_not(void **state)
+TEST(a_listed_target_is_rounded_and_its_label_is_not)
 {
-    (void)state;
     struct list list;
     static const struct {
         double azimuth_rad, reported_rad;
@@ -248,17 +242,4 @@ static void a_listed_target_is_rounded_and_its_label_is_not(void **state)
     }
     const struct effect_measurement even = {.range_m = 10.5, .range_rate_mps = -3.25};
     assert_int_equal(round_target(&list, &even).effects, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(targets_come_strongest_or_nearest_first),
-        cmocka_unit_test(the_order_of_the_measurements_does_not_matter),
-        cmocka_unit_test(a_target_has_its_measurement_and_the_label_of_its_cell),
-        cmocka_unit_test(a_limit_gives_margins_to_both_sides_of_the_cut),
-        cmocka_unit_test(an_amplitude_that_is_no_number_makes_no_target),
-        cmocka_unit_test(a_listed_target_is_rounded_and_its_label_is_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

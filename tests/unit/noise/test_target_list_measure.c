@@ -25,7 +25,7 @@ static struct cell cell_of(struct effect_bench *bench)
                          .members = {&leader, 1, 1}};
 }
 
-static void without_noise_a_measurement_has_the_values_of_its_cell(void **state)
+EFFECT_TEST(without_noise_a_measurement_has_the_values_of_its_cell)
 {
     struct effect_bench *bench = *state;
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
@@ -38,7 +38,7 @@ static void without_noise_a_measurement_has_the_values_of_its_cell(void **state)
     assert_true(read.effects == EFFECT_BIT(EFFECT_MERGING));
 }
 
-static void angle_and_amplitude_are_those_of_the_noisy_pointers(void **state)
+EFFECT_TEST(angle_and_amplitude_are_those_of_the_noisy_pointers)
 {
     struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
@@ -59,21 +59,11 @@ static void angle_and_amplitude_are_those_of_the_noisy_pointers(void **state)
                 (cell.effects | EFFECT_BIT(EFFECT_ANGLE_NOISE) | EFFECT_BIT(EFFECT_MISALIGNMENT)));
 }
 
-static void pointers_of_zero_have_no_angle(void **state)
+EFFECT_TEST(pointers_of_zero_have_no_angle)
 {
     struct effect_bench *bench = *state;
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     const struct cell cell = {.members = {&leader, 1, 1}};
     struct effect_measurement read;
     assert_false(target_list_measure(&context, &cell, &read));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(without_noise_a_measurement_has_the_values_of_its_cell),
-        EFFECT_TEST(angle_and_amplitude_are_those_of_the_noisy_pointers),
-        EFFECT_TEST(pointers_of_zero_have_no_angle),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,9 +11,8 @@ static double db(double factor)
 }
 
 /* MODEL 14.15, ITU-R P.838-3. */
-static void the_law_is_as_published(void **state)
+TEST(the_law_is_as_published)
 {
-    (void)state;
     static const struct {
         double carrier_hz;
         struct attenuation_law horizontal, vertical;
@@ -33,9 +32,8 @@ static void the_law_is_as_published(void **state)
 }
 
 /* The table of ITU-R P.838-3 itself, to its digits. */
-static void the_law_is_the_table_of_the_recommendation(void **state)
+TEST(the_law_is_the_table_of_the_recommendation)
 {
-    (void)state;
     static const struct {
         double ghz, digit;
         struct attenuation_law horizontal, vertical;
@@ -63,9 +61,8 @@ static void the_law_is_the_table_of_the_recommendation(void **state)
 }
 
 /* MODEL 14.15. */
-static void attenuation_is_as_published(void **state)
+TEST(attenuation_is_as_published)
 {
-    (void)state;
     static const struct {
         double carrier_hz, rate_mmph, dbpkm, range_m, two_way_db;
     } rows[] = {{24.125e9, 25, 3.073520, 100, 0.614704},
@@ -82,18 +79,16 @@ static void attenuation_is_as_published(void **state)
 }
 
 /* MODEL 14.15: at 10 deg C, and 0.5 g/m^3 over 100 m. */
-static void fog_is_as_published(void **state)
+TEST(fog_is_as_published)
 {
-    (void)state;
     assert_close(attenuation_fog_dbpkm(24.125e9, 10, 1), 0.389249, 5.1e-7);
     assert_close(attenuation_fog_dbpkm(76.5e9, 10, 1), 3.115457, 5.1e-7);
     double dense = attenuation_fog_dbpkm(76.5e9, 10, 0.5);
     assert_close(db(attenuation_amplitude_factor(dense, 100)), 0.311546, 5.1e-7);
 }
 
-static void dry_air_and_no_range_take_nothing(void **state)
+TEST(dry_air_and_no_range_take_nothing)
 {
-    (void)state;
     struct attenuation_law law = attenuation_rain_law(76.5e9, POLARIZATION_HORIZONTAL);
     assert_close(attenuation_rain_dbpkm(law, 0), 0, 0);
     assert_close(attenuation_fog_dbpkm(76.5e9, 10, 0), 0, 0);
@@ -102,23 +97,9 @@ static void dry_air_and_no_range_take_nothing(void **state)
     assert_close(attenuation_amplitude_factor(1e9, 1e6), 0, 0);
 }
 
-static void two_stretches_attenuate_like_one(void **state)
+TEST(two_stretches_attenuate_like_one)
 {
-    (void)state;
     for (int range_m = 1; range_m < 300; range_m++)
         assert_near(attenuation_amplitude_factor(8, range_m) * attenuation_amplitude_factor(8, 50),
                     attenuation_amplitude_factor(8, range_m + 50), 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_law_is_as_published),
-        cmocka_unit_test(the_law_is_the_table_of_the_recommendation),
-        cmocka_unit_test(attenuation_is_as_published),
-        cmocka_unit_test(fog_is_as_published),
-        cmocka_unit_test(dry_air_and_no_range_take_nothing),
-        cmocka_unit_test(two_stretches_attenuate_like_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,9 +6,8 @@
 #define LIGHT_MPS 299792458
 
 /* Ten waves to a metre: 20 R turns. */
-static void whole_turns_are_taken_off(void **state)
+TEST(whole_turns_are_taken_off)
 {
-    (void)state;
     static const double rows[][2] = {
         {0, 0},   {0.0125, 0.25},       {0.0375, -0.25},       {1, 0},
         {1e6, 0}, {100.003125, 0.0625}, {100.046875, -0.0625}, {123456.75, 0},
@@ -23,9 +22,8 @@ static void whole_turns_are_taken_off(void **state)
 
 /* Ranges in 2^-16 m and carriers in Hz are integers, and so are the turns in parts of the speed of
  * light. */
-static void turns_are_those_of_integer_arithmetic(void **state)
+TEST(turns_are_those_of_integer_arithmetic)
 {
-    (void)state;
     const int64_t whole = (int64_t)LIGHT_MPS << 16;
     uint64_t sample = 39;
     for (int i = 0; i < 200000; i++) {
@@ -40,9 +38,8 @@ static void turns_are_those_of_integer_arithmetic(void **state)
 }
 
 /* A carrier higher by the speed of light adds 2 R turns. */
-static void the_greatest_range_and_carrier_still_turn(void **state)
+TEST(the_greatest_range_and_carrier_still_turn)
 {
-    (void)state;
     for (int i = 0; i < 1000; i++) {
         double range_m = 1e6 - i * 0x1p-10;
         double turns = carrier_phase_turns(range_m, 1e12);
@@ -50,14 +47,4 @@ static void the_greatest_range_and_carrier_still_turn(void **state)
         double expected = 2 * range_m;
         assert_close(later - turns - expected - round(later - turns - expected), 0, 3e-16);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whole_turns_are_taken_off),
-        cmocka_unit_test(turns_are_those_of_integer_arithmetic),
-        cmocka_unit_test(the_greatest_range_and_carrier_still_turn),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,9 +9,8 @@
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static void places_are_even_over_the_area(void **state)
+TEST(places_are_even_over_the_area)
 {
-    (void)state;
     assert_near(ground_return_area_m2(0, 10, 2 * PI), 100 * PI, 1e-15);
     assert_near(ground_return_area_m2(5, 10, PI), 37.5 * PI, 1e-15);
     assert_close(ground_return_area_m2(7, 7, 1), 0, 0);
@@ -32,9 +31,8 @@ static void places_are_even_over_the_area(void **state)
 }
 
 /* MODEL 14.13: 20 m/s, 0.3 rad/s, a sensor at (3.6, 0.7), the sight line at 40 degrees. */
-static void the_standing_world_recedes_by_the_sensors_own_motion(void **state)
+TEST(the_standing_world_recedes_by_the_sensors_own_motion)
 {
-    (void)state;
     struct motion ego = {.velocity_mps = {20, 0}, .yaw_rate_radps = 0.3};
     struct vec2 sensor_mps = motion_velocity_at(&ego, (struct vec2){3.6, 0.7}), ahead = {1, 0};
     assert_close(ground_return_range_rate_mps(sensor_mps, ahead, 40 * DEGREE), -15.854230, 5e-7);
@@ -48,13 +46,4 @@ static void the_standing_world_recedes_by_the_sensors_own_motion(void **state)
     assert_near(ground_return_range_rate_mps(sensor_mps, aside, sight.azimuth_rad),
                 sight.range_rate_mps, 1e-14);
     assert_close(ground_return_range_rate_mps(still, ahead, 1), 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places_are_even_over_the_area),
-        cmocka_unit_test(the_standing_world_recedes_by_the_sensors_own_motion),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

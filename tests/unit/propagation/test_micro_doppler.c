@@ -16,9 +16,8 @@ static double rate_at(double rolling_mps, double fraction, int step)
 }
 
 /* MODEL 14.11: 50 km/h seen at 30 deg by a radar that stands. */
-static void rates_spread_as_published(void **state)
+TEST(rates_spread_as_published)
 {
-    (void)state;
     static const struct {
         double fraction, least, most, deviation;
     } rows[] = {{1, 0, 24.0563, 8.505180}, {0.7, 3.6084, 20.4478, 5.953626}};
@@ -38,9 +37,8 @@ static void rates_spread_as_published(void **state)
 }
 
 /* MODEL 14.11. */
-static void rates_gather_at_the_ends(void **state)
+TEST(rates_gather_at_the_ends)
 {
-    (void)state;
     double rolling_mps = 13.8889 * cos(30 * DEGREE), ends = 0, middle = 0;
     for (int k = 0; k < STEPS; k++) {
         double extra = rate_at(rolling_mps, 1, k) - rolling_mps;
@@ -51,18 +49,16 @@ static void rates_gather_at_the_ends(void **state)
     assert_close(middle / STEPS, 0.013233, 3e-5);
 }
 
-static void the_top_is_twice_as_fast_and_the_contact_point_stands(void **state)
+TEST(the_top_is_twice_as_fast_and_the_contact_point_stands)
 {
-    (void)state;
     assert_close(micro_doppler_wheel_rate_mps(10, 10, (struct wheel_point){1, 0}), 20, 0);
     assert_close(micro_doppler_wheel_rate_mps(10, 10, (struct wheel_point){1, PI}), 0, 1e-15);
     /* Seen from a radar that drives along at the same speed. */
     assert_close(micro_doppler_wheel_rate_mps(0, 10, (struct wheel_point){1, PI}), -10, 1e-15);
 }
 
-static void the_hub_and_a_wheel_that_stands_have_the_rate_of_the_body(void **state)
+TEST(the_hub_and_a_wheel_that_stands_have_the_rate_of_the_body)
 {
-    (void)state;
     for (int k = 0; k < 100; k++) {
         struct wheel_point point = {0.01 * k, 0.1 * k};
         assert_close(micro_doppler_wheel_rate_mps(-3.7, 0, point), -3.7, 0);
@@ -71,9 +67,8 @@ static void the_hub_and_a_wheel_that_stands_have_the_rate_of_the_body(void **sta
     }
 }
 
-static void points_are_drawn_evenly(void **state)
+TEST(points_are_drawn_evenly)
 {
-    (void)state;
     for (int k = 0; k <= 10; k++) {
         struct wheel_point point = micro_doppler_wheel_point((double[2]){0.1 * k, 0.1 * k});
         assert_close(point.fraction, 0.3 + 0.07 * k, 1e-15);
@@ -81,9 +76,8 @@ static void points_are_drawn_evenly(void **state)
     }
 }
 
-static void points_move_between_the_contact_point_and_the_top(void **state)
+TEST(points_move_between_the_contact_point_and_the_top)
 {
-    (void)state;
     uint64_t sample = 8;
     for (int i = 0; i < 100000; i++) {
         double hub = sample_between(&sample, -50, 50), rolling = sample_between(&sample, -50, 50);
@@ -94,9 +88,8 @@ static void points_move_between_the_contact_point_and_the_top(void **state)
     }
 }
 
-static void one_and_a_half_points_show_on_average(void **state)
+TEST(one_and_a_half_points_show_on_average)
 {
-    (void)state;
     double sum = 0, none = 0;
     for (int k = 0; k < STEPS; k++) {
         int64_t count = random_poisson(MICRO_DOPPLER_WHEEL_COUNT, (k + 0.5) / STEPS);
@@ -112,9 +105,8 @@ static void one_and_a_half_points_show_on_average(void **state)
 /* A triangle over [a, b] with its peak at c: mean (a + b + c)/3, variance (a^2 + b^2 + c^2 - a b -
  * a c
  * - b c)/18, and (c - a)/(b - a) of it below the peak. */
-static void swings_are_triangular(void **state)
+TEST(swings_are_triangular)
 {
-    (void)state;
     double mean = 0, squares = 0, backward = 0, before = -1;
     for (int k = 0; k < STEPS; k++) {
         double swing = micro_doppler_limb((double[2]){(k + 0.5) / STEPS, 0.5}).swing;
@@ -134,18 +126,16 @@ static void swings_are_triangular(void **state)
     }
 }
 
-static void limbs_reach_as_far_ahead_as_behind(void **state)
+TEST(limbs_reach_as_far_ahead_as_behind)
 {
-    (void)state;
     assert_close(micro_doppler_limb((double[2]){0.5, RANDOM_LEAST}).offset_m, -0.35, 1e-15);
     assert_close(micro_doppler_limb((double[2]){0.5, 0.5}).offset_m, 0, 0);
     assert_close(micro_doppler_limb((double[2]){0.5, 0.75}).offset_m, 0.175, 1e-16);
     assert_close(micro_doppler_limb((double[2]){0.5, RANDOM_MOST}).offset_m, 0.35, 1e-15);
 }
 
-static void the_standing_foot_stands_and_the_other_overtakes(void **state)
+TEST(the_standing_foot_stands_and_the_other_overtakes)
 {
-    (void)state;
     assert_close(micro_doppler_limb_rate_mps(1.4, 1.4, (struct limb){-1, 0}), 0, 0);
     assert_close(micro_doppler_limb_rate_mps(1.4, 1.4, (struct limb){1.5, 0}), 3.5, 1e-15);
     /* Towards a radar that drives at 10 m/s. */
@@ -153,9 +143,8 @@ static void the_standing_foot_stands_and_the_other_overtakes(void **state)
     assert_close(micro_doppler_limb_rate_mps(-11.4, 0, (struct limb){1.2, 0}), -11.4, 0);
 }
 
-static void limbs_move_between_the_standing_foot_and_two_and_a_half_times_the_torso(void **state)
+TEST(limbs_move_between_the_standing_foot_and_two_and_a_half_times_the_torso)
 {
-    (void)state;
     uint64_t sample = 18;
     static const double ends[2] = {RANDOM_LEAST, RANDOM_MOST};
     for (int i = 0; i < 100000; i++) {
@@ -167,9 +156,8 @@ static void limbs_move_between_the_standing_foot_and_two_and_a_half_times_the_to
     }
 }
 
-static void every_other_person_shows_a_limb_on_average(void **state)
+TEST(every_other_person_shows_a_limb_on_average)
 {
-    (void)state;
     double sum = 0, none = 0;
     for (int k = 0; k < STEPS; k++) {
         int64_t count = random_poisson(MICRO_DOPPLER_LIMB_COUNT, (k + 0.5) / STEPS);
@@ -180,23 +168,4 @@ static void every_other_person_shows_a_limb_on_average(void **state)
     assert_close(none / STEPS, exp(-0.5), 2e-5);
     assert_in_range(random_poisson(MICRO_DOPPLER_LIMB_COUNT, RANDOM_MOST), 10, 20);
     assert_close(units_amplitude_db(MICRO_DOPPLER_LIMB_FACTOR), -6, 1e-14);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rates_spread_as_published),
-        cmocka_unit_test(rates_gather_at_the_ends),
-        cmocka_unit_test(the_top_is_twice_as_fast_and_the_contact_point_stands),
-        cmocka_unit_test(the_hub_and_a_wheel_that_stands_have_the_rate_of_the_body),
-        cmocka_unit_test(points_are_drawn_evenly),
-        cmocka_unit_test(points_move_between_the_contact_point_and_the_top),
-        cmocka_unit_test(one_and_a_half_points_show_on_average),
-        cmocka_unit_test(swings_are_triangular),
-        cmocka_unit_test(limbs_reach_as_far_ahead_as_behind),
-        cmocka_unit_test(the_standing_foot_stands_and_the_other_overtakes),
-        cmocka_unit_test(limbs_move_between_the_standing_foot_and_two_and_a_half_times_the_torso),
-        cmocka_unit_test(every_other_person_shows_a_limb_on_average),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

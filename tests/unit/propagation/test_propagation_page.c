@@ -15,9 +15,8 @@ static double two_ray_db(double g, double distance_m)
         reflection_two_ray_point_factor(&paths, g, units_wavelength_m(76.5e9)));
 }
 
-static void the_road_as_a_mirror(void **state)
+TEST(the_road_as_a_mirror)
 {
-    (void)state;
     double null_m = 2 * 0.5 * 0.6 / units_wavelength_m(76.5e9);
     PRINTED("14.10", "about 2 h_s h_r/(n λ): #, #, # m", null_m, null_m / 2, null_m / 3);
     PRINTED("14.10", "g = -1 # # # #", two_ray_db(-1, 20), two_ray_db(-1, 50), two_ray_db(-1, 100),
@@ -38,9 +37,8 @@ static double rain_dbpkm(double carrier_hz, double rate_mmph)
                                   rate_mmph);
 }
 
-static void rain_and_fog(void **state)
+TEST(rain_and_fog)
 {
-    (void)state;
     PRINTED("14.15", "25 mm/h, 100 m 24.125 GHz # dB 76.5 GHz # dB",
             taken_db(rain_dbpkm(24.125e9, 25), 100), taken_db(rain_dbpkm(76.5e9, 25), 100));
     PRINTED("14.15", "50 mm/h, 250 m 76.5 GHz # dB", taken_db(rain_dbpkm(76.5e9, 50), 250));
@@ -48,23 +46,12 @@ static void rain_and_fog(void **state)
             taken_db(attenuation_fog_dbpkm(76.5e9, 10, 0.5), 100));
 }
 
-static void snow(void **state)
+TEST(snow)
 {
-    (void)state;
     PRINTED("14.19", "10 mm/h γ is # dB/km, that of as much rain #",
             attenuation_snow_dbpkm(77e9, 10), rain_dbpkm(77e9, 10));
     PRINTED("14.19", "0.75 mm/h, 1 km, one way 77 GHz # dB", attenuation_snow_dbpkm(77e9, 0.75));
     PRINTED("14.19", "10 mm/h, 100 m, there and back 24.125 GHz # dB 76.5 GHz # dB",
             taken_db(attenuation_snow_dbpkm(24.125e9, 10), 100),
             taken_db(attenuation_snow_dbpkm(76.5e9, 10), 100));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_road_as_a_mirror),
-        cmocka_unit_test(rain_and_fog),
-        cmocka_unit_test(snow),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,9 +13,8 @@ static double size(double _Complex reflection)
 }
 
 /* Conductivities of ITU-R P.2040-3 at 10 and 77 GHz, times 17.98 over the frequency. */
-static void permittivities_are_those_of_the_recommendation(void **state)
+TEST(permittivities_are_those_of_the_recommendation)
 {
-    (void)state;
     static const struct {
         enum material material;
         double real, loss_10, loss_77;
@@ -37,9 +36,8 @@ static void permittivities_are_those_of_the_recommendation(void **state)
 }
 
 /* Smooth concrete of 5.24 without loss. */
-static void a_wall_mirrors_most_at_grazing_incidence(void **state)
+TEST(a_wall_mirrors_most_at_grazing_incidence)
 {
-    (void)state;
     static const struct material_permittivity concrete = {5.24, 0};
     static const struct {
         double incidence_deg, te, tm;
@@ -54,9 +52,8 @@ static void a_wall_mirrors_most_at_grazing_incidence(void **state)
     }
 }
 
-static void metal_mirrors_everything_but_at_its_brewster_angle(void **state)
+TEST(metal_mirrors_everything_but_at_its_brewster_angle)
 {
-    (void)state;
     struct material_permittivity metal = reflection_permittivity(MATERIAL_METAL, 77e9);
     for (double cosine = 0.01; cosine <= 1; cosine += 0.01) {
         assert_true(size(reflection_fresnel(&metal, MATERIAL_TE, cosine)) > 0.999);
@@ -64,9 +61,8 @@ static void metal_mirrors_everything_but_at_its_brewster_angle(void **state)
     }
 }
 
-static void at_brewsters_angle_nothing_of_a_field_in_the_plane_of_incidence_is_left(void **state)
+TEST(at_brewsters_angle_nothing_of_a_field_in_the_plane_of_incidence_is_left)
 {
-    (void)state;
     for (double real = 1.5; real < 20; real += 0.5) {
         struct material_permittivity permittivity = {real, 0};
         double cosine = 1 / sqrt(1 + real);
@@ -76,9 +72,8 @@ static void at_brewsters_angle_nothing_of_a_field_in_the_plane_of_incidence_is_l
 }
 
 /* Snell's angle behind the surface, and the impedances there and here. */
-static void reflection_agrees_with_snells_law(void **state)
+TEST(reflection_agrees_with_snells_law)
 {
-    (void)state;
     uint64_t sample = 14;
     for (int i = 0; i < 10000; i++) {
         struct material_permittivity permittivity = {sample_between(&sample, 1.01, 40),
@@ -93,9 +88,8 @@ static void reflection_agrees_with_snells_law(void **state)
     }
 }
 
-static void grazing_waves_come_back_turned_over(void **state)
+TEST(grazing_waves_come_back_turned_over)
 {
-    (void)state;
     for (enum material material = MATERIAL_CONCRETE; material <= MATERIAL_METAL; material++) {
         struct material_permittivity permittivity = reflection_permittivity(material, 24.125e9);
         for (int tm = 0; tm < 2; tm++)
@@ -103,17 +97,4 @@ static void grazing_waves_come_back_turned_over(void **state)
                 size(reflection_fresnel(&permittivity, tm ? MATERIAL_TM : MATERIAL_TE, 0) + 1), 0,
                 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(permittivities_are_those_of_the_recommendation),
-        cmocka_unit_test(a_wall_mirrors_most_at_grazing_incidence),
-        cmocka_unit_test(metal_mirrors_everything_but_at_its_brewster_angle),
-        cmocka_unit_test(at_brewsters_angle_nothing_of_a_field_in_the_plane_of_incidence_is_left),
-        cmocka_unit_test(reflection_agrees_with_snells_law),
-        cmocka_unit_test(grazing_waves_come_back_turned_over),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

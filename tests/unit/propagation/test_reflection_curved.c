@@ -12,9 +12,8 @@ static double dbsm(double cross_section_m2)
     return 10 * log10(cross_section_m2);
 }
 
-static void cross_sections_are_those_of_geometrical_optics(void **state)
+TEST(cross_sections_are_those_of_geometrical_optics)
 {
-    (void)state;
     assert_close(reflection_curved_cross_section_m2(0.5, 0.5, 5), 0.649089391, 5e-10);
     static const struct {
         double radius_1_m, radius_2_m, range_m, dbsm, tolerance;
@@ -37,9 +36,8 @@ static void cross_sections_are_those_of_geometrical_optics(void **state)
 }
 
 /* MODEL 14.5: a straight rail with corrugations of 4 cm, nearly pi r2 R. */
-static void a_rail_is_lit_along_a_line(void **state)
+TEST(a_rail_is_lit_along_a_line)
 {
-    (void)state;
     for (double range_m = 0.5; range_m < 200; range_m *= 1.5) {
         double rail_m2 = PI * 0.04 * range_m * range_m / (0.04 + range_m);
         assert_near(reflection_curved_cross_section_m2(HUGE_VAL, 0.04, range_m), rail_m2, 1e-15);
@@ -48,9 +46,8 @@ static void a_rail_is_lit_along_a_line(void **state)
 }
 
 /* The formula as it stands, in extended precision, over thirty decades. */
-static void no_radius_and_no_range_is_too_large_or_too_small(void **state)
+TEST(no_radius_and_no_range_is_too_large_or_too_small)
 {
-    (void)state;
     uint64_t sample = 22;
     for (int i = 0; i < 100000; i++) {
         double r1 = pow(10, sample_between(&sample, -9, 12));
@@ -64,9 +61,8 @@ static void no_radius_and_no_range_is_too_large_or_too_small(void **state)
     }
 }
 
-static void nothing_is_zero_and_never_nan(void **state)
+TEST(nothing_is_zero_and_never_nan)
 {
-    (void)state;
     static const double radii_m[] = {0, 1e-300, 1, 1e9, HUGE_VAL};
     for (size_t i = 0; i < COUNT(radii_m); i++) {
         assert_close(reflection_curved_cross_section_m2(radii_m[i], 0, 0), 0, 0);
@@ -78,9 +74,8 @@ static void nothing_is_zero_and_never_nan(void **state)
 
 /* Back to where it came from, a wave that a curved surface mirrors is its echo, against a plane's.
  */
-static void a_wave_mirrored_straight_back_is_the_echo(void **state)
+TEST(a_wave_mirrored_straight_back_is_the_echo)
 {
-    (void)state;
     uint64_t sample = 9;
     for (int i = 0; i < 1000; i++) {
         double r1 = pow(10, sample_between(&sample, -2, 4));
@@ -93,25 +88,11 @@ static void a_wave_mirrored_straight_back_is_the_echo(void **state)
 }
 
 /* A radius counts times the cosine in the plane of incidence, over it across. */
-static void curvature_in_the_plane_of_incidence_spreads_grazing_waves_most(void **state)
+TEST(curvature_in_the_plane_of_incidence_spreads_grazing_waves_most)
 {
-    (void)state;
     assert_near(reflection_divergence(20, HUGE_VAL, 0.25, 10), 1 / sqrt(1 + 4), 1e-15);
     assert_near(reflection_divergence(HUGE_VAL, 20, 0.25, 10), 1 / sqrt(1 + 0.25), 1e-15);
     assert_near(reflection_divergence(20, 20, 0.25, 10), 1 / sqrt(5 * 1.25), 1e-15);
     assert_close(reflection_divergence(HUGE_VAL, HUGE_VAL, 1e-9, 1e6), 1, 0);
     assert_close(reflection_divergence(1e-3, 1e-3, 1, 0), 1, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cross_sections_are_those_of_geometrical_optics),
-        cmocka_unit_test(a_rail_is_lit_along_a_line),
-        cmocka_unit_test(no_radius_and_no_range_is_too_large_or_too_small),
-        cmocka_unit_test(nothing_is_zero_and_never_nan),
-        cmocka_unit_test(a_wave_mirrored_straight_back_is_the_echo),
-        cmocka_unit_test(curvature_in_the_plane_of_incidence_spreads_grazing_waves_most),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static double point_db(double reflection, double carrier_hz, double distance_m)
 }
 
 /* MODEL 14.10. */
-static void fading_is_as_published(void **state)
+TEST(fading_is_as_published)
 {
-    (void)state;
     static const struct {
         double reflection, carrier_hz, distance_m, factor_db;
     } rows[] = {
@@ -47,25 +46,22 @@ static void fading_is_as_published(void **state)
 }
 
 /* Both ends on the road at one place: the waves add as they are. */
-static void without_a_way_the_bounced_wave_loses_nothing_by_spreading(void **state)
+TEST(without_a_way_the_bounced_wave_loses_nothing_by_spreading)
 {
-    (void)state;
     struct two_ray_ends ends = {0, 0, 0, 0};
     struct two_ray_paths paths = reflection_two_ray_paths(&ends);
     assert_close(reflection_two_ray_point_factor(&paths, -0.5, 0.004), 0.25, 1e-15);
     assert_close(reflection_two_ray_point_factor(&paths, 0.5, 0.004), 2.25, 1e-15);
 }
 
-static void path_difference_is_as_published(void **state)
+TEST(path_difference_is_as_published)
 {
-    (void)state;
     struct two_ray_ends ends = ends_at(10);
     assert_close(reflection_two_ray_paths(&ends).difference_m, 0.059818099, 5.1e-10);
 }
 
-static void path_difference_keeps_its_digits_far_away(void **state)
+TEST(path_difference_keeps_its_digits_far_away)
 {
-    (void)state;
     for (double distance_m = 1; distance_m < 1e7; distance_m *= 1.7) {
         struct two_ray_ends ends = ends_at(distance_m);
         long double direct = hypotl((long double)distance_m, 0.5L - (long double)0.6);
@@ -80,9 +76,8 @@ static void path_difference_keeps_its_digits_far_away(void **state)
 
 /* MODEL 14.10: nulls at 2 h_s h_r/(n lambda), to first order; the last maximum at twice the first.
  */
-static void echoes_fade_where_the_paths_differ_by_whole_waves(void **state)
+TEST(echoes_fade_where_the_paths_differ_by_whole_waves)
 {
-    (void)state;
     static const struct {
         double carrier_hz, null_m[3];
     } rows[] = {{76.5e9, {153.1059, 76.5530, 51.0353}}, {24.125e9, {48.2834, 24.1417, 16.0945}}};
@@ -99,9 +94,8 @@ static void echoes_fade_where_the_paths_differ_by_whole_waves(void **state)
 }
 
 /* MODEL 14.10. */
-static void reflection_is_fresnels(void **state)
+TEST(reflection_is_fresnels)
 {
-    (void)state;
     static const struct {
         double grazing_deg, horizontal, vertical;
     } rows[] = {{1, 0.982724, 0.916381},
@@ -117,9 +111,8 @@ static void reflection_is_fresnels(void **state)
     }
 }
 
-static void reflection_agrees_with_complex_arithmetic(void **state)
+TEST(reflection_agrees_with_complex_arithmetic)
 {
-    (void)state;
     uint64_t sample = 6;
     for (int i = 0; i < 10000; i++) {
         struct two_ray_road road = {
@@ -141,9 +134,8 @@ static void reflection_agrees_with_complex_arithmetic(void **state)
     }
 }
 
-static void a_bounced_wave_is_late_by_the_path_difference(void **state)
+TEST(a_bounced_wave_is_late_by_the_path_difference)
 {
-    (void)state;
     uint64_t sample = 5;
     for (int i = 0; i < 10000; i++) {
         struct two_ray_paths paths = {10, sample_between(&sample, 10, 12),
@@ -158,9 +150,8 @@ static void a_bounced_wave_is_late_by_the_path_difference(void **state)
     }
 }
 
-static void grazing_waves_come_back_turned_over(void **state)
+TEST(grazing_waves_come_back_turned_over)
 {
-    (void)state;
     for (int v = 0; v < 2; v++) {
         double _Complex reflection = reflection_road(
             &ASPHALT, v ? POLARIZATION_VERTICAL : POLARIZATION_HORIZONTAL, 0.004, 0);
@@ -170,9 +161,8 @@ static void grazing_waves_come_back_turned_over(void **state)
 }
 
 /* MODEL 14.10: 1 mm at 5 deg. */
-static void roughness_scatters_as_published(void **state)
+TEST(roughness_scatters_as_published)
 {
-    (void)state;
     static const struct {
         double carrier_hz, share;
     } rows[] = {{24.125e9, 0.996124}, {76.5e9, 0.961699}};
@@ -186,9 +176,8 @@ static void roughness_scatters_as_published(void **state)
 }
 
 /* MODEL 14.10. */
-static void the_mean_is_as_published(void **state)
+TEST(the_mean_is_as_published)
 {
-    (void)state;
     static const struct {
         double reflection, mean_db;
     } rows[] = {{1, 7.781513}, {0.9, 6.898503}, {0.7, 5.051635}, {0.5, 3.143940}, {0, 0}};
@@ -197,9 +186,8 @@ static void the_mean_is_as_published(void **state)
                      rows[i].mean_db, 5.1e-7);
 }
 
-static void the_mean_is_that_of_power_over_all_phases(void **state)
+TEST(the_mean_is_that_of_power_over_all_phases)
 {
-    (void)state;
     for (double reflection = 0; reflection <= 1; reflection += 0.1) {
         double power = 0;
         for (int k = 0; k < 16; k++) {
@@ -211,9 +199,8 @@ static void the_mean_is_that_of_power_over_all_phases(void **state)
 }
 
 /* MODEL 14.10: a lobe is 0.1176 m high at 76.5 GHz, 30 m and 0.5 m. */
-static void reflectors_higher_than_half_a_lobe_get_the_mean(void **state)
+TEST(reflectors_higher_than_half_a_lobe_get_the_mean)
 {
-    (void)state;
     double wavelength_m = units_wavelength_m(76.5e9);
     struct two_ray_ends ends = ends_at(30);
     struct two_ray_paths paths = reflection_two_ray_paths(&ends);
@@ -231,9 +218,8 @@ static void reflectors_higher_than_half_a_lobe_get_the_mean(void **state)
     }
 }
 
-static void no_echo_leaves_the_bounds(void **state)
+TEST(no_echo_leaves_the_bounds)
 {
-    (void)state;
     uint64_t sample = 7;
     for (int i = 0; i < 100000; i++) {
         struct two_ray_ends ends = {sample_between(&sample, 0, 1), sample_between(&sample, 0, 3),
@@ -255,44 +241,19 @@ static void no_echo_leaves_the_bounds(void **state)
     assert_near(reflection_two_ray_point_factor(&in_phase, -0.4, 1), 0.6 * 0.6, 1e-15);
 }
 
-static void a_road_that_reflects_nothing_changes_nothing(void **state)
+TEST(a_road_that_reflects_nothing_changes_nothing)
 {
-    (void)state;
     struct two_ray_paths paths = {10, 10.1, 0.3, 0.1};
     assert_close(reflection_two_ray_point_factor(&paths, 0, 0.004), 1, 0);
     assert_close(reflection_two_ray_mean_factor(0), 1, 0);
 }
 
-static void ends_on_the_road_give_numbers(void **state)
+TEST(ends_on_the_road_give_numbers)
 {
-    (void)state;
     for (int i = 0; i < 16; i++) {
         struct two_ray_ends ends = {i & 1 ? 0.5 : 0, i & 2 ? 0.5 : 0, i & 4 ? 1 : 0,
                                     i & 8 ? 20 : 0};
         double factor = reflection_two_ray_factor(&ASPHALT, POLARIZATION_VERTICAL, 0.004, &ends);
         assert_true(factor >= 0 && factor <= 4);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fading_is_as_published),
-        cmocka_unit_test(without_a_way_the_bounced_wave_loses_nothing_by_spreading),
-        cmocka_unit_test(path_difference_is_as_published),
-        cmocka_unit_test(path_difference_keeps_its_digits_far_away),
-        cmocka_unit_test(echoes_fade_where_the_paths_differ_by_whole_waves),
-        cmocka_unit_test(reflection_is_fresnels),
-        cmocka_unit_test(reflection_agrees_with_complex_arithmetic),
-        cmocka_unit_test(a_bounced_wave_is_late_by_the_path_difference),
-        cmocka_unit_test(grazing_waves_come_back_turned_over),
-        cmocka_unit_test(roughness_scatters_as_published),
-        cmocka_unit_test(the_mean_is_as_published),
-        cmocka_unit_test(the_mean_is_that_of_power_over_all_phases),
-        cmocka_unit_test(reflectors_higher_than_half_a_lobe_get_the_mean),
-        cmocka_unit_test(no_echo_leaves_the_bounds),
-        cmocka_unit_test(a_road_that_reflects_nothing_changes_nothing),
-        cmocka_unit_test(ends_on_the_road_give_numbers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,9 +56,8 @@ static double chi_square(const double *seen, const double *expected, int bins)
     return sum;
 }
 
-static void the_number_in_a_cell_is_a_poisson_count_of_the_mean_described(void **state)
+TEST(the_number_in_a_cell_is_a_poisson_count_of_the_mean_described)
 {
-    (void)state;
     enum { BINS = 6 };
     struct roadside_scatterer found[100];
     double seen[BINS] = {0}, expected[BINS], chance = exp(-0.8), rest = 1;
@@ -76,9 +75,8 @@ static void the_number_in_a_cell_is_a_poisson_count_of_the_mean_described(void *
 }
 
 /* Of n levels with the deviation s the mean varies by s/sqrt(n), the deviation by s/sqrt(2 n). */
-static void levels_are_normal_in_decibels_and_fall_in_a_cell(void **state)
+TEST(levels_are_normal_in_decibels_and_fall_in_a_cell)
 {
-    (void)state;
     struct roadside_scatterer found[100];
     double sum = 0, squares = 0, count = 0;
     for (int64_t cell = 0; cell < CELLS; cell++) {
@@ -97,9 +95,8 @@ static void levels_are_normal_in_decibels_and_fall_in_a_cell(void **state)
     assert_close(sqrt(squares / count - mean * mean), 8, 4 * 8 / sqrt(2 * count));
 }
 
-static void a_reader_that_stops_early_has_missed_nothing_above_its_level(void **state)
+TEST(a_reader_that_stops_early_has_missed_nothing_above_its_level)
 {
-    (void)state;
     struct roadside_scatterer all[100], strong[100];
     int kept = 0, left = 0;
     for (int64_t cell = 0; cell < 1000; cell++)
@@ -114,9 +111,8 @@ static void a_reader_that_stops_early_has_missed_nothing_above_its_level(void **
     assert_true(kept > 500 && left > 500);
 }
 
-static void a_rail_has_one_post_a_spacing_at_a_uniform_place(void **state)
+TEST(a_rail_has_one_post_a_spacing_at_a_uniform_place)
 {
-    (void)state;
     enum { BINS = 10 };
     struct roadside_scatterer found[100];
     double seen[BINS] = {0}, expected[BINS];
@@ -133,9 +129,8 @@ static void a_rail_has_one_post_a_spacing_at_a_uniform_place(void **state)
 }
 
 /* Strips of 10 m: cells of 4, 4 and 2 m. Their counts are Poisson with the mean of their area. */
-static void nothing_stands_outside_a_strip(void **state)
+TEST(nothing_stands_outside_a_strip)
 {
-    (void)state;
     struct roadside_scatterer found[100];
     double count = 0, strips = 5000;
     for (int64_t i = 0; i < (int64_t)strips; i++) {
@@ -163,9 +158,8 @@ static void nothing_stands_outside_a_strip(void **state)
     assert_close(count, strips * 2.5, 4 * sqrt(strips * 2.5));
 }
 
-static void cells_strips_and_scenes_have_draws_of_their_own(void **state)
+TEST(cells_strips_and_scenes_have_draws_of_their_own)
 {
-    (void)state;
     struct roadside_grid grid = roadside_grid_of(&RAIL);
     double ercs[5];
     struct roadside_scatterer one;
@@ -182,9 +176,8 @@ static void cells_strips_and_scenes_have_draws_of_their_own(void **state)
 
 /* Ten bins over a meadow of four cells, 16 m from side to side: each cell has its own part of them.
  */
-static void scatterers_are_uniform_across_a_strip_and_each_in_its_cell(void **state)
+TEST(scatterers_are_uniform_across_a_strip_and_each_in_its_cell)
 {
-    (void)state;
     enum { BINS = 10 };
     struct roadside_scatterer found[100];
     double seen[BINS] = {0}, expected[BINS], count = 0;
@@ -204,9 +197,8 @@ static void scatterers_are_uniform_across_a_strip_and_each_in_its_cell(void **st
 
 /* The correlation of the two places within a cell, each from -1/2 to 1/2, is that of independent
  * draws: the sum of 12 times their products has the variance of their number. */
-static void places_along_a_strip_tell_nothing_of_those_across(void **state)
+TEST(places_along_a_strip_tell_nothing_of_those_across)
 {
-    (void)state;
     struct roadside_scatterer found[100];
     double sum = 0, count = 0;
     for (int64_t cell = 0; cell < CELLS; cell++) {
@@ -221,9 +213,8 @@ static void places_along_a_strip_tell_nothing_of_those_across(void **state)
     assert_close(sum, 0, 4 * sqrt(count));
 }
 
-static void cells_beside_each_other_across_a_strip_have_draws_of_their_own(void **state)
+TEST(cells_beside_each_other_across_a_strip_have_draws_of_their_own)
 {
-    (void)state;
     struct roadside_scatterer found[4][100];
     int alike = 0, compared = 0;
     for (int64_t along = 0; along < 100; along++)
@@ -238,9 +229,8 @@ static void cells_beside_each_other_across_a_strip_have_draws_of_their_own(void 
     assert_int_equal(alike, 0);
 }
 
-static void absent_numbers_are_those_of_the_kind(void **state)
+TEST(absent_numbers_are_those_of_the_kind)
 {
-    (void)state;
     struct roadside_strip rail = {0};
     field_clear(&roadside_strip_record, &rail);
     rail.kind = ROADSIDE_RAIL;
@@ -261,9 +251,8 @@ static void absent_numbers_are_those_of_the_kind(void **state)
 }
 
 /* What another strip has, and how long it is, is no part of an address. */
-static void the_level_of_a_scatterer_is_its_own_and_changes_with_range(void **state)
+TEST(the_level_of_a_scatterer_is_its_own_and_changes_with_range)
 {
-    (void)state;
     struct random_address one = roadside_address(SCENE, &RAIL, 1);
     struct random_address other = roadside_address(SCENE, &RAIL, 2);
     double level = roadside_level(one, 7, 30.5);
@@ -274,9 +263,8 @@ static void the_level_of_a_scatterer_is_its_own_and_changes_with_range(void **st
     assert_true(fabs(roadside_level(one, 7, 33.5) - level) > 1e-3);
 }
 
-static void rounding_of_a_length_makes_no_cell(void **state)
+TEST(rounding_of_a_length_makes_no_cell)
 {
-    (void)state;
     struct roadside_strip rail = RAIL, meadow = MEADOW;
     for (int i = -3; i <= 3; i++) {
         rail.to_y_m = 600 * (1 + i * DBL_EPSILON);
@@ -289,9 +277,8 @@ static void rounding_of_a_length_makes_no_cell(void **state)
 }
 
 /* Turned by any angle and anywhere, a strip has the same scatterers at the same places along it. */
-static void a_turned_and_shifted_strip_has_the_same_scatterers(void **state)
+TEST(a_turned_and_shifted_strip_has_the_same_scatterers)
 {
-    (void)state;
     struct roadside_scatterer found[100], turned[100];
     for (int turn = 1; turn < 12; turn++) {
         struct roadside_strip strip = RAIL;
@@ -311,9 +298,8 @@ static void a_turned_and_shifted_strip_has_the_same_scatterers(void **state)
     }
 }
 
-static void a_name_is_the_id_or_else_kind_and_number(void **state)
+TEST(a_name_is_the_id_or_else_kind_and_number)
 {
-    (void)state;
     struct arena arena = {0};
     struct roadside_strip strips[] = {RAIL, MEADOW, RAIL};
     assert_string_equal(roadside_name(&strips[1], 2, &arena), "vegetation_2");
@@ -325,9 +311,8 @@ static void a_name_is_the_id_or_else_kind_and_number(void **state)
     arena_free(&arena);
 }
 
-static void a_strip_with_an_id_has_the_same_draws_anywhere_in_the_list(void **state)
+TEST(a_strip_with_an_id_has_the_same_draws_anywhere_in_the_list)
 {
-    (void)state;
     struct roadside_strip left = RAIL, right = RAIL;
     left.id = "left";
     right.id = "right";
@@ -338,9 +323,8 @@ static void a_strip_with_an_id_has_the_same_draws_anywhere_in_the_list(void **st
     assert_true(roadside_address(SCENE, &RAIL, 1).frame != roadside_address(SCENE, &RAIL, 2).frame);
 }
 
-static void a_strip_without_length_or_number_has_nothing(void **state)
+TEST(a_strip_without_length_or_number_has_nothing)
 {
-    (void)state;
     struct roadside_scatterer found[100];
     struct roadside_strip point = RAIL, bare = MEADOW;
     point.to_y_m = 0;
@@ -348,27 +332,4 @@ static void a_strip_without_length_or_number_has_nothing(void **state)
     bare.per_m2 = 0;
     assert_int_equal(roadside_grid_of(&point).along_count, 0);
     assert_int_equal(draw(&bare, 0, 0, 0, found), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_number_in_a_cell_is_a_poisson_count_of_the_mean_described),
-        cmocka_unit_test(levels_are_normal_in_decibels_and_fall_in_a_cell),
-        cmocka_unit_test(a_reader_that_stops_early_has_missed_nothing_above_its_level),
-        cmocka_unit_test(a_rail_has_one_post_a_spacing_at_a_uniform_place),
-        cmocka_unit_test(nothing_stands_outside_a_strip),
-        cmocka_unit_test(cells_strips_and_scenes_have_draws_of_their_own),
-        cmocka_unit_test(scatterers_are_uniform_across_a_strip_and_each_in_its_cell),
-        cmocka_unit_test(places_along_a_strip_tell_nothing_of_those_across),
-        cmocka_unit_test(cells_beside_each_other_across_a_strip_have_draws_of_their_own),
-        cmocka_unit_test(absent_numbers_are_those_of_the_kind),
-        cmocka_unit_test(the_level_of_a_scatterer_is_its_own_and_changes_with_range),
-        cmocka_unit_test(rounding_of_a_length_makes_no_cell),
-        cmocka_unit_test(a_turned_and_shifted_strip_has_the_same_scatterers),
-        cmocka_unit_test(a_name_is_the_id_or_else_kind_and_number),
-        cmocka_unit_test(a_strip_with_an_id_has_the_same_draws_anywhere_in_the_list),
-        cmocka_unit_test(a_strip_without_length_or_number_has_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

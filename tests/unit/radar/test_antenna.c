@@ -70,9 +70,8 @@ static double dense_azimuth(int i)
     return PI / 2 - pow(10, -12.0 * (i - 70000) / 30000);
 }
 
-static void the_patterns_are_those_of_the_paper(void **state)
+TEST(the_patterns_are_those_of_the_paper)
 {
-    (void)state;
     static const struct {
         double azimuth_deg, sum, delta, sum_db, delta_db, tolerance_db;
     } rows[] = {
@@ -95,9 +94,8 @@ static void the_patterns_are_those_of_the_paper(void **state)
     }
 }
 
-static void the_patterns_agree_to_six_published_digits(void **state)
+TEST(the_patterns_agree_to_six_published_digits)
 {
-    (void)state;
     static const double rows[][3] = {{10, 0.936682, 0.262026},
                                      {20, 0.769032, 0.458104},
                                      {45, 0.253277, 0.511110},
@@ -123,9 +121,8 @@ static double width_deg(double level)
     return inside;
 }
 
-static void the_sum_beam_has_the_published_widths(void **state)
+TEST(the_sum_beam_has_the_published_widths)
 {
-    (void)state;
     assert_close(2 * width_deg(sqrt(0.5)), 45.910123, 1e-5);
     assert_close(antenna_beam_rad(&CENTRE), 45.910123 * DEGREE, 5e-5);
     assert_close(width_deg(0.5), 32.326863, 1e-5);
@@ -134,9 +131,8 @@ static void the_sum_beam_has_the_published_widths(void **state)
     assert_close(width_deg(units_amplitude_from_db(-20)), 57.0, 0.05);
 }
 
-static void delta_peaks_at_34_deg(void **state)
+TEST(delta_peaks_at_34_deg)
 {
-    (void)state;
     double peak = 0;
     double peak_deg = 0;
     for (int i = 0; i <= 9000; i++) {
@@ -150,17 +146,15 @@ static void delta_peaks_at_34_deg(void **state)
     assert_close(units_amplitude_db(peak), -5.05, 0.005);
 }
 
-static void sum_and_delta_cross_at_30_deg(void **state)
+TEST(sum_and_delta_cross_at_30_deg)
 {
-    (void)state;
     struct antenna_pointers pointers = antenna_pointers(&CENTRE, asin(0.5));
     assert_near(magnitude(pointers.delta), magnitude(pointers.sum), 1e-15);
 }
 
 /* Equation (6) as printed: half the sum and half the difference of the two dipoles. */
-static void element_phase_is_equation_six_as_printed(void **state)
+TEST(element_phase_is_equation_six_as_printed)
 {
-    (void)state;
     for (int i = -89; i <= 89; i++) {
         double u = PI / 2 * sin(i * DEGREE);
         double element = (i == 0 ? 1 : sin(u) / u) * cos(i * DEGREE);
@@ -173,9 +167,8 @@ static void element_phase_is_equation_six_as_printed(void **state)
 }
 
 /* MODEL 13: delta over sum at +10 and -40 deg, whatever the phase reference. */
-static void delta_over_sum_is_minus_j_tan_u(void **state)
+TEST(delta_over_sum_is_minus_j_tan_u)
 {
-    (void)state;
     static const double rows[][2] = {{10, -0.279738}, {-40, 1.591105}};
     const struct antenna *antennas[] = {&CENTRE, &ELEMENT};
     for (size_t i = 0; i < COUNT(rows); i++)
@@ -188,9 +181,8 @@ static void delta_over_sum_is_minus_j_tan_u(void **state)
 }
 
 /* Hard cases 1 to 5. */
-static void pointers_keep_eight_ulp_up_to_the_side(void **state)
+TEST(pointers_keep_eight_ulp_up_to_the_side)
 {
-    (void)state;
     for (int i = 0; i < 100000; i++) {
         double azimuth_rad = dense_azimuth(i);
         struct reference exact = reference_at(azimuth_rad);
@@ -211,9 +203,8 @@ static void pointers_keep_eight_ulp_up_to_the_side(void **state)
     }
 }
 
-static void boresight_and_side_have_finite_pointers(void **state)
+TEST(boresight_and_side_have_finite_pointers)
 {
-    (void)state;
     struct antenna_pointers ahead = antenna_pointers(&ELEMENT, 0);
     assert_close(magnitude(ahead.sum - 1), 0, 0);
     assert_close(magnitude(ahead.delta), 0, 0);
@@ -222,9 +213,8 @@ static void boresight_and_side_have_finite_pointers(void **state)
     assert_true(magnitude(side.sum) < 1e-48);
 }
 
-static void mirrored_azimuths_give_mirrored_pointers(void **state)
+TEST(mirrored_azimuths_give_mirrored_pointers)
 {
-    (void)state;
     for (int i = 0; i < 100000; i++) {
         double azimuth_rad = dense_azimuth(i);
         struct antenna_pointers left = antenna_pointers(&CENTRE, azimuth_rad);
@@ -244,9 +234,8 @@ static void mirrored_azimuths_give_mirrored_pointers(void **state)
     }
 }
 
-static void mirrored_ratios_give_mirrored_azimuths(void **state)
+TEST(mirrored_ratios_give_mirrored_azimuths)
 {
-    (void)state;
     for (int i = 0; i < 20000; i++) {
         double angle = PI / 2 * i / 19999;
         double delta = sin(angle);
@@ -259,9 +248,8 @@ static void mirrored_ratios_give_mirrored_azimuths(void **state)
 }
 
 /* Hard case 7: any pair, also far towards boresight and the side. */
-static void the_inverse_keeps_four_ulp_up_to_the_side(void **state)
+TEST(the_inverse_keeps_four_ulp_up_to_the_side)
 {
-    (void)state;
     for (int i = -40000; i <= 40000; i++) {
         double delta = i < 0 ? pow(10, 0.005 * i) : 1;
         double sum = i < 0 ? 1 : pow(10, -0.0005 * i);
@@ -277,9 +265,8 @@ static void the_inverse_keeps_four_ulp_up_to_the_side(void **state)
     }
 }
 
-static void the_inverse_of_special_ratios_is_exact(void **state)
+TEST(the_inverse_of_special_ratios_is_exact)
 {
-    (void)state;
     assert_close(antenna_azimuth_rad(&CENTRE, 0, 3), 0, 0);
     assert_close(antenna_azimuth_rad(&CENTRE, 0, 1e-320), 0, 0);
     assert_close(antenna_azimuth_rad(&CENTRE, 2, 0), PI / 2, 0);
@@ -288,9 +275,8 @@ static void the_inverse_of_special_ratios_is_exact(void **state)
     assert_near(antenna_azimuth_rad(&CENTRE, -1e-300, 1e-300), -PI / 6, 3e-16);
 }
 
-static void a_single_echo_comes_back_at_its_azimuth(void **state)
+TEST(a_single_echo_comes_back_at_its_azimuth)
 {
-    (void)state;
     for (int i = 0; i < 100000; i++) {
         double azimuth_rad = dense_azimuth(i);
         struct antenna_pointers pointers = antenna_pointers(&CENTRE, azimuth_rad);
@@ -299,9 +285,8 @@ static void a_single_echo_comes_back_at_its_azimuth(void **state)
     }
 }
 
-static void a_table_is_linear_between_its_rows(void **state)
+TEST(a_table_is_linear_between_its_rows)
 {
-    (void)state;
     for (size_t i = 0; i < COUNT(SKEWED_ROWS); i++) {
         struct antenna_pointers pointers = antenna_pointers(&SKEWED, SKEWED_ROWS[i].azimuth_rad);
         assert_close(creal(pointers.sum), SKEWED_ROWS[i].sum, 0);
@@ -313,9 +298,8 @@ static void a_table_is_linear_between_its_rows(void **state)
     assert_near(cimag(antenna_pointers(&SKEWED, 0.2).delta), -0.2, 1e-15);
 }
 
-static void a_table_is_zero_outside(void **state)
+TEST(a_table_is_zero_outside)
 {
-    (void)state;
     static const double outside[] = {-1.5, -1.2000001, 1.3000001, 1.5};
     for (size_t i = 0; i < COUNT(outside); i++) {
         struct antenna_pointers pointers = antenna_pointers(&SKEWED, outside[i]);
@@ -325,9 +309,8 @@ static void a_table_is_zero_outside(void **state)
     }
 }
 
-static void a_table_turns_with_the_dipole_pair_under_element_phase(void **state)
+TEST(a_table_turns_with_the_dipole_pair_under_element_phase)
 {
-    (void)state;
     struct antenna turned = SKEWED;
     turned.phase = PHASE_ELEMENT;
     for (int i = -12; i <= 13; i++) {
@@ -342,9 +325,8 @@ static void a_table_turns_with_the_dipole_pair_under_element_phase(void **state)
     }
 }
 
-static void a_table_is_inverted_where_its_lines_cross_the_ratio(void **state)
+TEST(a_table_is_inverted_where_its_lines_cross_the_ratio)
 {
-    (void)state;
     static const struct antenna_row rows[] = {{0, 1, 0}, {0.2, 0.5, 0.5}};
     struct antenna antenna = {
         .pattern = ANTENNA_TABLE, .phase = PHASE_CENTRE, .rows = rows, .row_count = COUNT(rows)};
@@ -356,9 +338,8 @@ static void a_table_is_inverted_where_its_lines_cross_the_ratio(void **state)
     assert_close(antenna_azimuth_rad(&SKEWED, 1e-300, 1e300), 0, 1e-16);
 }
 
-static void a_table_gives_back_every_azimuth(void **state)
+TEST(a_table_gives_back_every_azimuth)
 {
-    (void)state;
     for (int i = 0; i <= 100000; i++) {
         double azimuth_rad = fmin(-1.2 + 2.5 * i / 100000, 1.3);
         struct antenna_pointers pointers = antenna_pointers(&SKEWED, azimuth_rad);
@@ -370,9 +351,8 @@ static void a_table_gives_back_every_azimuth(void **state)
                      SKEWED_ROWS[i].azimuth_rad, 0);
 }
 
-static void a_ratio_beyond_a_table_is_its_end(void **state)
+TEST(a_ratio_beyond_a_table_is_its_end)
 {
-    (void)state;
     assert_close(antenna_azimuth_rad(&SKEWED, -1, 0), -1.2, 0);
     assert_close(antenna_azimuth_rad(&SKEWED, 1, 0), 1.3, 0);
     assert_close(antenna_azimuth_rad(&SKEWED, 9, 1), 1.3, 0);
@@ -388,17 +368,15 @@ static void a_ratio_beyond_a_table_is_its_end(void **state)
     assert_close(antenna_azimuth_rad(&antenna, 0, 1), 0, 0);
 }
 
-static void a_sound_table_has_no_fault(void **state)
+TEST(a_sound_table_has_no_fault)
 {
-    (void)state;
     size_t row;
     assert_null(antenna_table_fault(SKEWED_ROWS, COUNT(SKEWED_ROWS), &row));
     assert_null(antenna_table_fault(EVEN_ROWS, COUNT(EVEN_ROWS), &row));
 }
 
-static void the_faulty_row_of_a_table_is_named(void **state)
+TEST(the_faulty_row_of_a_table_is_named)
 {
-    (void)state;
     static const struct {
         struct antenna_row rows[3];
         size_t count, row;
@@ -425,33 +403,4 @@ static void the_faulty_row_of_a_table_is_named(void **state)
         assert_non_null(strstr(fault, cases[i].word));
         assert_int_equal(row, cases[i].row);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_patterns_are_those_of_the_paper),
-        cmocka_unit_test(the_patterns_agree_to_six_published_digits),
-        cmocka_unit_test(the_sum_beam_has_the_published_widths),
-        cmocka_unit_test(delta_peaks_at_34_deg),
-        cmocka_unit_test(sum_and_delta_cross_at_30_deg),
-        cmocka_unit_test(element_phase_is_equation_six_as_printed),
-        cmocka_unit_test(delta_over_sum_is_minus_j_tan_u),
-        cmocka_unit_test(pointers_keep_eight_ulp_up_to_the_side),
-        cmocka_unit_test(boresight_and_side_have_finite_pointers),
-        cmocka_unit_test(mirrored_azimuths_give_mirrored_pointers),
-        cmocka_unit_test(mirrored_ratios_give_mirrored_azimuths),
-        cmocka_unit_test(the_inverse_keeps_four_ulp_up_to_the_side),
-        cmocka_unit_test(the_inverse_of_special_ratios_is_exact),
-        cmocka_unit_test(a_single_echo_comes_back_at_its_azimuth),
-        cmocka_unit_test(a_table_is_linear_between_its_rows),
-        cmocka_unit_test(a_table_is_zero_outside),
-        cmocka_unit_test(a_table_turns_with_the_dipole_pair_under_element_phase),
-        cmocka_unit_test(a_table_is_inverted_where_its_lines_cross_the_ratio),
-        cmocka_unit_test(a_table_gives_back_every_azimuth),
-        cmocka_unit_test(a_ratio_beyond_a_table_is_its_end),
-        cmocka_unit_test(a_sound_table_has_no_fault),
-        cmocka_unit_test(the_faulty_row_of_a_table_is_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,18 +11,16 @@
 static const struct boresight_error ONE_DEGREE = {.yaw_error_rad = DEGREE};
 
 /* MODEL 14.8: one degree of yaw error puts what is straight ahead aside by this much. */
-static void a_yaw_error_shifts_the_far_more(void **state)
+TEST(a_yaw_error_shifts_the_far_more)
 {
-    (void)state;
     static const double cases[][2] = {{10, 0.174524}, {30, 0.523572}, {100, 1.745241}};
     for (size_t i = 0; i < COUNT(cases); i++)
         assert_close(cases[i][0] * sin(antenna_reported_rad(&ONE_DEGREE, 0)), cases[i][1], 5e-7);
 }
 
 /* MODEL 14.8: at 30 m/s what stands has another range rate than its reported azimuth says. */
-static void the_standing_world_contradicts_a_yaw_error(void **state)
+TEST(the_standing_world_contradicts_a_yaw_error)
 {
-    (void)state;
     static const double cases[][2] = {{30, 0.265743}, {0, 0.004569}};
     struct vec2 speed_mps = {30, 0}, ahead = {1, 0};
     for (size_t i = 0; i < COUNT(cases); i++) {
@@ -34,9 +32,8 @@ static void the_standing_world_contradicts_a_yaw_error(void **state)
     }
 }
 
-static void a_radome_bends_with_its_period(void **state)
+TEST(a_radome_bends_with_its_period)
 {
-    (void)state;
     struct boresight_error radome = {.bias_rad = 0.5 * DEGREE, .bias_period_rad = 24 * DEGREE};
     static const double cases[][2] = {{0, 0},     {2, 0.25}, {6, 0.5},   {12, 0},
                                       {18, -0.5}, {30, 0.5}, {-6, -0.5}, {-22, 0.25}};
@@ -51,9 +48,8 @@ static void a_radome_bends_with_its_period(void **state)
     assert_close(antenna_reported_rad(&radome, 8 * DEGREE) / DEGREE, 5.75, 1e-14);
 }
 
-static void error_and_bias_add_up_at_most(void **state)
+TEST(error_and_bias_add_up_at_most)
 {
-    (void)state;
     uint64_t sample = 14;
     for (int i = 0; i < 1000; i++) {
         struct boresight_error one = {.yaw_error_rad = sample_between(&sample, -0.05, 0.05),
@@ -69,24 +65,11 @@ static void error_and_bias_add_up_at_most(void **state)
     }
 }
 
-static void a_true_sensor_reports_the_azimuth_itself(void **state)
+TEST(a_true_sensor_reports_the_azimuth_itself)
 {
-    (void)state;
     struct boresight_error none = {0};
     for (double azimuth_rad = -3.1; azimuth_rad < 3.1; azimuth_rad += 0.01)
         assert_close(antenna_reported_rad(&none, azimuth_rad), azimuth_rad, 0);
     /* Over the back it comes round. */
     assert_close(antenna_reported_rad(&ONE_DEGREE, PI), -PI + DEGREE, 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_yaw_error_shifts_the_far_more),
-        cmocka_unit_test(the_standing_world_contradicts_a_yaw_error),
-        cmocka_unit_test(a_radome_bends_with_its_period),
-        cmocka_unit_test(error_and_bias_add_up_at_most),
-        cmocka_unit_test(a_true_sensor_reports_the_azimuth_itself),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,9 +22,8 @@ static struct array row(size_t count, enum array_taper taper)
     return array_of(&layout);
 }
 
-static void one_echo_has_one_maximum_of_its_amplitude_at_its_sine(void **state)
+TEST(one_echo_has_one_maximum_of_its_amplitude_at_its_sine)
 {
-    (void)state;
     for (int taper = TAPER_HANN; taper <= TAPER_CHEBYSHEV; taper++)
         for (size_t count = 4; count <= 64; count += 15)
             for (double sine = -0.93; sine < 0.95; sine += 0.31) {
@@ -41,9 +40,8 @@ static void one_echo_has_one_maximum_of_its_amplitude_at_its_sine(void **state)
 
 /* A pair at 5 degrees to both sides, in phase at the first element and so not in the middle; in
  * phase there, it is one maximum, at 0. */
-static void a_pair_in_phase_at_the_first_element_has_two_maxima(void **state)
+TEST(a_pair_in_phase_at_the_first_element_has_two_maxima)
 {
-    (void)state;
     struct array array = row(8, TAPER_RECTANGULAR);
     struct phasor first[8] = {{0, 0}}, middle[8] = {{0, 0}};
     struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
@@ -63,9 +61,8 @@ static void a_pair_in_phase_at_the_first_element_has_two_maxima(void **state)
     assert_close(maxima[0].sine, 0, 1e-9);
 }
 
-static void a_beam_repeats_at_its_grating_lobes(void **state)
+TEST(a_beam_repeats_at_its_grating_lobes)
 {
-    (void)state;
     struct array array = row(4, TAPER_RECTANGULAR);
     assert_close(array_response(&array, 0), 1, 1e-15);
     assert_close(array_response(&array, 1 / 0.5), 1, 1e-9);
@@ -74,9 +71,8 @@ static void a_beam_repeats_at_its_grating_lobes(void **state)
 
 /* Without a taper 0.886/D and -13.26 dB (Van Trees 2002, table 2.1 for long arrays); Hann's 1.44/D
  * and -31.5 dB; Taylor's and Chebyshev's side lobes are what they are made for. */
-static void beams_have_the_published_widths_and_side_lobes(void **state)
+TEST(beams_have_the_published_widths_and_side_lobes)
 {
-    (void)state;
     static const double width[] = {0.886, 1.44, 1.12, 1.05}, level_db[] = {-13.26, -31.5, -30, -30};
     static const double null[] = {1, 2.1, 1.6, 1.6}, within[] = {0.01, 0.01, 0.05, 0.08};
     for (int taper = 0; taper <= TAPER_CHEBYSHEV; taper++) {
@@ -91,9 +87,8 @@ static void beams_have_the_published_widths_and_side_lobes(void **state)
 
 /* The bound sqrt(6/(snr N (N^2 - 1)))/(2 pi d) times sqrt(N) of N elements (Rife and Boorstyn
  * 1974). */
-static void the_sine_of_one_echo_is_as_accurate_as_the_bound(void **state)
+TEST(the_sine_of_one_echo_is_as_accurate_as_the_bound)
 {
-    (void)state;
     for (size_t count = 2; count <= 64; count += 31) {
         struct array array = row(count, TAPER_RECTANGULAR);
         double n = (double)count, snr = 100;
@@ -102,9 +97,8 @@ static void the_sine_of_one_echo_is_as_accurate_as_the_bound(void **state)
 }
 
 /* 4,000 draws of noise: standard errors are 1.1 %. */
-static void noise_moves_the_maximum_as_far_as_its_sigma(void **state)
+TEST(noise_moves_the_maximum_as_far_as_its_sigma)
 {
-    (void)state;
     struct random_address address = {.seed = 1};
     for (int taper = 0; taper <= TAPER_CHEBYSHEV; taper++) {
         struct array array = row(16, (enum array_taper)taper);
@@ -128,9 +122,8 @@ static void noise_moves_the_maximum_as_far_as_its_sigma(void **state)
     }
 }
 
-static void side_lobes_of_a_strong_echo_are_no_echoes(void **state)
+TEST(side_lobes_of_a_strong_echo_are_no_echoes)
 {
-    (void)state;
     struct array array = row(16, TAPER_RECTANGULAR);
     struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
     struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
@@ -148,9 +141,8 @@ static void side_lobes_of_a_strong_echo_are_no_echoes(void **state)
 
 /* Two transmitters beside four receivers: the second one's elements follow those of the first; if
  * it stands to the right they come before. */
-static void virtual_elements_keep_the_turn_of_their_transmitter(void **state)
+TEST(virtual_elements_keep_the_turn_of_their_transmitter)
 {
-    (void)state;
     for (int side = -1; side <= 1; side += 2) {
         struct array_element transmit[] = {{3}, {3 + 2 * side}},
                              receive[] = {{1}, {0.5}, {0}, {1.5}};
@@ -166,19 +158,4 @@ static void virtual_elements_keep_the_turn_of_their_transmitter(void **state)
         for (size_t n = 0; n < 8; n++)
             assert_int_equal(array.turn[n], (n >= 4) == (side > 0));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_echo_has_one_maximum_of_its_amplitude_at_its_sine),
-        cmocka_unit_test(a_pair_in_phase_at_the_first_element_has_two_maxima),
-        cmocka_unit_test(a_beam_repeats_at_its_grating_lobes),
-        cmocka_unit_test(beams_have_the_published_widths_and_side_lobes),
-        cmocka_unit_test(the_sine_of_one_echo_is_as_accurate_as_the_bound),
-        cmocka_unit_test(noise_moves_the_maximum_as_far_as_its_sigma),
-        cmocka_unit_test(side_lobes_of_a_strong_echo_are_no_echoes),
-        cmocka_unit_test(virtual_elements_keep_the_turn_of_their_transmitter),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

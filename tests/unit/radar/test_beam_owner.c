@@ -36,9 +36,8 @@ static struct beam_owner owners_of(struct parts *parts, size_t echoes, size_t be
     return owners;
 }
 
-static void the_largest_part_of_at_least_half_owns_an_echo(void **state)
+TEST(the_largest_part_of_at_least_half_owns_an_echo)
 {
-    (void)state;
     struct parts parts = {
         .part = {{0.5, 0.6, 0.55}, {0.5, 0.5, 0}, {0.49, 0.3, 0.1}, {0, 0, 0.5}},
     };
@@ -49,17 +48,15 @@ static void the_largest_part_of_at_least_half_owns_an_echo(void **state)
     assert_int_equal(parts.owner[3], 2);
 }
 
-static void without_beams_no_echo_has_an_owner(void **state)
+TEST(without_beams_no_echo_has_an_owner)
 {
-    (void)state;
     struct parts parts = {.part = {{1}}};
     owners_of(&parts, 1, 0);
     assert_true(parts.owner[0] == BEAM_OWNER_NONE);
 }
 
-static void a_beam_shows_its_own_echoes_in_their_order(void **state)
+TEST(a_beam_shows_its_own_echoes_in_their_order)
 {
-    (void)state;
     struct parts parts = {.part = {{1, 0}, {0, 1}, {0.7, 0}}, .amplitude = {1, 50, 3}};
     struct beam_owner owners = owners_of(&parts, 3, 2);
     size_t shown[MOST];
@@ -72,9 +69,8 @@ static void a_beam_shows_its_own_echoes_in_their_order(void **state)
 
 /* The first echo is the other beam's; of the second and third, which make the same, the second
  * counts, and has an owner from then on. */
-static void a_beam_without_an_echo_of_its_own_shows_the_one_that_makes_most_of_it(void **state)
+TEST(a_beam_without_an_echo_of_its_own_shows_the_one_that_makes_most_of_it)
 {
-    (void)state;
     struct parts parts = {.part = {{1, 0.1}, {0.4, 0.4}, {0.2, 0.2}}, .amplitude = {2, 5, 10}};
     struct beam_owner owners = owners_of(&parts, 3, 2);
     size_t shown[MOST];
@@ -91,9 +87,8 @@ static void a_beam_without_an_echo_of_its_own_shows_the_one_that_makes_most_of_i
     assert_int_equal(parts.owner[0], 0);
 }
 
-static void what_makes_too_little_of_a_beam_is_not_shown(void **state)
+TEST(what_makes_too_little_of_a_beam_is_not_shown)
 {
-    (void)state;
     struct parts parts = {.part = {{1, 0.1}}, .amplitude = {2}};
     struct beam_owner owners = owners_of(&parts, 1, 2);
     size_t shown[MOST];
@@ -101,16 +96,4 @@ static void what_makes_too_little_of_a_beam_is_not_shown(void **state)
     assert_int_equal(beam_owner_shown(&owners, 1, 0.21, shown, &repeats), 0);
     assert_false(repeats);
     assert_int_equal(beam_owner_shown(&owners, 1, 0.2, shown, &repeats), 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_largest_part_of_at_least_half_owns_an_echo),
-        cmocka_unit_test(without_beams_no_echo_has_an_owner),
-        cmocka_unit_test(a_beam_shows_its_own_echoes_in_their_order),
-        cmocka_unit_test(a_beam_without_an_echo_of_its_own_shows_the_one_that_makes_most_of_it),
-        cmocka_unit_test(what_makes_too_little_of_a_beam_is_not_shown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

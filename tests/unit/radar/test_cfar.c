@@ -5,9 +5,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static void factors_are_those_of_the_published_formulas(void **state)
+TEST(factors_are_those_of_the_published_formulas)
 {
-    (void)state;
     static const struct {
         size_t cells, rank;
         double false_alarm, mean, ordered;
@@ -45,17 +44,15 @@ static double measured(struct cfar cfar, double false_alarm)
 }
 
 /* 2560 alarms; neighbours share a window, so that errors are allowed twice theirs. */
-static void noise_passes_as_often_as_the_closed_form_says(void **state)
+TEST(noise_passes_as_often_as_the_closed_form_says)
 {
-    (void)state;
     assert_near(measured((struct cfar){CFAR_MEAN, 16, 3, 1, 0, 0}, 1e-2), 1e-2, 0.06);
     assert_near(measured((struct cfar){CFAR_ORDERED, 16, 3, 1, 12, 0}, 1e-2), 1e-2, 0.06);
     assert_near(measured((struct cfar){CFAR_MEAN, 32, 1, 1, 0, 0}, 1e-3), 1e-3, 0.2);
 }
 
-static void guards_and_the_cell_itself_do_not_count_and_the_ring_is_closed(void **state)
+TEST(guards_and_the_cell_itself_do_not_count_and_the_ring_is_closed)
 {
-    (void)state;
     double power[2 * 9] = {0};
     struct cfar cfar = {CFAR_MEAN, 4, 3, 1, 0, 1};
     for (size_t i = 0; i < 9; i++)
@@ -66,9 +63,8 @@ static void guards_and_the_cell_itself_do_not_count_and_the_ring_is_closed(void 
     assert_close(cfar_threshold(&cfar, power, 9, 2, 0), 2, 0);
 }
 
-static void a_window_takes_cells_as_far_apart_as_its_spacing_says(void **state)
+TEST(a_window_takes_cells_as_far_apart_as_its_spacing_says)
 {
-    (void)state;
     double power[15] = {0};
     struct cfar cfar = {CFAR_MEAN, 4, 2, 3, 0, 1};
     power[7 - 2] = power[7 + 2] = power[7 - 5] = power[7 + 5] = 1;
@@ -76,9 +72,8 @@ static void a_window_takes_cells_as_far_apart_as_its_spacing_says(void **state)
     assert_close(cfar_threshold(&cfar, power, 15, 1, 7), 1, 0);
 }
 
-static void a_strong_neighbour_raises_the_mean_and_not_the_rank(void **state)
+TEST(a_strong_neighbour_raises_the_mean_and_not_the_rank)
 {
-    (void)state;
     double power[40];
     struct cfar mean = {CFAR_MEAN, 16, 3, 1, 12, 1}, ordered = {CFAR_ORDERED, 16, 3, 1, 12, 1};
     for (size_t i = 0; i < COUNT(power); i++)
@@ -88,16 +83,4 @@ static void a_strong_neighbour_raises_the_mean_and_not_the_rank(void **state)
     /* MODEL 11.4: 1 + chi_s/N for each of them */
     assert_near(cfar_threshold(&mean, power, COUNT(power), 1, 20), 1 + 4 * 100. / 16, 1e-15);
     assert_close(cfar_threshold(&ordered, power, COUNT(power), 1, 20), 1, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(factors_are_those_of_the_published_formulas),
-        cmocka_unit_test(noise_passes_as_often_as_the_closed_form_says),
-        cmocka_unit_test(guards_and_the_cell_itself_do_not_count_and_the_ring_is_closed),
-        cmocka_unit_test(a_window_takes_cells_as_far_apart_as_its_spacing_says),
-        cmocka_unit_test(a_strong_neighbour_raises_the_mean_and_not_the_rank),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

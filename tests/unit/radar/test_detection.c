@@ -25,9 +25,8 @@ static double marcum(double amplitude, double threshold)
     return sum;
 }
 
-static void noise_carries_an_echo_over_the_threshold_by_marcums_function(void **state)
+TEST(noise_carries_an_echo_over_the_threshold_by_marcums_function)
 {
-    (void)state;
     static const double thresholds[] = {0.5, 2, 3.0348, 8, 15};
     static const double shares[] = {0, 1e-9, 0.5, 0.9, 1 - 1e-9, 1, 1.01, 1.2, 1.7};
     for (size_t i = 0; i < COUNT(thresholds); i++)
@@ -41,9 +40,8 @@ static void noise_carries_an_echo_over_the_threshold_by_marcums_function(void **
     assert_close(detection_in_noise(0, 2, 1), exp(-4), 1e-12);
 }
 
-static void without_noise_the_threshold_decides(void **state)
+TEST(without_noise_the_threshold_decides)
 {
-    (void)state;
     assert_close(detection_in_noise(2, 2, 0), 1, 0);
     assert_close(detection_in_noise(1.999, 2, 0), 0, 0);
     assert_close(detection_in_noise(1.999, 2, 1e-6), 0, 0);
@@ -53,9 +51,8 @@ static void without_noise_the_threshold_decides(void **state)
 }
 
 /* MODEL 14.14, final threshold alone. */
-static void fluctuating_echoes_are_detected_as_published(void **state)
+TEST(fluctuating_echoes_are_detected_as_published)
 {
-    (void)state;
     static const struct {
         enum fluctuation_law law;
         double probability[3];
@@ -74,9 +71,8 @@ static void fluctuating_echoes_are_detected_as_published(void **state)
         }
 }
 
-static void without_a_final_threshold_the_laws_tails_decide(void **state)
+TEST(without_a_final_threshold_the_laws_tails_decide)
 {
-    (void)state;
     for (double amplitude = 0.3; amplitude < 30; amplitude *= 1.7) {
         double power = 4 / (amplitude * amplitude);
         struct detection_law detection = {.fluctuation = FLUCTUATION_SWERLING_1, .threshold = 2};
@@ -96,9 +92,8 @@ static void without_a_final_threshold_the_laws_tails_decide(void **state)
 }
 
 /* Both thresholds, by drawing factors and noise as the stages do. */
-static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
+TEST(both_thresholds_together_are_those_of_drawn_echoes)
 {
-    (void)state;
     enum { DRAWS = 100000 };
     static const enum fluctuation_law laws[] = {FLUCTUATION_SWERLING_1, FLUCTUATION_SWERLING_3,
                                                 FLUCTUATION_LOG_NORMAL};
@@ -127,9 +122,8 @@ static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
 }
 
 /* The normal tail without noise; with a fluctuation beside it, its closed form over many levels. */
-static void a_level_beside_the_fluctuation_spreads_the_echo(void **state)
+TEST(a_level_beside_the_fluctuation_spreads_the_echo)
 {
-    (void)state;
     for (double amplitude = 0.5; amplitude < 40; amplitude *= 2.1) {
         struct detection_law level = {.threshold = 2, .level_mean_db = -4, .level_sigma_db = 6};
         double short_db = 20 * log10(2 / amplitude) + 4;
@@ -146,9 +140,8 @@ static void a_level_beside_the_fluctuation_spreads_the_echo(void **state)
     }
 }
 
-static void the_amplitude_of_a_probability_is_detected_with_it(void **state)
+TEST(the_amplitude_of_a_probability_is_detected_with_it)
 {
-    (void)state;
     struct detection_law detection = {
         .fluctuation = FLUCTUATION_SWERLING_1, .threshold = 2, .final_threshold = 2, .noise = 0.25};
     double probability = detection_probability(&detection, 5);
@@ -160,18 +153,4 @@ static void the_amplitude_of_a_probability_is_detected_with_it(void **state)
     detection.level_sigma_db = 30;
     double far = detection_amplitude(&detection, 0.99);
     assert_close(detection_probability(&detection, far), 0.99, 1e-6);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noise_carries_an_echo_over_the_threshold_by_marcums_function),
-        cmocka_unit_test(without_noise_the_threshold_decides),
-        cmocka_unit_test(fluctuating_echoes_are_detected_as_published),
-        cmocka_unit_test(without_a_final_threshold_the_laws_tails_decide),
-        cmocka_unit_test(both_thresholds_together_are_those_of_drawn_echoes),
-        cmocka_unit_test(a_level_beside_the_fluctuation_spreads_the_echo),
-        cmocka_unit_test(the_amplitude_of_a_probability_is_detected_with_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,9 +21,8 @@ static double power_at(enum fluctuation_law law, double sigma_db, uint32_t index
 /* MODEL 14.14, P_fa = 1e-4 in one look: a threshold on power over complex noise of mean power 1.
  * The closed forms that are left are exp(-T/(1 + chi)) and exp(-T/a) (1 + (chi/2) T/a^2) with a = 1
  * + chi/2. */
-static void detections_are_as_likely_as_published(void **state)
+TEST(detections_are_as_likely_as_published)
 {
-    (void)state;
     static const double snr_db[6] = {0, 6, 10, 13, 15, 20};
     static const struct {
         enum fluctuation_law law;
@@ -52,9 +51,8 @@ static void detections_are_as_likely_as_published(void **state)
     }
 }
 
-static void the_printed_probabilities_are_the_closed_forms(void **state)
+TEST(the_printed_probabilities_are_the_closed_forms)
 {
-    (void)state;
     static const struct {
         double snr_db, swerling_1, swerling_3;
     } rows[] = {{0, 0.010000, 0.006564},  {6, 0.157384, 0.140198},  {10, 0.432876, 0.491042},
@@ -78,9 +76,8 @@ static int ascending(const void *left, const void *right)
  * medians are at 1 - exp(-p) = 1/2 and 1 - (1 + 2 p) exp(-2 p) = 1/2. Each within 5 standard
  * errors.
  */
-static void powers_have_the_published_statistics(void **state)
+TEST(powers_have_the_published_statistics)
 {
-    (void)state;
     static const struct {
         enum fluctuation_law law;
         double median_db, mean_db, deviation_db, variance;
@@ -114,9 +111,8 @@ static double tail(double x)
 }
 
 /* MODEL 14.14: s = 3.41 dB has its mean at -1.338734 dB; the cut takes 0.3 % of the mean power. */
-static void a_log_normal_echo_is_gaussian_in_decibels_and_cut(void **state)
+TEST(a_log_normal_echo_is_gaussian_in_decibels_and_cut)
 {
-    (void)state;
     double sigma_db = 3.41, above = 0;
     double mean = 0, mean_db = 0, squares_db = 0;
     for (uint32_t draw = 0; draw < DRAWS; draw++) {
@@ -137,9 +133,8 @@ static void a_log_normal_echo_is_gaussian_in_decibels_and_cut(void **state)
     assert_close(above / DRAWS, tail(3), 5 * sqrt(tail(3) / DRAWS));
 }
 
-static void no_fluctuation_is_exactly_one(void **state)
+TEST(no_fluctuation_is_exactly_one)
 {
-    (void)state;
     for (uint32_t draw = 0; draw < 1000; draw++) {
         assert_close(power_at(FLUCTUATION_NONE, 5, draw), 1, 0);
         assert_close(power_at(FLUCTUATION_LOG_NORMAL, 0, draw), 1, 0);
@@ -147,9 +142,8 @@ static void no_fluctuation_is_exactly_one(void **state)
 }
 
 /* -ln 2^-53 = 53 ln 2; -ln(1 - 2^-53) = 2^-53; a Gaussian draw reaches sqrt(106 ln 2) = 8.57. */
-static void no_draw_is_beyond_the_extreme_ones(void **state)
+TEST(no_draw_is_beyond_the_extreme_ones)
 {
-    (void)state;
     double mean_db = -log(10) / 20 * 9, gaussian = sqrt(106 * log(2));
     const struct {
         enum fluctuation_law law;
@@ -173,17 +167,4 @@ static void no_draw_is_beyond_the_extreme_ones(void **state)
         assert_near(least, rows[i].least, 1e-14);
         assert_near(most, rows[i].most, 1e-14);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(detections_are_as_likely_as_published),
-        cmocka_unit_test(the_printed_probabilities_are_the_closed_forms),
-        cmocka_unit_test(powers_have_the_published_statistics),
-        cmocka_unit_test(a_log_normal_echo_is_gaussian_in_decibels_and_cut),
-        cmocka_unit_test(no_fluctuation_is_exactly_one),
-        cmocka_unit_test(no_draw_is_beyond_the_extreme_ones),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

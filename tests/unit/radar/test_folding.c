@@ -12,9 +12,8 @@ static void assert_same_bits(double actual, double expected)
 }
 
 /* MODEL 14.16. */
-static void folding_is_as_published(void **state)
+TEST(folding_is_as_published)
 {
-    (void)state;
     assert_close(folding_range_rate_mps(45, 0, 24.5), -4, 0);
     assert_close(folding_range_rate_mps(-60, 0, 24.5), -11, 0);
     assert_close(folding_range_m(100, 59.958492), 40.041508, 5.1e-7);
@@ -25,9 +24,8 @@ static void folding_is_as_published(void **state)
     assert_close(folding_range_rate_mps(111, 27.75, 83.25), -55.5, 0);
 }
 
-static void what_lies_inside_comes_back_bit_by_bit(void **state)
+TEST(what_lies_inside_comes_back_bit_by_bit)
 {
-    (void)state;
     uint64_t sample = 10;
     for (int i = 0; i < 100000; i++) {
         double unambiguous = sample_between(&sample, 1e-3, 100);
@@ -43,9 +41,8 @@ static void what_lies_inside_comes_back_bit_by_bit(void **state)
     assert_same_bits(folding_range_m(1e9, (double)INFINITY), 1e9);
 }
 
-static void the_interval_holds_its_lower_end_only(void **state)
+TEST(the_interval_holds_its_lower_end_only)
 {
-    (void)state;
     for (int turn = -9; turn <= 9; turn += 2) {
         double end = turn * 24.5;
         assert_close(folding_range_rate_mps(end, 0, 24.5), -24.5, 0);
@@ -58,9 +55,8 @@ static void the_interval_holds_its_lower_end_only(void **state)
 }
 
 /* The formula with floor, which rounds on the way. */
-static void folding_moves_by_whole_intervals(void **state)
+TEST(folding_moves_by_whole_intervals)
 {
-    (void)state;
     uint64_t sample = 11;
     for (int i = 0; i < 100000; i++) {
         double unambiguous = sample_between(&sample, 1, 100);
@@ -75,15 +71,4 @@ static void folding_moves_by_whole_intervals(void **state)
         assert_true(folded_m >= 0 && folded_m < unambiguous);
         assert_close(remainder(folded_m - range_m, unambiguous), 0, 1e-12);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(folding_is_as_published),
-        cmocka_unit_test(what_lies_inside_comes_back_bit_by_bit),
-        cmocka_unit_test(the_interval_holds_its_lower_end_only),
-        cmocka_unit_test(folding_moves_by_whole_intervals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

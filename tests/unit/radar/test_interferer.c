@@ -4,9 +4,8 @@
 #include "radar/interferer.h"
 
 /* MODEL 14.17. */
-static void received_power_is_as_published(void **state)
+TEST(received_power_is_as_published)
 {
-    (void)state;
     static const struct {
         double eirp_dbm, gain_db, carrier_hz, range_m, power_dbm;
     } rows[] = {{33, 20, 76.5e9, 10, -37.1210},   {33, 20, 76.5e9, 50, -51.1004},
@@ -19,18 +18,16 @@ static void received_power_is_as_published(void **state)
 }
 
 /* MODEL 14.17. */
-static void noise_is_as_published(void **state)
+TEST(noise_is_as_published)
 {
-    (void)state;
     assert_close(interferer_noise_dbm(1, 0), -173.975187, 5.1e-7);
     assert_close(interferer_noise_dbm(10e6, 12), -91.9752, 6e-5);
 }
 
 /* MODEL 14.17: slopes of 7.5 and -7.5 MHz/us, 10 MHz in band, chirps of 20 us; in every chirp, and
  * in one of twenty. */
-static void the_floor_rises_as_published(void **state)
+TEST(the_floor_rises_as_published)
 {
-    (void)state;
     double noise_dbm = interferer_noise_dbm(10e6, 12);
     double power_dbm = interferer_power_dbm(33, 20, units_wavelength_m(76.5e9), 50);
     assert_close(power_dbm - noise_dbm, 40.8748, 6e-5);
@@ -47,39 +44,23 @@ static void the_floor_rises_as_published(void **state)
 }
 
 /* MODEL 14.17: with amplitudes that fall as 1/R^2, 10 dB cost 44 % of the range. */
-static void ranges_shrink_as_published(void **state)
+TEST(ranges_shrink_as_published)
 {
-    (void)state;
     assert_near(interferer_noise_factor(9), sqrt(10), 1e-15);
     assert_close(1 / sqrt(interferer_noise_factor(9)), 0.562341, 5.1e-7);
     assert_close(units_amplitude_db(interferer_noise_factor(pow(10, -0.6))), 0.973, 5.1e-4);
 }
 
-static void equal_slopes_stay_in_band(void **state)
+TEST(equal_slopes_stay_in_band)
 {
-    (void)state;
     assert_close(interferer_overlap(20e6, 0, 20e-6), 1, 0);
     assert_close(interferer_overlap(20e6, 1e3, 20e-6), 1, 0);
     assert_close(interferer_overlap(20e6, -15e12, 20e-6), interferer_overlap(20e6, 15e12, 20e-6),
                  0);
 }
 
-static void silence_leaves_the_noise_alone(void **state)
+TEST(silence_leaves_the_noise_alone)
 {
-    (void)state;
     assert_close(interferer_noise_factor(0), 1, 0);
     assert_close(interferer_ratio(-1e4, -90, 1, 1), 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(received_power_is_as_published),
-        cmocka_unit_test(noise_is_as_published),
-        cmocka_unit_test(the_floor_rises_as_published),
-        cmocka_unit_test(ranges_shrink_as_published),
-        cmocka_unit_test(equal_slopes_stay_in_band),
-        cmocka_unit_test(silence_leaves_the_noise_alone),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

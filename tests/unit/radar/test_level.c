@@ -23,9 +23,8 @@ static double on_turn(uint64_t item, double x, double y, int64_t turn)
 }
 
 /* Of a standard normal g, g^2 has the variance 2 and g^4 the mean 3 and the variance 96. */
-static void a_level_is_standard_normal_at_every_place(void **state)
+TEST(a_level_is_standard_normal_at_every_place)
 {
-    (void)state;
     static const double places[] = {0, 0.1, 0.5, 0.9, 1, 17.3, -2.6, 1e9 + 0.25};
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
         for (int plane = 0; plane < 2; plane++) {
@@ -49,9 +48,8 @@ static double correlation(double knots)
     return knots < 2 ? (1 - knots / 2) * cos(PI * knots / 2) + sin(PI * knots / 2) / PI : 0;
 }
 
-static void places_are_as_alike_as_weights_overlap(void **state)
+TEST(places_are_as_alike_as_weights_overlap)
 {
-    (void)state;
     static const double apart[] = {0.05, 0.5, 1, 1.5, 2, 5};
     assert_close(correlation(1), 1 / PI, 1e-15);
     for (size_t i = 0; i < sizeof apart / sizeof apart[0]; i++) {
@@ -72,9 +70,8 @@ static void places_are_as_alike_as_weights_overlap(void **state)
 }
 
 /* No slope is steeper than pi/2 times the largest knots around, all below 9. */
-static void a_level_has_no_step(void **state)
+TEST(a_level_has_no_step)
 {
-    (void)state;
     const double hair = 1e-9;
     for (int knot = -50; knot < 50; knot++) {
         assert_close(on_line(1, knot - hair), on_line(1, knot + hair), 36 * hair);
@@ -84,9 +81,8 @@ static void a_level_has_no_step(void **state)
         assert_close(on_turn(1, knot - hair, 0.4, 9), on_turn(1, knot + hair, 0.4, 9), 72 * hair);
 }
 
-static void a_turn_closes(void **state)
+TEST(a_turn_closes)
 {
-    (void)state;
     for (int64_t turn = 2; turn < 40; turn++) {
         double end = (double)turn;
         assert_close(on_turn(5, end, 2.2, turn), on_turn(5, 0, 2.2, turn), 0);
@@ -94,9 +90,8 @@ static void a_turn_closes(void **state)
     }
 }
 
-static void a_level_depends_on_its_address_and_not_on_the_frame(void **state)
+TEST(a_level_depends_on_its_address_and_not_on_the_frame)
 {
-    (void)state;
     struct random_address line = line_of(2), later = line;
     later.frame = 9;
     assert_close(level_on_line(&later, RANDOM_OWN, 4.3), on_line(2, 4.3), 0);
@@ -105,26 +100,12 @@ static void a_level_depends_on_its_address_and_not_on_the_frame(void **state)
 }
 
 /* The power of a level of deviation s has the variance exp((ln 10/10)^2 s^2) - 1. */
-static void the_mean_of_the_power_is_1(void **state)
+TEST(the_mean_of_the_power_is_1)
 {
-    (void)state;
     double power = 0, sigma_db = 4;
     for (uint64_t item = 0; item < LINES; item++)
         power += pow(10, (level_mean_db(sigma_db) + sigma_db * on_line(item, 0.7)) / 10) / LINES;
     double nepers = sigma_db * log(10) / 10;
     assert_close(power, 1, 5 * sqrt((exp(nepers * nepers) - 1) / LINES));
     assert_close(level_mean_db(8), -7.368, 5e-4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_level_is_standard_normal_at_every_place),
-        cmocka_unit_test(places_are_as_alike_as_weights_overlap),
-        cmocka_unit_test(a_level_has_no_step),
-        cmocka_unit_test(a_turn_closes),
-        cmocka_unit_test(a_level_depends_on_its_address_and_not_on_the_frame),
-        cmocka_unit_test(the_mean_of_the_power_is_1),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,9 +16,8 @@ static double snr_of(double db)
     return pow(10, db / 10);
 }
 
-static void sigmas_are_those_of_the_formula(void **state)
+TEST(sigmas_are_those_of_the_formula)
 {
-    (void)state;
     assert_close(sqrt(6) / (2 * PI), CRAMER_RAO, 5e-10);
     static const double range_m = 299792458.0 / 1e9;
     const struct {
@@ -41,9 +40,8 @@ static void sigmas_are_those_of_the_formula(void **state)
     }
 }
 
-static void noise_and_floor_add_as_variances_up_to_a_value_anywhere_in_the_cell(void **state)
+TEST(noise_and_floor_add_as_variances_up_to_a_value_anywhere_in_the_cell)
 {
-    (void)state;
     /* 0.5 * 0.68 / 10 = 0.034 and floor 0.05: 0.001156 + 0.0025 */
     struct measurement_sigma accuracy = {.cell = 0.5, .factor = 0.68, .sigma = 0.05};
     assert_near(measurement_sigma_at_snr(&accuracy, 100), sqrt(0.001156 + 0.0025), 1e-15);
@@ -62,9 +60,8 @@ static void noise_and_floor_add_as_variances_up_to_a_value_anywhere_in_the_cell(
 
 /* MODEL 9: an amplitude twice the threshold halves sigma, one below it leaves it; noise of RMS 0.5
  * and an amplitude of 5 are 20 dB. */
-static void each_law_has_its_own_sigma_at_an_amplitude(void **state)
+TEST(each_law_has_its_own_sigma_at_an_amplitude)
 {
-    (void)state;
     struct measurement_sigma quantity = {
         .sigma = 0.05, .cell = 0.5, .factor = 0.68, .threshold = 2, .noise = 0.5};
     assert_close(measurement_sigma_at(&quantity, 4), 0.05, 0);
@@ -73,14 +70,4 @@ static void each_law_has_its_own_sigma_at_an_amplitude(void **state)
     assert_close(measurement_sigma_at(&quantity, 1), 0.05, 0);
     quantity.law = SIGMA_BY_SNR;
     assert_near(measurement_sigma_at(&quantity, 5), sqrt(0.001156 + 0.0025), 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sigmas_are_those_of_the_formula),
-        cmocka_unit_test(noise_and_floor_add_as_variances_up_to_a_value_anywhere_in_the_cell),
-        cmocka_unit_test(each_law_has_its_own_sigma_at_an_amplitude),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,9 +60,8 @@ static double dense_azimuth(int i)
 }
 
 /* MODEL 13 and the six-digit values of 7.2. */
-static void the_sensing_ratio_has_the_published_values(void **state)
+TEST(the_sensing_ratio_has_the_published_values)
 {
-    (void)state;
     static const double rows[][3] = {{0, -1, 0},
                                      {5, -0.75783, 5.01e-6},
                                      {10, -0.562820, 5.01e-7},
@@ -81,9 +80,8 @@ static void the_sensing_ratio_has_the_published_values(void **state)
 }
 
 /* MODEL 7.2: ASR = tan((pi/2) |sin| - pi/4), and its inverse. */
-static void the_sensing_ratio_and_its_inverse_are_closed_forms(void **state)
+TEST(the_sensing_ratio_and_its_inverse_are_closed_forms)
 {
-    (void)state;
     for (int i = -890; i <= 890; i++) {
         double azimuth_rad = 0.1 * i * DEGREE;
         struct antenna_pointers pointers = antenna_pointers(&ELEMENT, azimuth_rad);
@@ -95,9 +93,8 @@ static void the_sensing_ratio_and_its_inverse_are_closed_forms(void **state)
 }
 
 /* MODEL 7.3: degrees per unit of the sensing ratio, as a difference quotient. */
-static void the_sensing_ratio_is_as_well_conditioned_as_published(void **state)
+TEST(the_sensing_ratio_is_as_well_conditioned_as_published)
 {
-    (void)state;
     static const double rows[][3] = {{0, 18.2, 0.0501},  {5, 23.3, 0.0501},  {10, 28.1, 0.0501},
                                      {20, 36.5, 0.0501}, {30, 42.1, 0.0501}, {40, 45.3, 0.0501},
                                      {50, 47.4, 0.0501}, {60, 51.4, 0.0501}, {70, 63.4, 0.0501},
@@ -111,9 +108,8 @@ static void the_sensing_ratio_is_as_well_conditioned_as_published(void **state)
     }
 }
 
-static void a_single_echo_is_seen_where_it_is(void **state)
+TEST(a_single_echo_is_seen_where_it_is)
 {
-    (void)state;
     const struct antenna *antennas[] = {&CENTRE, &ELEMENT};
     for (int i = 0; i < 100000; i++)
         for (size_t k = 0; k < 8; k++) {
@@ -126,9 +122,8 @@ static void a_single_echo_is_seen_where_it_is(void **state)
         }
 }
 
-static void the_common_phase_and_size_of_the_pointers_do_not_matter(void **state)
+TEST(the_common_phase_and_size_of_the_pointers_do_not_matter)
 {
-    (void)state;
     static const double sizes[] = {1e-300, 1e-150, 1, 3e7, 1e300};
     for (size_t i = 0; i < COUNT(sizes); i++)
         for (int phase = 0; phase < 24; phase++)
@@ -149,9 +144,8 @@ static void the_common_phase_and_size_of_the_pointers_do_not_matter(void **state
             }
 }
 
-static void a_single_echo_is_seen_where_it_is_through_a_table(void **state)
+TEST(a_single_echo_is_seen_where_it_is_through_a_table)
 {
-    (void)state;
     const struct antenna *antennas[] = {&TABLE, &TURNED_TABLE};
     for (int i = 1; i < 10000; i++)
         for (size_t k = 0; k < 4; k++) {
@@ -163,9 +157,8 @@ static void a_single_echo_is_seen_where_it_is_through_a_table(void **state)
         }
 }
 
-static void pointers_of_zero_have_no_angle(void **state)
+TEST(pointers_of_zero_have_no_angle)
 {
-    (void)state;
     for (size_t k = 0; k < 2; k++) {
         struct monopulse_angle angle =
             monopulse_angle(&CENTRE, ESTIMATORS[k], (struct antenna_pointers){0, 0});
@@ -175,9 +168,8 @@ static void pointers_of_zero_have_no_angle(void **state)
     }
 }
 
-static void a_delta_of_zero_is_straight_ahead_on_neither_side(void **state)
+TEST(a_delta_of_zero_is_straight_ahead_on_neither_side)
 {
-    (void)state;
     for (size_t k = 0; k < 2; k++) {
         struct monopulse_angle angle =
             monopulse_angle(&CENTRE, ESTIMATORS[k], (struct antenna_pointers){-3, 0});
@@ -187,9 +179,8 @@ static void a_delta_of_zero_is_straight_ahead_on_neither_side(void **state)
     }
 }
 
-static void a_sum_of_zero_is_at_one_side_or_the_other(void **state)
+TEST(a_sum_of_zero_is_at_one_side_or_the_other)
 {
-    (void)state;
     for (size_t k = 0; k < 2; k++) {
         struct monopulse_angle angle =
             monopulse_angle(&CENTRE, ESTIMATORS[k], (struct antenna_pointers){0, -1e-200});
@@ -199,9 +190,8 @@ static void a_sum_of_zero_is_at_one_side_or_the_other(void **state)
     }
 }
 
-static void the_phase_decides_the_sign_whatever_the_sizes(void **state)
+TEST(the_phase_decides_the_sign_whatever_the_sizes)
 {
-    (void)state;
     static const struct {
         double sum, delta, azimuth_rad;
     } cases[] = {{1e-300, 1e300, PI / 2},
@@ -222,9 +212,8 @@ static void the_phase_decides_the_sign_whatever_the_sizes(void **state)
 }
 
 /* The ratio Im(delta conj(sum)) : |delta| |sum| on either side of 2^-47. */
-static void a_sign_below_the_rounding_is_undecided(void **state)
+TEST(a_sign_below_the_rounding_is_undecided)
 {
-    (void)state;
     static const struct {
         double imag;
         int undecided;
@@ -247,9 +236,8 @@ static void a_sign_below_the_rounding_is_undecided(void **state)
 }
 
 /* MODEL 8.1: two equal echoes at either side. */
-static void two_equal_echoes_meet_in_the_middle(void **state)
+TEST(two_equal_echoes_meet_in_the_middle)
 {
-    (void)state;
     static const double rows[][3] = {{4, 0.44, 0.00501},  {6, 1.00, 0.00501},  {8, 1.80, 0.00501},
                                      {10, 2.85, 0.00501}, {12, 4.17, 0.00501}, {15, 6.70, 0.00501},
                                      {20, 12.5, 0.0501},  {25, 20.5, 0.0501},  {30, 30.0, 1e-12}};
@@ -273,9 +261,8 @@ static void two_equal_echoes_meet_in_the_middle(void **state)
 }
 
 /* MODEL 8.1: the worked examples. */
-static void unequal_echoes_are_seen_between(void **state)
+TEST(unequal_echoes_are_seen_between)
 {
-    (void)state;
     static const struct {
         double first_deg, second_deg, ratio, literal_deg, centred_deg;
     } rows[] = {{-8, 8, 1, 1.80, 0},
@@ -298,9 +285,8 @@ static void unequal_echoes_are_seen_between(void **state)
 }
 
 /* MODEL 8.1: equal g (amplitude times element factor) gives the mean of the sines. */
-static void centred_echoes_of_equal_weight_average_their_sines(void **state)
+TEST(centred_echoes_of_equal_weight_average_their_sines)
 {
-    (void)state;
     for (int first = -70; first <= 70; first += 10)
         for (int second = -65; second <= 75; second += 10) {
             double angles[] = {first * DEGREE, second * DEGREE};
@@ -318,9 +304,8 @@ static void centred_echoes_of_equal_weight_average_their_sines(void **state)
 }
 
 /* MODEL 8.2: delta / sum = -tan(u) tan(theta / 2). */
-static void the_relative_phase_of_two_echoes_drives_them_apart(void **state)
+TEST(the_relative_phase_of_two_echoes_drives_them_apart)
 {
-    (void)state;
     double azimuth_rad = 8 * DEGREE;
     double u = PI / 2 * sin(azimuth_rad);
     for (int i = 1; i < 31; i++) {
@@ -336,9 +321,8 @@ static void the_relative_phase_of_two_echoes_drives_them_apart(void **state)
 
 /* Hard case 11: neither estimator may jump for one rounding of an amplitude. The magnitude is held
  * to it from 1 deg up: nearer the middle delta is what the two echoes leave of each other. */
-static void one_ulp_of_an_amplitude_does_not_flip_the_sign(void **state)
+TEST(one_ulp_of_an_amplitude_does_not_flip_the_sign)
 {
-    (void)state;
     for (int i = 1; i < 700; i++)
         for (size_t k = i < 10; k < 2; k++) {
             double azimuth_rad = 0.1 * i * DEGREE;
@@ -387,9 +371,8 @@ static struct spread spread_of(enum monopulse_estimator estimator, double azimut
 }
 
 /* MODEL 7.3: the standard deviations of the magnitude estimator by Monte Carlo there. */
-static void noise_spreads_the_magnitude_angle_as_published(void **state)
+TEST(noise_spreads_the_magnitude_angle_as_published)
 {
-    (void)state;
     static const double rows[][3] = {{16, 0, 2.28},  {16, 10, 1.67}, {16, 30, 2.38},
                                      {16, 50, 5.04}, {8, 0, 4.56},   {8, 5, 3.59},
                                      {8, 10, 3.29},  {8, 30, 4.75},  {8, 40, 6.58}};
@@ -404,9 +387,8 @@ static void noise_spreads_the_magnitude_angle_as_published(void **state)
 }
 
 /* (2/pi) |cos u| / (cos sqrt(2 chi)), chi the signal-to-noise ratio of the sum channel. */
-static void noise_spreads_the_ratio_angle_as_published(void **state)
+TEST(noise_spreads_the_ratio_angle_as_published)
 {
-    (void)state;
     static const double rows[][2] = {{0, 0.8156}, {20, 0.7457}, {40, 0.5666}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         double azimuth_rad = rows[i][0] * DEGREE;
@@ -419,9 +401,8 @@ static void noise_spreads_the_ratio_angle_as_published(void **state)
 
 /* MODEL 7.3: 0.8156, 0.7457, 0.5666 degrees at 0, 20, 40 degrees and 30 dB, and the rows of both
  * rules there; of a table by drawing. */
-static void the_predicted_spread_is_that_of_noise(void **state)
+TEST(the_predicted_spread_is_that_of_noise)
 {
-    (void)state;
     static const double published[][2] = {{0, 0.8156}, {20, 0.7457}, {40, 0.5666}};
     for (size_t i = 0; i < COUNT(published); i++)
         assert_close(
@@ -450,9 +431,8 @@ static void the_predicted_spread_is_that_of_noise(void **state)
 
 /* Equal echoes at both sides, one ahead of the other by theta, have delta/sum = -tan u
  * tan(theta/2), which is real, and a single echo has an imaginary one (MODEL 8.2). */
-static void several_echoes_have_a_quadrature_that_one_has_not(void **state)
+TEST(several_echoes_have_a_quadrature_that_one_has_not)
 {
-    (void)state;
     static const struct antenna centred = {.phase = PHASE_CENTRE};
     const double u = PI / 2 * sin(0.1), theta = 0.5, noise = 0.01;
     assert_close(monopulse_quadrature(antenna_pointers(&centred, 0.3), noise), 0, 1e-9);
@@ -467,9 +447,8 @@ static void several_echoes_have_a_quadrature_that_one_has_not(void **state)
 }
 
 /* Of a standard Gaussian number 0.27 % lie beyond 3. */
-static void noise_makes_a_quadrature_beyond_3_with_its_probability(void **state)
+TEST(noise_makes_a_quadrature_beyond_3_with_its_probability)
 {
-    (void)state;
     int beyond = 0;
     struct random_address address = {.seed = 6};
     for (address.frame = 0; address.frame < DRAWS; address.frame++) {
@@ -483,9 +462,8 @@ static void noise_makes_a_quadrature_beyond_3_with_its_probability(void **state)
     assert_close((double)beyond / DRAWS, 0.0027, 4 * sqrt(0.0027 / DRAWS));
 }
 
-static void the_magnitude_angle_folds_at_boresight(void **state)
+TEST(the_magnitude_angle_folds_at_boresight)
 {
-    (void)state;
     struct spread spread = spread_of(MONOPULSE_MAGNITUDE, 0, 1, 0.1);
     assert_close(spread.size_mean_deg, 3.23, 0.05);
     assert_close(spread.size_deviation_deg, 1.69, 0.03);
@@ -495,9 +473,8 @@ static void the_magnitude_angle_folds_at_boresight(void **state)
 /* The phase between the channels, whatever their amplitudes: sine of the angle by which delta
  * leads.
  */
-static void the_sign_margin_is_the_sine_between_the_channels(void **state)
+TEST(the_sign_margin_is_the_sine_between_the_channels)
 {
-    (void)state;
     const double _Complex i = (double _Complex)I;
     for (int degrees = -180; degrees <= 180; degrees += 15)
         for (double size = 1e-300; size <= 1e300; size *= 1e100) {
@@ -509,34 +486,4 @@ static void the_sign_margin_is_the_sine_between_the_channels(void **state)
         }
     assert_true(isnan(monopulse_sign_margin((struct antenna_pointers){.sum = 1})));
     assert_true(isnan(monopulse_sign_margin((struct antenna_pointers){.delta = 1})));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_sensing_ratio_has_the_published_values),
-        cmocka_unit_test(the_sensing_ratio_and_its_inverse_are_closed_forms),
-        cmocka_unit_test(the_sensing_ratio_is_as_well_conditioned_as_published),
-        cmocka_unit_test(a_single_echo_is_seen_where_it_is),
-        cmocka_unit_test(the_common_phase_and_size_of_the_pointers_do_not_matter),
-        cmocka_unit_test(a_single_echo_is_seen_where_it_is_through_a_table),
-        cmocka_unit_test(pointers_of_zero_have_no_angle),
-        cmocka_unit_test(a_delta_of_zero_is_straight_ahead_on_neither_side),
-        cmocka_unit_test(a_sum_of_zero_is_at_one_side_or_the_other),
-        cmocka_unit_test(the_phase_decides_the_sign_whatever_the_sizes),
-        cmocka_unit_test(a_sign_below_the_rounding_is_undecided),
-        cmocka_unit_test(two_equal_echoes_meet_in_the_middle),
-        cmocka_unit_test(unequal_echoes_are_seen_between),
-        cmocka_unit_test(centred_echoes_of_equal_weight_average_their_sines),
-        cmocka_unit_test(the_relative_phase_of_two_echoes_drives_them_apart),
-        cmocka_unit_test(one_ulp_of_an_amplitude_does_not_flip_the_sign),
-        cmocka_unit_test(noise_spreads_the_magnitude_angle_as_published),
-        cmocka_unit_test(noise_spreads_the_ratio_angle_as_published),
-        cmocka_unit_test(the_predicted_spread_is_that_of_noise),
-        cmocka_unit_test(several_echoes_have_a_quadrature_that_one_has_not),
-        cmocka_unit_test(noise_makes_a_quadrature_beyond_3_with_its_probability),
-        cmocka_unit_test(the_magnitude_angle_folds_at_boresight),
-        cmocka_unit_test(the_sign_margin_is_the_sine_between_the_channels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

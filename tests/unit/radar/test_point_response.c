@@ -11,9 +11,8 @@
 static const enum point_response all[] = {POINT_RESPONSE_HANN, POINT_RESPONSE_RECTANGULAR,
                                           POINT_RESPONSE_PULSE};
 
-static void responses_have_their_closed_forms(void **state)
+TEST(responses_have_their_closed_forms)
 {
-    (void)state;
     assert_close(point_response_value(POINT_RESPONSE_HANN, 0), 1, 0);
     assert_close(point_response_value(POINT_RESPONSE_HANN, 0.5), 0.848826, 5e-7);
     assert_close(point_response_value(POINT_RESPONSE_HANN, 1), 0.5, 1e-15);
@@ -27,9 +26,8 @@ static void responses_have_their_closed_forms(void **state)
     assert_close(point_response_value(POINT_RESPONSE_RECTANGULAR, 0.885899 / 2), sqrt(0.5), 1e-4);
 }
 
-static void a_response_is_a_half_at_its_half_width(void **state)
+TEST(a_response_is_a_half_at_its_half_width)
 {
-    (void)state;
     static const double half_widths[] = {[POINT_RESPONSE_HANN] = 1,
                                          [POINT_RESPONSE_RECTANGULAR] = 0.603354,
                                          [POINT_RESPONSE_PULSE] = 2};
@@ -78,9 +76,8 @@ static double share_parted(enum point_response window, double apart)
     return (double)parted / PHASES;
 }
 
-static void half_of_all_pairs_part_at_the_resolution(void **state)
+TEST(half_of_all_pairs_part_at_the_resolution)
 {
-    (void)state;
     for (size_t i = 0; i < COUNT(all); i++) {
         double resolution = point_response_resolution(all[i]);
         assert_close(share_parted(all[i], resolution), 0.5, 0.03);
@@ -133,9 +130,8 @@ static bool lead_to_two_peaks(enum point_response response, double bins, double 
     return summit_from(size, BESIDE) != summit_from(size, count - 1 - BESIDE);
 }
 
-static void pulses_part_where_their_sum_has_two_peaks(void **state)
+TEST(pulses_part_where_their_sum_has_two_peaks)
 {
-    (void)state;
     uint64_t random = 3;
     int parted = 0, compared = 0;
     for (int i = 0; i < 3000; i++) {
@@ -154,9 +150,8 @@ static void pulses_part_where_their_sum_has_two_peaks(void **state)
 
 /* The sum of two equal bells in phase has two peaks beyond twice their deviation, here
  * sqrt(2/ln 2) bins. */
-static void equal_pulses_part_from_a_closed_distance_on(void **state)
+TEST(equal_pulses_part_from_a_closed_distance_on)
 {
-    (void)state;
     for (double phase_rad = 0; phase_rad < 3; phase_rad += 0.1) {
         double bins = 2 * sqrt((1 + cos(phase_rad)) / log(2));
         assert_false(point_response_pulses_part(bins * (1 - 1e-9), 1, phase_rad));
@@ -173,9 +168,8 @@ static void equal_pulses_part_from_a_closed_distance_on(void **state)
 }
 
 /* In 91 % of these pairs; the resolution alone tells 82 %. */
-static void echoes_with_a_hann_window_part_as_pulses_do(void **state)
+TEST(echoes_with_a_hann_window_part_as_pulses_do)
 {
-    (void)state;
     double pulses = point_response_resolution(POINT_RESPONSE_PULSE) /
                     point_response_resolution(POINT_RESPONSE_HANN);
     uint64_t random = 4;
@@ -190,9 +184,8 @@ static void echoes_with_a_hann_window_part_as_pulses_do(void **state)
     assert_true(alike > 0.9 * 4000 && half < 0.83 * 4000);
 }
 
-static void weights_sum_to_one_and_noise_is_their_rms(void **state)
+TEST(weights_sum_to_one_and_noise_is_their_rms)
 {
-    (void)state;
     for (size_t i = 0; i < 2; i++) {
         double sum = 0, power = 0;
         for (size_t n = 0; n < 64; n++) {
@@ -206,9 +199,8 @@ static void weights_sum_to_one_and_noise_is_their_rms(void **state)
     assert_near(point_response_noise(POINT_RESPONSE_PULSE, 64), 1. / 8, 1e-15);
 }
 
-static void the_envelope_bounds_the_response_and_falls(void **state)
+TEST(the_envelope_bounds_the_response_and_falls)
 {
-    (void)state;
     for (size_t i = 0; i < COUNT(all); i++)
         for (double d = 0; d < 40; d += 0.01) {
             assert_true(fabs(point_response_value(all[i], d)) <=
@@ -225,9 +217,8 @@ static double power_at(enum point_response response, double bins)
 }
 
 /* Two cells to a bin; pulses have one. */
-static void the_vertex_is_next_to_an_echo_alone(void **state)
+TEST(the_vertex_is_next_to_an_echo_alone)
 {
-    (void)state;
     static const double within[] = {[POINT_RESPONSE_HANN] = 0.0017,
                                     [POINT_RESPONSE_RECTANGULAR] = 0.0104,
                                     [POINT_RESPONSE_PULSE] = 1e-13};
@@ -246,9 +237,8 @@ static void the_vertex_is_next_to_an_echo_alone(void **state)
     assert_close(point_response_vertex(1, 1, 0.5), -0.5, 1e-15);
 }
 
-static void the_hann_response_has_its_published_values(void **state)
+TEST(the_hann_response_has_its_published_values)
 {
-    (void)state;
     assert_true(point_response_hann(0) == 1);
     assert_true(point_response_hann(1) == 0.5);
     assert_close(point_response_hann(0.5), 0.848826, 5e-7);
@@ -256,9 +246,8 @@ static void the_hann_response_has_its_published_values(void **state)
     assert_close(point_response_hann(2.5), -0.024252, 5e-7);
 }
 
-static void the_hann_response_is_even_and_zero_at_whole_bins(void **state)
+TEST(the_hann_response_is_even_and_zero_at_whole_bins)
 {
-    (void)state;
     uint64_t sample = 1;
     for (int i = 0; i < 1000; i++) {
         double d = sample_between(&sample, 0, 10);
@@ -280,9 +269,8 @@ static long double three_lines(long double d)
     return sum;
 }
 
-static void the_hann_response_is_that_of_a_raised_cosine(void **state)
+TEST(the_hann_response_is_that_of_a_raised_cosine)
 {
-    (void)state;
     uint64_t sample = 2;
     for (int i = 0; i < 10000; i++) {
         double d = sample_between(&sample, -6, 6);
@@ -291,9 +279,8 @@ static void the_hann_response_is_that_of_a_raised_cosine(void **state)
 }
 
 /* Where the plain formula is 0/0. */
-static void the_hann_response_is_smooth_at_0_and_1(void **state)
+TEST(the_hann_response_is_smooth_at_0_and_1)
 {
-    (void)state;
     for (double step = 1e-3; step > 1e-16; step /= 7) {
         assert_close(point_response_hann(step), 1, step + 5e-16);
         assert_close(point_response_hann(1 + step), 0.5, step + 5e-16);
@@ -302,18 +289,16 @@ static void the_hann_response_is_smooth_at_0_and_1(void **state)
     }
 }
 
-static void its_highest_side_lobe_is_31_db_down(void **state)
+TEST(its_highest_side_lobe_is_31_db_down)
 {
-    (void)state;
     double highest = 0;
     for (double d = 2; d < 20; d += 1e-3)
         highest = fmax(highest, fabs(point_response_hann(d)));
     assert_close(units_amplitude_db(highest), -31.47, 5e-3);
 }
 
-static void one_echo_is_found_exactly_where_it_is(void **state)
+TEST(one_echo_is_found_exactly_where_it_is)
 {
-    (void)state;
     uint64_t sample = 3;
     for (int i = 0; i < 10000; i++) {
         double d = sample_between(&sample, -0.5, 0.5);
@@ -327,16 +312,14 @@ static void one_echo_is_found_exactly_where_it_is(void **state)
     assert_close(point_response_hann_offset(0.2, 1, 1), 0.5, 0);
 }
 
-static void a_wide_peak_with_equal_sides_has_no_offset(void **state)
+TEST(a_wide_peak_with_equal_sides_has_no_offset)
 {
-    (void)state;
     for (double side = 0.5; side <= 1; side += 0.1)
         assert_true(point_response_hann_offset(side, 1, side) == 0);
 }
 
-static void a_peak_narrower_than_one_echo_is_left_on_its_bin(void **state)
+TEST(a_peak_narrower_than_one_echo_is_left_on_its_bin)
 {
-    (void)state;
     assert_true(point_response_hann_offset(0.3, 1, 0.49) == 0);
     assert_true(point_response_hann_offset(0, 1, 0) == 0);
 }
@@ -348,9 +331,8 @@ static double envelope(double d, double spacing, double phase_rad)
     return hypot(first + second * cos(phase_rad), second * sin(phase_rad));
 }
 
-static void equal_echoes_a_bin_apart_read_as_one_between_them(void **state)
+TEST(equal_echoes_a_bin_apart_read_as_one_between_them)
 {
-    (void)state;
     for (double phase_rad = 0; phase_rad < 2; phase_rad += 0.5) {
         double before = envelope(-1, 1, phase_rad), at = envelope(0, 1, phase_rad);
         assert_close(point_response_hann_offset(before, at, envelope(1, 1, phase_rad)), 0.5, 1e-15);
@@ -372,9 +354,8 @@ static int peaks_of(double spacing, double phase_rad, double place[], double hei
     return count;
 }
 
-static void two_echoes_a_bin_apart_merge_or_flee_by_their_phase(void **state)
+TEST(two_echoes_a_bin_apart_merge_or_flee_by_their_phase)
 {
-    (void)state;
     double place[9], height_db[9];
     assert_int_equal(peaks_of(1, 0, place, height_db), 1);
     assert_close(place[0], 0.5, 2e-3);
@@ -387,9 +368,8 @@ static void two_echoes_a_bin_apart_merge_or_flee_by_their_phase(void **state)
     assert_close(place[1], 1.47, 5e-3);
 }
 
-static void two_echoes_two_bins_apart_are_always_two(void **state)
+TEST(two_echoes_two_bins_apart_are_always_two)
 {
-    (void)state;
     double place[9], height_db[9];
     assert_int_equal(peaks_of(1.5, 0, place, height_db), 1);
     assert_int_equal(peaks_of(1.5, PI / 2, place, height_db), 2);
@@ -467,18 +447,16 @@ static void check_window(enum point_response window, double level_db, double wid
     }
 }
 
-static void level_and_width_are_those_of_the_integral(void **state)
+TEST(level_and_width_are_those_of_the_integral)
 {
-    (void)state;
     check_window(POINT_RESPONSE_HANN, 0.02, 0.03);
     check_window(POINT_RESPONSE_RECTANGULAR, 0.3, 0.2);
 }
 
 /* Measured of a sampled chirp: -11.0 and -2.5 dB over four cells; -18.7 and -7.8 dB over 9.3, where
  * Hann's response is 4.75 cells wide. */
-static void level_and_width_are_those_of_a_chirp(void **state)
+TEST(level_and_width_are_those_of_a_chirp)
 {
-    (void)state;
     static const struct {
         enum point_response window;
         double cells, level_db;
@@ -492,9 +470,8 @@ static void level_and_width_are_those_of_a_chirp(void **state)
     assert_close(2 * (1 + point_response_of_walk(POINT_RESPONSE_HANN, 9.3).widening), 4.75, 0.1);
 }
 
-static void an_echo_at_rest_keeps_its_level_and_width_to_the_bit(void **state)
+TEST(an_echo_at_rest_keeps_its_level_and_width_to_the_bit)
 {
-    (void)state;
     for (enum point_response window = POINT_RESPONSE_HANN; window <= POINT_RESPONSE_RECTANGULAR;
          window++)
         for (double cells = -1e-8; cells <= 1e-8; cells += 1e-9) {
@@ -505,44 +482,12 @@ static void an_echo_at_rest_keeps_its_level_and_width_to_the_bit(void **state)
 
 /* Far out the response has the shape of the window itself, over as many cells as the echo walks:
  * amplitudes of 4/K and 1/K, half of them K/2 and K cells wide. */
-static void a_long_walk_draws_the_window(void **state)
+TEST(a_long_walk_draws_the_window)
 {
-    (void)state;
     struct point_response_walk hann = point_response_of_walk(POINT_RESPONSE_HANN, -1e4);
     struct point_response_walk plain = point_response_of_walk(POINT_RESPONSE_RECTANGULAR, 1e4);
     assert_near(hann.level, 4e-4, 0.01);
     assert_near(hann.widening, 2.5e3, 0.01);
     assert_near(1.2067 * plain.widening, 1e4, 0.01);
     assert_true(plain.level > 1e-4 && plain.level < 1.2e-4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(responses_have_their_closed_forms),
-        cmocka_unit_test(a_response_is_a_half_at_its_half_width),
-        cmocka_unit_test(half_of_all_pairs_part_at_the_resolution),
-        cmocka_unit_test(pulses_part_where_their_sum_has_two_peaks),
-        cmocka_unit_test(equal_pulses_part_from_a_closed_distance_on),
-        cmocka_unit_test(echoes_with_a_hann_window_part_as_pulses_do),
-        cmocka_unit_test(weights_sum_to_one_and_noise_is_their_rms),
-        cmocka_unit_test(the_envelope_bounds_the_response_and_falls),
-        cmocka_unit_test(the_vertex_is_next_to_an_echo_alone),
-        cmocka_unit_test(the_hann_response_has_its_published_values),
-        cmocka_unit_test(the_hann_response_is_even_and_zero_at_whole_bins),
-        cmocka_unit_test(the_hann_response_is_that_of_a_raised_cosine),
-        cmocka_unit_test(the_hann_response_is_smooth_at_0_and_1),
-        cmocka_unit_test(its_highest_side_lobe_is_31_db_down),
-        cmocka_unit_test(one_echo_is_found_exactly_where_it_is),
-        cmocka_unit_test(a_wide_peak_with_equal_sides_has_no_offset),
-        cmocka_unit_test(a_peak_narrower_than_one_echo_is_left_on_its_bin),
-        cmocka_unit_test(equal_echoes_a_bin_apart_read_as_one_between_them),
-        cmocka_unit_test(two_echoes_a_bin_apart_merge_or_flee_by_their_phase),
-        cmocka_unit_test(two_echoes_two_bins_apart_are_always_two),
-        cmocka_unit_test(level_and_width_are_those_of_the_integral),
-        cmocka_unit_test(level_and_width_are_those_of_a_chirp),
-        cmocka_unit_test(an_echo_at_rest_keeps_its_level_and_width_to_the_bit),
-        cmocka_unit_test(a_long_walk_draws_the_window),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

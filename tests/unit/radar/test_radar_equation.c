@@ -33,9 +33,8 @@ static double range_at(const struct radar_equation *law, double ercs, double azi
 }
 
 /* MODEL 4.1: the printed table; lateral reach and area are found by search and quadrature. */
-static void detection_areas_are_those_of_the_paper(void **state)
+TEST(detection_areas_are_those_of_the_paper)
 {
-    (void)state;
     static const struct {
         double ercs, range_m[5], lateral_m, area_m2;
     } rows[] = {
@@ -71,9 +70,8 @@ static void detection_areas_are_those_of_the_paper(void **state)
     }
 }
 
-static void the_amplitude_at_the_detection_range_is_the_threshold(void **state)
+TEST(the_amplitude_at_the_detection_range_is_the_threshold)
 {
-    (void)state;
     struct radar_equation law = paper_law();
     for (int q = 2; q <= 5; q++)
         for (int i = 1; i <= 100; i++) {
@@ -88,9 +86,8 @@ static void the_amplitude_at_the_detection_range_is_the_threshold(void **state)
         }
 }
 
-static void a_table_is_left_for_good_at_its_last_crossing(void **state)
+TEST(a_table_is_left_for_good_at_its_last_crossing)
 {
-    (void)state;
     struct radar_equation law = table_law();
     /* Rows, between rows, and beyond the last one. */
     for (double range_m = 1.1; range_m < 200; range_m *= 1.3) {
@@ -109,9 +106,8 @@ static void a_table_is_left_for_good_at_its_last_crossing(void **state)
 }
 
 /* MODEL 4.1, 4.2 and 13. */
-static void reference_amplitudes_are_those_of_the_paper(void **state)
+TEST(reference_amplitudes_are_those_of_the_paper)
 {
-    (void)state;
     struct radar_equation law = paper_law();
     assert_close(radar_reference_amplitude(&law, 1), 2244.7, 0.05);
     assert_close(units_amplitude_db(radar_reference_amplitude(&law, 1)), 67.02, 0.005);
@@ -124,18 +120,16 @@ static void reference_amplitudes_are_those_of_the_paper(void **state)
     assert_near(radar_reference_amplitude(&law, 30) * 0.8, law.threshold, 1e-15);
 }
 
-static void twice_the_range_costs_twelve_decibels(void **state)
+TEST(twice_the_range_costs_twelve_decibels)
 {
-    (void)state;
     struct radar_equation law = paper_law();
     for (int i = 1; i < 200; i++)
         assert_near(radar_reference_amplitude(&law, i), 4 * radar_reference_amplitude(&law, 2 * i),
                     1e-15);
 }
 
-static void other_exponents_move_the_detection_ranges(void **state)
+TEST(other_exponents_move_the_detection_ranges)
 {
-    (void)state;
     static const struct {
         double exponent, range_m, expected_m[6];
     } cases[] = {
@@ -153,9 +147,8 @@ static void other_exponents_move_the_detection_ranges(void **state)
         }
 }
 
-static void below_the_floor_the_range_counts_as_the_floor(void **state)
+TEST(below_the_floor_the_range_counts_as_the_floor)
 {
-    (void)state;
     struct radar_equation law = paper_law();
     double at_floor = radar_reference_amplitude(&law, 0.5);
     assert_near(at_floor, law.threshold / 0.8 * 3600, 1e-15);
@@ -168,35 +161,31 @@ static void below_the_floor_the_range_counts_as_the_floor(void **state)
     assert_close(radar_reference_amplitude(&table, 1), 300, 1e-12);
 }
 
-static void a_table_passes_through_its_rows(void **state)
+TEST(a_table_passes_through_its_rows)
 {
-    (void)state;
     struct radar_equation law = table_law();
     for (size_t i = 0; i < law.row_count; i++)
         assert_near(radar_reference_amplitude(&law, ROWS[i].range_m), ROWS[i].amplitude, 1e-15);
 }
 
-static void a_table_is_straight_in_both_logarithms(void **state)
+TEST(a_table_is_straight_in_both_logarithms)
 {
-    (void)state;
     struct radar_equation law = table_law();
     for (size_t i = 0; i + 1 < law.row_count; i++)
         assert_near(radar_reference_amplitude(&law, sqrt(ROWS[i].range_m * ROWS[i + 1].range_m)),
                     sqrt(ROWS[i].amplitude * ROWS[i + 1].amplitude), 1e-14);
 }
 
-static void a_table_is_constant_before_and_goes_on_beyond(void **state)
+TEST(a_table_is_constant_before_and_goes_on_beyond)
 {
-    (void)state;
     struct radar_equation law = table_law();
     assert_close(radar_reference_amplitude(&law, 0.7), 1000, 0);
     /* From 5 to 20 m the amplitude falls by 20: so it does again from 20 to 80 m. */
     assert_near(radar_reference_amplitude(&law, 80), 0.25, 1e-14);
 }
 
-static void two_rows_of_the_power_law_are_the_power_law(void **state)
+TEST(two_rows_of_the_power_law_are_the_power_law)
 {
-    (void)state;
     struct radar_equation law = paper_law();
     struct radar_row rows[] = {{1, radar_reference_amplitude(&law, 1)},
                                {30, radar_reference_amplitude(&law, 30)}};
@@ -208,9 +197,8 @@ static void two_rows_of_the_power_law_are_the_power_law(void **state)
                     radar_reference_amplitude(&law, 0.1 * i), 1e-13);
 }
 
-static void one_row_holds_everywhere(void **state)
+TEST(one_row_holds_everywhere)
 {
-    (void)state;
     struct radar_equation table = table_law();
     table.row_count = 1;
     assert_close(radar_reference_amplitude(&table, 0.6), 1000, 0);
@@ -218,9 +206,8 @@ static void one_row_holds_everywhere(void **state)
 }
 
 /* MODEL 3. */
-static void an_ercs_is_the_root_of_a_cross_section_over_ten(void **state)
+TEST(an_ercs_is_the_root_of_a_cross_section_over_ten)
 {
-    (void)state;
     static const struct {
         double ercs, cross_section_m2, dbsm;
     } rows[] = {{0.2, 0.40, -4.0}, {0.3, 0.90, -0.5}, {0.4, 1.6, 2.0}, {0.5, 2.5, 4.0},
@@ -232,24 +219,4 @@ static void an_ercs_is_the_root_of_a_cross_section_over_ten(void **state)
     }
     assert_close(radar_ercs(pow(10, -0.137)), 0.27, 0.005);
     assert_close(radar_ercs(pow(10, 1.125)), 1.15, 0.005);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(detection_areas_are_those_of_the_paper),
-        cmocka_unit_test(the_amplitude_at_the_detection_range_is_the_threshold),
-        cmocka_unit_test(a_table_is_left_for_good_at_its_last_crossing),
-        cmocka_unit_test(reference_amplitudes_are_those_of_the_paper),
-        cmocka_unit_test(twice_the_range_costs_twelve_decibels),
-        cmocka_unit_test(other_exponents_move_the_detection_ranges),
-        cmocka_unit_test(below_the_floor_the_range_counts_as_the_floor),
-        cmocka_unit_test(a_table_passes_through_its_rows),
-        cmocka_unit_test(a_table_is_straight_in_both_logarithms),
-        cmocka_unit_test(a_table_is_constant_before_and_goes_on_beyond),
-        cmocka_unit_test(two_rows_of_the_power_law_are_the_power_law),
-        cmocka_unit_test(one_row_holds_everywhere),
-        cmocka_unit_test(an_ercs_is_the_root_of_a_cross_section_over_ten),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

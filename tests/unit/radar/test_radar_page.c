@@ -31,9 +31,8 @@ static double dbsm(double ercs)
     return 10 * log10(radar_cross_section_m2(ercs));
 }
 
-static void cross_sections(void **state)
+TEST(cross_sections)
 {
-    (void)state;
 #define OF_ERCS(f) f(0.2), f(0.3), f(0.4), f(0.5), f(0.6), f(0.7), f(0.8), f(1)
     PRINTED("3", "σ in m^2 # # # # # # # #", OF_ERCS(radar_cross_section_m2));
     PRINTED("3", "σ in dBsm # # # # # # # #", OF_ERCS(dbsm));
@@ -75,9 +74,8 @@ static double area_m2(double ercs)
     return area;
 }
 
-static void calibration(void **state)
+TEST(calibration)
 {
-    (void)state;
     struct radar_equation law = equation();
     double at_1_m = radar_reference_amplitude(&law, 1);
     PRINTED("4.1", "A_ref is # (# dB) at 1 m, # at 10 m, # at 30 m", at_1_m,
@@ -112,9 +110,8 @@ static double straight_db(int view_degrees)
     return most;
 }
 
-static void receiver_curves(void **state)
+TEST(receiver_curves)
 {
-    (void)state;
     PRINTED("4.3", "within # dB of the polynomial", straight_db(17));
     double at_45_m = 68.1 - 24.4 * log10(45) + 10;
     PRINTED("4.3", "1000 m, # dB", 68.1 - 24.4 * 3);
@@ -143,9 +140,8 @@ static double down_degrees(double db)
     return low;
 }
 
-static void pointers(void **state)
+TEST(pointers)
 {
-    (void)state;
 #define OF_AZIMUTH(f) f(0), f(5), f(10), f(20), f(30), f(35), f(40), f(50), f(60), f(70), f(80)
     PRINTED("7.1", "|H_S| # # # # # # # # # # #", OF_AZIMUTH(sum_of));
     PRINTED("7.1", "|H_D| # # # # # # # # # # #", OF_AZIMUTH(delta_of));
@@ -159,9 +155,8 @@ static double asr(double degrees)
     return (delta - sum) / (delta + sum);
 }
 
-static void sensing_ratios(void **state)
+TEST(sensing_ratios)
 {
-    (void)state;
     PRINTED("7.2",
             "is # at 0, # at 5, # at 10, # at 20, # at 30, # at 40, # at 45, # at 60, # at 80",
             asr(0), asr(5), asr(10), asr(20), asr(30), asr(40), asr(45), asr(60), asr(80));
@@ -180,9 +175,8 @@ static double sigma_degrees(enum monopulse_estimator estimator, double degrees, 
     return monopulse_sigma_rad(&dipoles, estimator, degrees * DEGREE, snr) / DEGREE;
 }
 
-static void conditioning(void **state)
+TEST(conditioning)
 {
-    (void)state;
     PRINTED("7.3", "deg per unit # # # # # # # # # # # #", steepness(0), steepness(5),
             steepness(10), steepness(20), steepness(30), steepness(40), steepness(50),
             steepness(60), steepness(70), steepness(80), steepness(85), steepness(89));
@@ -211,9 +205,8 @@ static double beam_degrees(size_t count)
 }
 
 /* Values of eight elements are times N d. */
-static void arrays(void **state)
+TEST(arrays)
 {
-    (void)state;
     struct array plain = row_of(8, TAPER_RECTANGULAR), hann = row_of(8, TAPER_HANN);
     struct phasor pair[8];
     struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
@@ -241,9 +234,8 @@ static double with_floor(double cell)
     return measurement_sigma_at_snr(&law, 100);
 }
 
-static void accuracy(void **state)
+TEST(accuracy)
 {
-    (void)state;
     double bandwidth_500_mhz = SPEED_OF_LIGHT_MPS / 2 / 500e6;
     PRINTED("14.7", "# = sqrt(6)/(2π)", sqrt(6) / (2 * PI));
     PRINTED("14.7", "Grandke, # times the bound", 0.68 / (sqrt(6) / (2 * PI)));
@@ -253,9 +245,8 @@ static void accuracy(void **state)
     PRINTED("14.7", "these at 20 dB: # m, # m/s", with_floor(0.15), with_floor(0.033));
 }
 
-static void misalignment(void **state)
+TEST(misalignment)
 {
-    (void)state;
     struct boresight_error error = {.yaw_error_rad = DEGREE};
     double aside = sin(antenna_reported_rad(&error, 0));
     double at_30_rad = antenna_reported_rad(&error, 30 * DEGREE);
@@ -291,9 +282,8 @@ static double detected(enum fluctuation_law law, double db)
     return detection_probability(&detection, pow(10, db / 20));
 }
 
-static void fluctuations(void **state)
+TEST(fluctuations)
 {
-    (void)state;
     PRINTED("14.14", "(T^2 = # σ_H^2)", -log(1e-4));
     PRINTED("14.14", "swerling_1 -ln u # #", -10 / log(10) * 0.57721566490153286,
             10 / log(10) * PI / sqrt(6));
@@ -313,9 +303,8 @@ static void fluctuations(void **state)
             detection_in_noise(2, 2, 2 / units_amplitude_from_db(6)));
 }
 
-static void ambiguities(void **state)
+TEST(ambiguities)
 {
-    (void)state;
     PRINTED("14.16", "45 m/s at v_u = 24.5 m/s becomes #, and -60 becomes #",
             folding_range_rate_mps(45, 0, 24.5), folding_range_rate_mps(-60, 0, 24.5));
     PRINTED("14.16", "2.5 MHz has R_u = # m", SPEED_OF_LIGHT_MPS / 2 / 2.5e6);
@@ -333,18 +322,16 @@ static double rise_db(double band_hz, double hit_share)
     return units_amplitude_db(interferer_noise_factor(ratio));
 }
 
-static void interference(void **state)
+TEST(interference)
 {
-    (void)state;
     double power_dbm = interferer_power_dbm(33, 20, units_wavelength_m(76.5e9), 50);
     PRINTED("14.17", "76.5 GHz, 50 m # dB in band", power_dbm - interferer_noise_dbm(10e6, 12));
     PRINTED("14.17", "# dB rise, # dB with b = 1, # dB with 5 % of the chirps hit",
             rise_db(20e6, 1), rise_db(10e6, 1), rise_db(20e6, 0.05));
 }
 
-static void range_migration(void **state)
+TEST(range_migration)
 {
-    (void)state;
     double lrr77_s = units_wavelength_m(76.5e9) / (2 * 0.103);
     double corner77_s = units_wavelength_m(77e9) / (2 * 0.033);
     PRINTED("14.20", "at 30 m/s # for `lrr77`, # for `corner77`", 30 * lrr77_s / 1.79,
@@ -367,27 +354,12 @@ static double semivariance_db2(int scans)
     return sum / 4;
 }
 
-static void levels(void **state)
+TEST(levels)
 {
-    (void)state;
     PRINTED("14.22", "ρ # # # # # #", correlation(0.05), correlation(0.25), correlation(0.5),
             correlation(1), correlation(1.5), correlation(2));
     PRINTED("14.22", "differ by # dB at 8 dB",
             level_centre_db(LEVEL_KEEPS_MEDIAN, 8) - level_centre_db(LEVEL_KEEPS_MEAN, 8));
     PRINTED("14.22", "s_f = 3.6 dB # # # #", semivariance_db2(1), semivariance_db2(5),
             semivariance_db2(12), semivariance_db2(25));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cross_sections),  cmocka_unit_test(calibration),
-        cmocka_unit_test(receiver_curves), cmocka_unit_test(pointers),
-        cmocka_unit_test(sensing_ratios),  cmocka_unit_test(conditioning),
-        cmocka_unit_test(arrays),          cmocka_unit_test(accuracy),
-        cmocka_unit_test(misalignment),    cmocka_unit_test(fluctuations),
-        cmocka_unit_test(ambiguities),     cmocka_unit_test(interference),
-        cmocka_unit_test(range_migration), cmocka_unit_test(levels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

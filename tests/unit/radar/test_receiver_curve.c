@@ -11,9 +11,8 @@ static const struct receiver_curve_row ROWS[] = {{-0.4, -12}, {-0.2, 1},  {-0.1,
                                                  {0.1, 2},    {0.15, -3}, {0.5, -3.5}};
 static const struct receiver_curve CURVE = {ROWS, COUNT(ROWS), 1.5};
 
-static void levels_are_straight_between_rows_and_constant_beyond(void **state)
+TEST(levels_are_straight_between_rows_and_constant_beyond)
 {
-    (void)state;
     for (size_t i = 0; i < COUNT(ROWS); i++)
         assert_close(receiver_curve_level_db(&CURVE, ROWS[i].at), ROWS[i].level_db, 0);
     for (size_t i = 0; i + 1 < COUNT(ROWS); i++)
@@ -25,17 +24,15 @@ static void levels_are_straight_between_rows_and_constant_beyond(void **state)
     assert_close(receiver_curve_level_db(&CURVE, 1), -3.5, 0);
 }
 
-static void gains_count_from_the_level_at_zero(void **state)
+TEST(gains_count_from_the_level_at_zero)
 {
-    (void)state;
     assert_close(receiver_curve_gain(&CURVE, 0), 1, 0);
     assert_near(receiver_curve_gain(&CURVE, 0.15), pow(10, -4.5 / 20), 1e-14);
     assert_near(receiver_curve_gain(&CURVE, -1), pow(10, -13.5 / 20), 1e-14);
 }
 
-static void a_mirrored_table_has_mirrored_gains(void **state)
+TEST(a_mirrored_table_has_mirrored_gains)
 {
-    (void)state;
     struct receiver_curve_row rows[COUNT(ROWS)];
     for (size_t i = 0; i < COUNT(ROWS); i++)
         rows[COUNT(ROWS) - 1 - i] = (struct receiver_curve_row){-ROWS[i].at, ROWS[i].level_db};
@@ -46,9 +43,8 @@ static void a_mirrored_table_has_mirrored_gains(void **state)
 }
 
 /* The sum of both patterns is the curve, and a single echo is read at its own azimuth. */
-static void a_curve_over_azimuth_changes_power_and_no_angle(void **state)
+TEST(a_curve_over_azimuth_changes_power_and_no_angle)
 {
-    (void)state;
     static const struct antenna_row rows[] = {{-1.2, 0.1, -0.5}, {0.05, 1, 0.02}, {1.3, 0.2, 0.6}};
     for (int pattern = ANTENNA_DIPOLE_PAIR; pattern <= ANTENNA_TABLE; pattern++)
         for (int phase = PHASE_CENTRE; phase <= PHASE_ELEMENT; phase++) {
@@ -74,25 +70,12 @@ static void a_curve_over_azimuth_changes_power_and_no_angle(void **state)
         }
 }
 
-static void a_zero_of_the_sum_stays_zero(void **state)
+TEST(a_zero_of_the_sum_stays_zero)
 {
-    (void)state;
     static const struct antenna_row rows[] = {{-0.3, 0, -1}, {0, 1, 0}, {0.3, 0, 1}};
     struct antenna antenna = {.pattern = ANTENNA_TABLE, .rows = rows, .row_count = 3};
     antenna.curve = CURVE;
     assert_close(antenna_gain(&antenna, 0.3), 0, 0);
     assert_close(antenna_gain(&antenna, 0.4), 0, 0);
     assert_near(antenna_gain(&antenna, 0.15), pow(10, -4.5 / 20), 1e-14);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(levels_are_straight_between_rows_and_constant_beyond),
-        cmocka_unit_test(gains_count_from_the_level_at_zero),
-        cmocka_unit_test(a_mirrored_table_has_mirrored_gains),
-        cmocka_unit_test(a_curve_over_azimuth_changes_power_and_no_angle),
-        cmocka_unit_test(a_zero_of_the_sum_stays_zero),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,9 +52,8 @@ static size_t draw_echoes(uint64_t scene, struct resolution_echo *echoes)
 }
 
 /* MODEL 13. */
-static void the_four_echoes_of_the_model_make_three_cells(void **state)
+TEST(the_four_echoes_of_the_model_make_three_cells)
 {
-    (void)state;
     static const struct resolution_echo echoes[] = {{10.00, -2.0, 10, 0, 0},
                                                     {10.10, -2.1, 5, 0, 0},
                                                     {10.40, -2.0, 4, 0, 0},
@@ -69,16 +68,14 @@ static void the_four_echoes_of_the_model_make_three_cells(void **state)
     assert_near(range_rate_mps, -2 - 0.1 / 3, 1e-15);
 }
 
-static void no_echo_makes_no_cell(void **state)
+TEST(no_echo_makes_no_cell)
 {
-    (void)state;
     assert_int_equal(cluster(NULL, 0, 0.15, 0.25, NULL), 0);
 }
 
 /* Hard case 44: three distances of 0.15 m as written. */
-static void the_border_is_decided_by_the_doubles(void **state)
+TEST(the_border_is_decided_by_the_doubles)
 {
-    (void)state;
     static const struct {
         double leader_m, echo_m;
         size_t cells;
@@ -98,9 +95,8 @@ static void the_border_is_decided_by_the_doubles(void **state)
     assert_int_equal(cluster(exact, 5, 0.125, 0.25, cell), 1);
 }
 
-static void a_cell_does_not_grow_along_a_chain(void **state)
+TEST(a_cell_does_not_grow_along_a_chain)
 {
-    (void)state;
     static const struct resolution_echo echoes[] = {
         {10.0, 0, 5, 0, 0}, {10.1, 0, 4, 0, 0}, {10.2, 0, 3, 0, 0}, {10.3, 0, 2, 0, 0}};
     static const size_t expected[] = {0, 0, 1, 1};
@@ -110,9 +106,8 @@ static void a_cell_does_not_grow_along_a_chain(void **state)
 }
 
 /* The definition, read from the answer: no earlier leader reaches an echo, its own does. */
-static void every_echo_lies_in_the_first_cell_that_reaches_it(void **state)
+TEST(every_echo_lies_in_the_first_cell_that_reaches_it)
 {
-    (void)state;
     for (uint64_t scene = 0; scene < 5000; scene++) {
         struct resolution_echo echoes[ECHO_MAX];
         size_t cell[ECHO_MAX];
@@ -135,9 +130,8 @@ static void every_echo_lies_in_the_first_cell_that_reaches_it(void **state)
 }
 
 /* On a grid of half cells, so wide that many scenes have no pair. */
-static void echoes_are_close_exactly_if_a_pair_is(void **state)
+TEST(echoes_are_close_exactly_if_a_pair_is)
 {
-    (void)state;
     size_t close_scenes = 0;
     struct arena arena = {0};
     for (uint64_t scene = 0; scene < 5000; scene++) {
@@ -190,9 +184,8 @@ static size_t cluster_all_pairs(const struct resolution_echo *echoes, size_t cou
 
 /* Some on borders, some equal, some a rounding apart; some with larger cells in half of the scenes.
  */
-static void a_crowd_clusters_as_if_every_pair_were_asked(void **state)
+TEST(a_crowd_clusters_as_if_every_pair_were_asked)
 {
-    (void)state;
     enum { CROWD = 300 };
     static const double half_m[] = {0.125, 0.15, 0.9};
     for (uint64_t scene = 0; scene < 500; scene++) {
@@ -217,9 +210,8 @@ static void a_crowd_clusters_as_if_every_pair_were_asked(void **state)
 
 /* A leader with the sensor's cell takes an echo whose own cell reaches it, and the other way round.
  */
-static void the_larger_cell_of_two_echoes_counts(void **state)
+TEST(the_larger_cell_of_two_echoes_counts)
 {
-    (void)state;
     struct arena arena = {0};
     for (size_t wide = 0; wide < 3; wide++) {
         struct resolution_echo echoes[] = {{10, 1, 5, 0, 0}, {10.375, 0.5, 4, 0, 0}};
@@ -248,9 +240,8 @@ static size_t coherent_cells(double apart_range, double apart_rate, double phase
 }
 
 /* Pulses have half of their amplitude at 2/3.5802 = 0.5586 half cells. */
-static void coherent_echoes_part_by_their_phase(void **state)
+TEST(coherent_echoes_part_by_their_phase)
 {
-    (void)state;
     assert_int_equal(coherent_cells(0.999, 0, PI / 2), 1);
     assert_int_equal(coherent_cells(1.001, 0, -PI / 2), 2);
     assert_int_equal(coherent_cells(0, 0.999, PI / 2), 1);
@@ -264,9 +255,8 @@ static void coherent_echoes_part_by_their_phase(void **state)
     assert_int_equal(coherent_cells(0, 0, PI), 1);
 }
 
-static void a_leader_leaves_of_an_echo_what_its_response_has_there(void **state)
+TEST(a_leader_leaves_of_an_echo_what_its_response_has_there)
 {
-    (void)state;
     const struct resolution resolution = {0.5, 2, true};
     const struct resolution_echo leader = {10, 1, 4, 0, 0};
     struct resolution_echo echo = {10 + 0.5 * 2 / 3.5802, 1, 2, 0, 3};
@@ -279,9 +269,8 @@ static void a_leader_leaves_of_an_echo_what_its_response_has_there(void **state)
 }
 
 /* Every leader asks all echoes that are left, by the cells of pairs. */
-static void a_coherent_crowd_clusters_as_if_every_pair_were_asked(void **state)
+TEST(a_coherent_crowd_clusters_as_if_every_pair_were_asked)
 {
-    (void)state;
     enum { CROWD = 60 };
     const struct resolution resolution = {0.5, 0.25, true};
     struct arena arena = {0};
@@ -313,9 +302,8 @@ static void a_coherent_crowd_clusters_as_if_every_pair_were_asked(void **state)
     arena_free(&arena);
 }
 
-static void sorted_echoes_cluster_alike_in_every_input_order(void **state)
+TEST(sorted_echoes_cluster_alike_in_every_input_order)
 {
-    (void)state;
     for (uint64_t scene = 0; scene < 5000; scene++) {
         struct resolution_echo echoes[ECHO_MAX];
         struct resolution_echo shuffled[ECHO_MAX];
@@ -334,9 +322,8 @@ static void sorted_echoes_cluster_alike_in_every_input_order(void **state)
     }
 }
 
-static void three_equal_echoes_make_two_cells(void **state)
+TEST(three_equal_echoes_make_two_cells)
 {
-    (void)state;
     static const double ranges_m[6][3] = {{10.00, 10.14, 10.28}, {10.00, 10.28, 10.14},
                                           {10.14, 10.00, 10.28}, {10.14, 10.28, 10.00},
                                           {10.28, 10.00, 10.14}, {10.28, 10.14, 10.00}};
@@ -354,9 +341,8 @@ static void three_equal_echoes_make_two_cells(void **state)
 }
 
 /* Hard case 15. */
-static void the_mean_of_equal_values_is_that_value(void **state)
+TEST(the_mean_of_equal_values_is_that_value)
 {
-    (void)state;
     for (uint64_t i = 0; i < 20000; i++) {
         double value = 100 * draw(i, 0);
         double weights[] = {draw(i, 1), draw(i, 2), draw(i, 3)};
@@ -366,9 +352,8 @@ static void the_mean_of_equal_values_is_that_value(void **state)
 }
 
 /* Hard case 16. */
-static void the_mean_stays_in_the_span_and_near_the_exact_mean(void **state)
+TEST(the_mean_stays_in_the_span_and_near_the_exact_mean)
 {
-    (void)state;
     for (uint64_t i = 0; i < 50000; i++) {
         double values[] = {20 * draw(i, 0) - 10, 0, 0};
         double spread = pow(10, -16 * draw(i, 1));
@@ -389,9 +374,8 @@ static void the_mean_stays_in_the_span_and_near_the_exact_mean(void **state)
 }
 
 /* Hard case 17. */
-static void weights_may_be_huge_or_tiny(void **state)
+TEST(weights_may_be_huge_or_tiny)
 {
-    (void)state;
     static const struct {
         double weights[3], mean;
     } cases[] = {
@@ -406,32 +390,7 @@ static void weights_may_be_huge_or_tiny(void **state)
                     1e-15);
 }
 
-static void the_mean_of_one_is_itself(void **state)
+TEST(the_mean_of_one_is_itself)
 {
-    (void)state;
     assert_close(resolution_mean((double[]){-0.1}, (double[]){3e-300}, 1), -0.1, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_four_echoes_of_the_model_make_three_cells),
-        cmocka_unit_test(no_echo_makes_no_cell),
-        cmocka_unit_test(the_border_is_decided_by_the_doubles),
-        cmocka_unit_test(a_cell_does_not_grow_along_a_chain),
-        cmocka_unit_test(every_echo_lies_in_the_first_cell_that_reaches_it),
-        cmocka_unit_test(echoes_are_close_exactly_if_a_pair_is),
-        cmocka_unit_test(a_crowd_clusters_as_if_every_pair_were_asked),
-        cmocka_unit_test(the_larger_cell_of_two_echoes_counts),
-        cmocka_unit_test(coherent_echoes_part_by_their_phase),
-        cmocka_unit_test(a_leader_leaves_of_an_echo_what_its_response_has_there),
-        cmocka_unit_test(a_coherent_crowd_clusters_as_if_every_pair_were_asked),
-        cmocka_unit_test(sorted_echoes_cluster_alike_in_every_input_order),
-        cmocka_unit_test(three_equal_echoes_make_two_cells),
-        cmocka_unit_test(the_mean_of_equal_values_is_that_value),
-        cmocka_unit_test(the_mean_stays_in_the_span_and_near_the_exact_mean),
-        cmocka_unit_test(weights_may_be_huge_or_tiny),
-        cmocka_unit_test(the_mean_of_one_is_itself),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

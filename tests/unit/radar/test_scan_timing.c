@@ -4,9 +4,8 @@
 
 #include "check.h"
 
-static void known_frames_have_known_instants(void **state)
+TEST(known_frames_have_known_instants)
 {
-    (void)state;
     static const struct {
         double cycle_s, time_s, interval_s;
         enum scan_timing_answer answer;
@@ -49,9 +48,8 @@ static void known_frames_have_known_instants(void **state)
     }
 }
 
-static void instants_are_the_decimals_they_should_be(void **state)
+TEST(instants_are_the_decimals_they_should_be)
 {
-    (void)state;
     double instant_s = 0;
     /* 61 * 0.072 is 4.3919999999999995 in doubles. */
     assert_int_equal(scan_timing_instant_s(0.072, 4.4, 0.04, &instant_s), SCAN_TIMING_ONE);
@@ -61,9 +59,8 @@ static void instants_are_the_decimals_they_should_be(void **state)
     assert_true(instant_s == 7.0 / 25);
 }
 
-static void seconds_since_1970_lose_no_scan(void **state)
+TEST(seconds_since_1970_lose_no_scan)
 {
-    (void)state;
     int scans = 0;
     for (int i = 0; i < 2000; i++) {
         double instant_s;
@@ -73,9 +70,8 @@ static void seconds_since_1970_lose_no_scan(void **state)
 }
 
 /* The instants before time 0 are those after it, mirrored. */
-static void scans_before_time_0_are_as_many_as_after_it(void **state)
+TEST(scans_before_time_0_are_as_many_as_after_it)
 {
-    (void)state;
     int before = 0, after = 0;
     for (int i = 0; i < 30000; i++) {
         double instant_s;
@@ -91,9 +87,8 @@ static void scans_before_time_0_are_as_many_as_after_it(void **state)
 
 /* Frames at i / rate, a cycle of ticks thousandths of a second: instant k belongs to the frame
  * i = ceil(k ticks rate / 1000), counted in whole numbers. */
-static void every_instant_is_delivered_exactly_once(void **state)
+TEST(every_instant_is_delivered_exactly_once)
 {
-    (void)state;
     static const struct {
         int64_t rate_hz, ticks;
     } cases[] = {{20, 66}, {25, 40},  {20, 50},  {10, 100}, {30, 35},
@@ -117,9 +112,8 @@ static void every_instant_is_delivered_exactly_once(void **state)
     }
 }
 
-static void frames_longer_than_the_cycle_have_a_scan_at_their_time(void **state)
+TEST(frames_longer_than_the_cycle_have_a_scan_at_their_time)
 {
-    (void)state;
     static const double rates_hz[] = {10, 20, 24.9};
     for (size_t rate = 0; rate < 3; rate++)
         for (int i = -1000; i < 1000; i++) {
@@ -128,17 +122,4 @@ static void frames_longer_than_the_cycle_have_a_scan_at_their_time(void **state)
                              SCAN_TIMING_LONG_FRAME);
             assert_true(instant_s == time_s);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_frames_have_known_instants),
-        cmocka_unit_test(every_instant_is_delivered_exactly_once),
-        cmocka_unit_test(instants_are_the_decimals_they_should_be),
-        cmocka_unit_test(seconds_since_1970_lose_no_scan),
-        cmocka_unit_test(scans_before_time_0_are_as_many_as_after_it),
-        cmocka_unit_test(frames_longer_than_the_cycle_have_a_scan_at_their_time),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

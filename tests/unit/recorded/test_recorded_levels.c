@@ -29,9 +29,8 @@ static void assert_on(const struct recorded_level *bodies, const char *expected)
     arena_free(&arena);
 }
 
-static void a_hill_of_6_percent_keeps_a_lone_car_at_250_m(void **state)
+TEST(a_hill_of_6_percent_keeps_a_lone_car_at_250_m)
 {
-    (void)state;
     const struct recorded_level up[] = {body(0, 0, 0, 0.06, false), body(250, 0, 15, 0.06, false),
                                         body(-250, 3, -15, 0.06, false)};
     assert_on(up, "xxx");
@@ -44,9 +43,8 @@ static void a_hill_of_6_percent_keeps_a_lone_car_at_250_m(void **state)
     assert_on(both_ways, "xx");
 }
 
-static void a_bridge_at_6_m_keeps_none(void **state)
+TEST(a_bridge_at_6_m_keeps_none)
 {
-    (void)state;
     const struct recorded_level under[] = {
         body(0, 0, 0, 0, false),     body(0, 0, 6, 0, true),     body(40, -30, 6, 0, true),
         body(250, 5, 6, 0.04, true), body(120, 0, 6, 0, false),  body(80, 3, 0, 0, false),
@@ -57,27 +55,24 @@ static void a_bridge_at_6_m_keeps_none(void **state)
     assert_on(over, "x.x.");
 }
 
-static void a_bridge_over_a_hill_keeps_none(void **state)
+TEST(a_bridge_over_a_hill_keeps_none)
 {
-    (void)state;
     const struct recorded_level bodies[] = {body(0, 0, 0, 0.06, false), body(100, 0, 12, 0, true),
                                             body(100, 3, 6, 0.06, false), body(100, -3, 6, 0, true),
                                             body(100, 5, 0, 0, true)};
     assert_on(bodies, "x.xx.");
 }
 
-static void who_drives_up_a_ramp_has_left_the_road_below(void **state)
+TEST(who_drives_up_a_ramp_has_left_the_road_below)
 {
-    (void)state;
     const struct recorded_level bodies[] = {body(0, 0, 3.5, 0.06, false), body(60, 0, 0, 0, true),
                                             body(42, 1, 6, 0, false), body(-60, 0, 0, 0, false),
                                             body(10, 20, 0, 0, false)};
     assert_on(bodies, "x.xx.");
 }
 
-static void between_two_slopes_any_rise_is_that_of_a_road(void **state)
+TEST(between_two_slopes_any_rise_is_that_of_a_road)
 {
-    (void)state;
     const double heights_m[] = {9.1, 8.9, -2.9, -3.1};
     for (size_t i = 0; i < 4; i++) {
         const struct recorded_level bodies[] = {body(0, 0, 0, 0.06, false),
@@ -86,9 +81,8 @@ static void between_two_slopes_any_rise_is_that_of_a_road(void **state)
     }
 }
 
-static void vehicles_lead_over_a_crest(void **state)
+TEST(vehicles_lead_over_a_crest)
 {
-    (void)state;
     /* z = 8 sin(x / 60 m) from a crest to a valley; the far car alone would be on another road. */
     const struct recorded_level crest[] = {
         body(0, 0, 8, 0, false), body(47, 0, 5.66, -0.0943, false), body(94, 0, 0, -0.133, false),
@@ -103,9 +97,8 @@ static void vehicles_lead_over_a_crest(void **state)
     assert_on(nearer, "xxx");
 }
 
-static void a_queue_that_has_never_moved_leads_up_a_hill(void **state)
+TEST(a_queue_that_has_never_moved_leads_up_a_hill)
 {
-    (void)state;
     struct recorded_level queue[20];
     for (size_t i = 0; i < 20; i++)
         queue[i] = body(9 * (double)i, 0, 0.54 * (double)i, unknown, false);
@@ -117,18 +110,16 @@ static void a_queue_that_has_never_moved_leads_up_a_hill(void **state)
     assert_on(queue, "xxxxxxxxxxxxxxxxxxxx");
 }
 
-static void a_ramp_does_not_lead_to_the_bridge_over_the_ego(void **state)
+TEST(a_ramp_does_not_lead_to_the_bridge_over_the_ego)
 {
-    (void)state;
     const struct recorded_level bodies[] = {
         body(0, 0, 0, 0, false), body(20, -10, 1.2, 0.06, false), body(45, -10, 2.7, 0.06, false),
         body(70, -10, 4.2, 0.06, false), body(80, -4, 6, 0, true)};
     assert_on(bodies, "xxxx.");
 }
 
-static void a_body_without_a_height_is_on_every_road(void **state)
+TEST(a_body_without_a_height_is_on_every_road)
 {
-    (void)state;
     const struct recorded_level bodies[] = {body(0, 0, 0, 0, false), body(9, 0, unknown, 0, false),
                                             body(9, 0, 9, 0, false)};
     assert_on(bodies, "xx.");
@@ -136,9 +127,8 @@ static void a_body_without_a_height_is_on_every_road(void **state)
     assert_on(from, "xxx");
 }
 
-static void of_a_thing_any_part_may_be_on_the_road(void **state)
+TEST(of_a_thing_any_part_may_be_on_the_road)
 {
-    (void)state;
     struct recorded_level cellar = body(30, 9, -6, unknown, false),
                           lamp = body(30, -9, 6, unknown, false);
     cellar.tall_m = 20;
@@ -151,9 +141,8 @@ static void of_a_thing_any_part_may_be_on_the_road(void **state)
     assert_on(no_way_up, "xx.");
 }
 
-static void the_slope_is_that_of_the_last_metres(void **state)
+TEST(the_slope_is_that_of_the_last_metres)
 {
-    (void)state;
     struct recorded_climb climb = {0, 0};
     assert_true(isnan(recorded_levels_slope(climb)));
     climb = recorded_levels_climb(climb, 0.4, 0.02);
@@ -171,31 +160,11 @@ static void the_slope_is_that_of_the_last_metres(void **state)
     assert_close(recorded_levels_slope(climb), -0.02, 1e-9);
 }
 
-static void a_pitch_of_zero_says_nothing(void **state)
+TEST(a_pitch_of_zero_says_nothing)
 {
-    (void)state;
     assert_close(recorded_levels_pitched(atan(0.06)), 0.06, 1e-12);
     assert_close(recorded_levels_pitched(-atan(0.12)), -0.12, 1e-12);
     assert_true(isnan(recorded_levels_pitched(0)));
     assert_true(isnan(recorded_levels_pitched(1.5)));
     assert_true(isnan(recorded_levels_pitched(unknown)));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_hill_of_6_percent_keeps_a_lone_car_at_250_m),
-        cmocka_unit_test(a_bridge_at_6_m_keeps_none),
-        cmocka_unit_test(a_bridge_over_a_hill_keeps_none),
-        cmocka_unit_test(who_drives_up_a_ramp_has_left_the_road_below),
-        cmocka_unit_test(between_two_slopes_any_rise_is_that_of_a_road),
-        cmocka_unit_test(vehicles_lead_over_a_crest),
-        cmocka_unit_test(a_queue_that_has_never_moved_leads_up_a_hill),
-        cmocka_unit_test(a_ramp_does_not_lead_to_the_bridge_over_the_ego),
-        cmocka_unit_test(a_body_without_a_height_is_on_every_road),
-        cmocka_unit_test(of_a_thing_any_part_may_be_on_the_road),
-        cmocka_unit_test(the_slope_is_that_of_the_last_metres),
-        cmocka_unit_test(a_pitch_of_zero_says_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

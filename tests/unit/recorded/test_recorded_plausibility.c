@@ -47,9 +47,8 @@ static void follow(struct recorded_plausibility *plausibility, const struct pose
     }
 }
 
-static void ways_that_the_speeds_deny_are_denied(void **state)
+TEST(ways_that_the_speeds_deny_are_denied)
 {
-    (void)state;
     assert_true(denies((struct pose){60, 0, 0, 0, 0}, (struct pose){60, 6.4, 0, 0, 0}, 0.1));
     assert_true(denies((struct pose){60, 0, 0, 0, 0}, (struct pose){60, 6.4, 0, 0, 0}, 1));
     assert_true(denies((struct pose){0, 0, 15, 0, 0}, (struct pose){15, 14.6, 15, 0, 0}, 1));
@@ -57,9 +56,8 @@ static void ways_that_the_speeds_deny_are_denied(void **state)
     assert_true(denies((struct pose){0, 0, 15, 0, 0}, (struct pose){-14.6, 0, 15, 0, 0}, 1));
 }
 
-static void ways_that_bodies_drive_stay(void **state)
+TEST(ways_that_bodies_drive_stay)
 {
-    (void)state;
     /* A quarter of a circle in a step, a stop within it, a start and a stop again between rests. */
     assert_false(denies((struct pose){0, 0, 12, 0, 0}, (struct pose){7.6, 7.6, 0, 12, PI / 2}, 1));
     assert_false(denies((struct pose){0, 0, 15, 0, 0}, (struct pose){2, 0, 0, 0, 0}, 1));
@@ -71,9 +69,8 @@ static void ways_that_bodies_drive_stay(void **state)
     assert_false(denies((struct pose){0, 0, 0, 0, 0}, (struct pose){0.5, -0.6, 0, 0, 0}, 0.04));
 }
 
-static void a_speed_along_the_yaw_may_be_that_of_reversing(void **state)
+TEST(a_speed_along_the_yaw_may_be_that_of_reversing)
 {
-    (void)state;
     struct recorded_row row = recorded_row_unsaid;
     row.yaw_rad = 0;
     row.speed_mps = 8;
@@ -92,9 +89,8 @@ static void a_speed_along_the_yaw_may_be_that_of_reversing(void **state)
 }
 
 /* Without speeds only 200 m/s deny a way. */
-static void nothing_is_compared_without_speeds(void **state)
+TEST(nothing_is_compared_without_speeds)
 {
-    (void)state;
     const double unsaid = (double)NAN;
     struct pose from = {0, 0, unsaid, unsaid, unsaid}, to = {150, 0, unsaid, unsaid, unsaid};
     assert_false(denies(from, to, 1));
@@ -107,9 +103,8 @@ static void nothing_is_compared_without_speeds(void **state)
 }
 
 /* Places that scatter by up to 2.8 m around a drive: after the first ways, none is denied. */
-static void a_noisy_track_stays_whole(void **state)
+TEST(a_noisy_track_stays_whole)
 {
-    (void)state;
     struct recorded_plausibility plausibility = {0};
     struct pose poses[400];
     uint64_t random = 1;
@@ -140,9 +135,8 @@ static const char *drive(struct diag *diag, double places, double speeds, double
     return diag->text;
 }
 
-static void units_are_told_by_the_ratio(void **state)
+TEST(units_are_told_by_the_ratio)
 {
-    (void)state;
     struct diag diag;
     static const struct {
         double places, speeds, times;
@@ -181,9 +175,8 @@ static const char *turn(struct diag *diag, double factor)
     return diag->text;
 }
 
-static void yaws_in_another_unit_are_refused(void **state)
+TEST(yaws_in_another_unit_are_refused)
 {
-    (void)state;
     struct diag diag;
     assert_string_equal(turn(&diag, 1), "");
     assert_non_null(strstr(turn(&diag, 180 / PI), "as with degrees that are taken for radians"));
@@ -191,9 +184,8 @@ static void yaws_in_another_unit_are_refused(void **state)
 }
 
 /* One body slides sideways and one reverses, all the time. */
-static void yaws_of_sliding_and_reversing_bodies_are_no_contradiction(void **state)
+TEST(yaws_of_sliding_and_reversing_bodies_are_no_contradiction)
 {
-    (void)state;
     struct recorded_plausibility plausibility = {0};
     struct pose slides[100], reverses[100];
     for (int k = 0; k < 100; k++) {
@@ -204,19 +196,4 @@ static void yaws_of_sliding_and_reversing_bodies_are_no_contradiction(void **sta
     follow(&plausibility, reverses, 100, 0.1);
     struct diag diag = {0};
     assert_int_equal(recorded_plausibility_check(&plausibility, &format, true, &diag), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ways_that_the_speeds_deny_are_denied),
-        cmocka_unit_test(ways_that_bodies_drive_stay),
-        cmocka_unit_test(a_speed_along_the_yaw_may_be_that_of_reversing),
-        cmocka_unit_test(nothing_is_compared_without_speeds),
-        cmocka_unit_test(a_noisy_track_stays_whole),
-        cmocka_unit_test(units_are_told_by_the_ratio),
-        cmocka_unit_test(yaws_in_another_unit_are_refused),
-        cmocka_unit_test(yaws_of_sliding_and_reversing_bodies_are_no_contradiction),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -92,7 +92,23 @@ static void assert_circling(const struct recorded_row *row, double tolerance)
     assert_close(row->yaw_rate_radps, exact.yaw_rate_radps, tolerance);
 }
 
-static void stamps_within_a_tenth_of_the_usual_step_are_one_step(void **state)
+static int make_arena(void **state)
+{
+    *state = memory_get(sizeof(struct arena));
+    memset(*state, 0, sizeof(struct arena));
+    return 0;
+}
+
+static int remove_arena(void **state)
+{
+    arena_free(*state);
+    free(*state);
+    return 0;
+}
+
+FIXTURE(make_arena, remove_arena);
+
+TEST(stamps_within_a_tenth_of_the_usual_step_are_one_step)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -105,7 +121,7 @@ static void stamps_within_a_tenth_of_the_usual_step_are_one_step(void **state)
 }
 
 /* b's stamp is 10 ms after a's: it turns with the yaw rate of its own stamps. */
-static void a_row_is_moved_to_the_time_of_its_step(void **state)
+TEST(a_row_is_moved_to_the_time_of_its_step)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -128,7 +144,7 @@ static void a_row_is_moved_to_the_time_of_its_step(void **state)
 }
 
 /* Without velocities those of the rows' own stamps move a row. */
-static void velocities_that_lack_are_those_of_the_own_stamps(void **state)
+TEST(velocities_that_lack_are_those_of_the_own_stamps)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -149,7 +165,7 @@ static void velocities_that_lack_are_those_of_the_own_stamps(void **state)
 }
 
 /* At 100 ms the stamps are 8 and 4 ms after each other: after 10 ms the next step begins. */
-static void a_chain_of_stamps_is_cut_at_a_tenth(void **state)
+TEST(a_chain_of_stamps_is_cut_at_a_tenth)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -167,7 +183,7 @@ static void a_chain_of_stamps_is_cut_at_a_tenth(void **state)
         "800 a b c;900 a b c;1000 a b c;1100 a b c;");
 }
 
-static void a_step_has_no_two_stamps_of_one_road_user(void **state)
+TEST(a_step_has_no_two_stamps_of_one_road_user)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -179,7 +195,7 @@ static void a_step_has_no_two_stamps_of_one_road_user(void **state)
 }
 
 /* Whoever is absent for steps has left; that makes no times of its own. */
-static void absences_are_no_times_of_their_own(void **state)
+TEST(absences_are_no_times_of_their_own)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -210,7 +226,7 @@ static size_t rows_apart(struct recorded_row *rows)
     return count;
 }
 
-static void times_of_their_own_need_a_rate(void **state)
+TEST(times_of_their_own_need_a_rate)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -222,7 +238,7 @@ static void times_of_their_own_need_a_rate(void **state)
     assert_non_null(strstr(diag.text, "--rate-hz 10 interpolates each between its own rows"));
 }
 
-static void each_is_interpolated_between_its_own_rows(void **state)
+TEST(each_is_interpolated_between_its_own_rows)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -246,7 +262,7 @@ static void each_is_interpolated_between_its_own_rows(void **state)
     assert_int_equal(counts[2], 23 + 28);
 }
 
-static void rows_of_one_time_that_differ_are_refused_at_a_rate_too(void **state)
+TEST(rows_of_one_time_that_differ_are_refused_at_a_rate_too)
 {
     struct arena *arena = *state;
     struct diag diag = {0};
@@ -260,34 +276,4 @@ static void rows_of_one_time_that_differ_are_refused_at_a_rate_too(void **state)
     given.at = 0;
     assert_null(stored(&given, 20, arena, &diag).format);
     assert_non_null(strstr(diag.text, " is in row "));
-}
-
-static int make_arena(void **state)
-{
-    *state = memory_get(sizeof(struct arena));
-    memset(*state, 0, sizeof(struct arena));
-    return 0;
-}
-
-static int remove_arena(void **state)
-{
-    arena_free(*state);
-    free(*state);
-    return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stamps_within_a_tenth_of_the_usual_step_are_one_step),
-        cmocka_unit_test(a_row_is_moved_to_the_time_of_its_step),
-        cmocka_unit_test(velocities_that_lack_are_those_of_the_own_stamps),
-        cmocka_unit_test(a_chain_of_stamps_is_cut_at_a_tenth),
-        cmocka_unit_test(a_step_has_no_two_stamps_of_one_road_user),
-        cmocka_unit_test(absences_are_no_times_of_their_own),
-        cmocka_unit_test(times_of_their_own_need_a_rate),
-        cmocka_unit_test(each_is_interpolated_between_its_own_rows),
-        cmocka_unit_test(rows_of_one_time_that_differ_are_refused_at_a_rate_too),
-    };
-    return cmocka_run_group_tests(tests, make_arena, remove_arena);
 }

@@ -93,7 +93,9 @@ static const struct object *object_at(const struct played *played, double time_s
     return NULL;
 }
 
-static void a_row_becomes_an_object(void **state)
+FIXTURE(make_scratch, remove_scratch);
+
+TEST(a_row_becomes_an_object)
 {
     struct played *played = play_all(*state, HEADER "7,1,100,truck,1.5,-2.5,3,4,0.75,8.5,2.25\n");
     const struct object *only = object_at(played, 0.1, "7");
@@ -113,7 +115,7 @@ static void a_row_becomes_an_object(void **state)
     assert_string_equal(played->frames[0].scene, "tracks/7");
 }
 
-static void frames_ascend_in_time_and_their_objects_in_id(void **state)
+TEST(frames_ascend_in_time_and_their_objects_in_id)
 {
     struct recording_options options;
     struct played *played = play(*state,
@@ -146,7 +148,7 @@ static void frames_ascend_in_time_and_their_objects_in_id(void **state)
     }
 }
 
-static void stamps_are_in_the_unit_of_their_column(void **state)
+TEST(stamps_are_in_the_unit_of_their_column)
 {
     static const char *const texts[] = {
         "track_id,timestamp_us,agent_type,x,y,vx,vy\n1,1700000000050000,car,0,0,0,0\n",
@@ -158,7 +160,7 @@ static void stamps_are_in_the_unit_of_their_column(void **state)
     assert_close(play_all(*state, texts[1])->frames[0].time_s, 1700000000.05, 0);
 }
 
-static void without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest(void **state)
+TEST(without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest)
 {
     struct recording_options options;
     struct played *played = play(*state,
@@ -176,7 +178,7 @@ static void without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest(void 
 
 /* The parabola through yaws 0, 0.02 and 0.14 at 0, 0.1 and 0.3 s has the slope 1/3 rad/s in the
  * middle: (0.2 * 0.2 + 0.6 * 0.1) / 0.3. */
-static void yaw_rates_are_slopes_of_parabolas_and_wrap(void **state)
+TEST(yaw_rates_are_slopes_of_parabolas_and_wrap)
 {
     struct played *played = play_all(*state, HEADER "a,1,0,car,0,0,0,0,3.13,4,2\n"
                                                     "a,2,100,car,0,0,0,0,3.15,4,2\n"
@@ -190,7 +192,7 @@ static void yaw_rates_are_slopes_of_parabolas_and_wrap(void **state)
 
 /* SUMO gives the front: a car of 5 m that drives north at (0, 10) has its centre at (0, 7.5). With
  * constant acceleration the centred differences are exact, at unequal steps too. */
-static void places_become_centres_and_velocities(void **state)
+TEST(places_become_centres_and_velocities)
 {
     struct played *played = play_all(*state, SUMO "0;v;0;10;0;passenger;9\n"
                                                   "1;v;0;20.5;0;passenger;9\n"
@@ -209,7 +211,7 @@ static void places_become_centres_and_velocities(void **state)
     assert_close(object_at(played, 3, "once")->width_m, 0.65, 0);
 }
 
-static void the_distance_travelled_adds_up_from_place_to_place(void **state)
+TEST(the_distance_travelled_adds_up_from_place_to_place)
 {
     struct recording_options options;
     struct played *played = play(*state,
@@ -225,7 +227,7 @@ static void the_distance_travelled_adds_up_from_place_to_place(void **state)
 }
 
 /* One long step, then many too short to change a plain sum. */
-static void many_short_steps_are_not_lost(void **state)
+TEST(many_short_steps_are_not_lost)
 {
     enum { STEPS = 4000 };
     char *text = malloc(STEPS * 64);
@@ -242,7 +244,7 @@ static void many_short_steps_are_not_lost(void **state)
 }
 
 /* Who is missing from a step, or jumps, comes again as another: another scene, no differences. */
-static void a_visit_ends_where_its_road_user_is_missing_or_jumps(void **state)
+TEST(a_visit_ends_where_its_road_user_is_missing_or_jumps)
 {
     struct recording_options options;
     struct played *played = play(*state,
@@ -268,7 +270,7 @@ static void a_visit_ends_where_its_road_user_is_missing_or_jumps(void **state)
     assert_close(object_at(played, 0.3, "a")->travelled_m, 1, 0);
 }
 
-static void a_recording_begins_and_ends_at_given_times(void **state)
+TEST(a_recording_begins_and_ends_at_given_times)
 {
     struct recording_options options;
     options_for(&options, "a");
@@ -289,7 +291,7 @@ static void a_recording_begins_and_ends_at_given_times(void **state)
 
 /* Braking from 20 m/s at 1 m/s^2 and 2 s steps: at 1 s the place is at 19.5 m, and so is the
  * distance travelled, where the mean of the steps would be 19. */
-static void the_distance_travelled_is_resampled_like_the_place(void **state)
+TEST(the_distance_travelled_is_resampled_like_the_place)
 {
     struct recording_options options;
     options_for(&options, "a");
@@ -309,7 +311,7 @@ static void the_distance_travelled_is_resampled_like_the_place(void **state)
 
 /* A car stops within a second: at 12 m both at 2 s and 3 s, though the slope at 2 s is 1 m/s. A
  * plain cubic is at 12.15 m at 2.33 s and rolls back at 0.33 m/s. */
-static void resampling_rolls_nobody_back(void **state)
+TEST(resampling_rolls_nobody_back)
 {
     struct recording_options options;
     options_for(&options, "v");
@@ -332,9 +334,8 @@ static void resampling_rolls_nobody_back(void **state)
 /* A car changes lanes in a queue: it goes ahead by 0.17 m in 1 s, from 1.6 m/s to 0.4 m/s, and
  * sideways by 0.83 m. With these slopes it would roll back at 0.34 m/s. From rest and at rest in
  * place, it stays. */
-static void resampling_rolls_nobody_back_beside_a_lane_change(void **state)
+TEST(resampling_rolls_nobody_back_beside_a_lane_change)
 {
-    (void)state;
     const struct object from = {.vx_mps = 1.6, .vy_mps = -1.2};
     struct object to = {.x_m = 0.17, .y_m = -0.83, .vx_mps = 0.4, .vy_mps = -0.4};
     for (int i = 0; i <= 20; i++) {
@@ -348,7 +349,7 @@ static void resampling_rolls_nobody_back_beside_a_lane_change(void **state)
 }
 
 /* A body that reverses does so between the steps, too: from 1 m/s to -1 m/s within 1 s. */
-static void resampling_lets_who_reverses_reverse(void **state)
+TEST(resampling_lets_who_reverses_reverse)
 {
     struct recording_options options;
     options_for(&options, "a");
@@ -360,7 +361,7 @@ static void resampling_lets_who_reverses_reverse(void **state)
 
 /* A parked van is set 6.4 m aside: no frame between the steps has it, and no velocity or distance
  * is that of the gap. */
-static void nothing_crosses_a_denied_way(void **state)
+TEST(nothing_crosses_a_denied_way)
 {
     struct recording_options options;
     options_for(&options, "all");
@@ -391,7 +392,7 @@ static void nothing_crosses_a_denied_way(void **state)
 }
 
 /* The neighbours within a radius are those that a plain search finds, at all scales. */
-static void neighbours_are_those_within_the_radius(void **state)
+TEST(neighbours_are_those_within_the_radius)
 {
     static const double radii_m[] = {0, 0.5, 3, 20, 1e3};
     enum { CARS = 60 };
@@ -423,7 +424,7 @@ static void neighbours_are_those_within_the_radius(void **state)
     text_free(&text);
 }
 
-static void damaged_recordings_are_refused(void **state)
+TEST(damaged_recordings_are_refused)
 {
     static const struct {
         const char *text, *message;
@@ -476,7 +477,7 @@ static void damaged_recordings_are_refused(void **state)
     }
 }
 
-static void a_recorded_motorway_is_read(void **state)
+TEST(a_recorded_motorway_is_read)
 {
     const char *data = getenv("GLINT_TEST_DATA");
     if (data == NULL) {
@@ -503,29 +504,4 @@ static void a_recorded_motorway_is_read(void **state)
     assert_int_equal(table.egos.count, 12);
     recording_close(&table);
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_row_becomes_an_object),
-        cmocka_unit_test(frames_ascend_in_time_and_their_objects_in_id),
-        cmocka_unit_test(stamps_are_in_the_unit_of_their_column),
-        cmocka_unit_test(without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest),
-        cmocka_unit_test(yaw_rates_are_slopes_of_parabolas_and_wrap),
-        cmocka_unit_test(places_become_centres_and_velocities),
-        cmocka_unit_test(the_distance_travelled_adds_up_from_place_to_place),
-        cmocka_unit_test(many_short_steps_are_not_lost),
-        cmocka_unit_test(a_visit_ends_where_its_road_user_is_missing_or_jumps),
-        cmocka_unit_test(a_recording_begins_and_ends_at_given_times),
-        cmocka_unit_test(the_distance_travelled_is_resampled_like_the_place),
-        cmocka_unit_test(resampling_rolls_nobody_back),
-        cmocka_unit_test(resampling_rolls_nobody_back_beside_a_lane_change),
-        cmocka_unit_test(resampling_lets_who_reverses_reverse),
-        cmocka_unit_test(nothing_crosses_a_denied_way),
-        cmocka_unit_test(neighbours_are_those_within_the_radius),
-        cmocka_unit_test(damaged_recordings_are_refused),
-        cmocka_unit_test(a_recorded_motorway_is_read),
-    };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

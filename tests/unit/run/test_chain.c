@@ -97,9 +97,8 @@ static int lines_of(const char *text)
     return lines;
 }
 
-static void every_frame_goes_through_all_stages(void **state)
+TEST(every_frame_goes_through_all_stages)
 {
-    (void)state;
     struct captured *captured = chain(&source, &turner, NULL);
     assert_int_equal(captured->code, 0);
     assert_string_equal(captured->err, "");
@@ -115,9 +114,8 @@ static void every_frame_goes_through_all_stages(void **state)
     assert_string_equal(at, "");
 }
 
-static void frames_before_a_failure_go_out_and_the_message_names_the_frame(void **state)
+TEST(frames_before_a_failure_go_out_and_the_message_names_the_frame)
 {
-    (void)state;
     struct captured *captured = chain(&source, &failing, NULL);
     assert_int_equal(captured->code, DIAG_DATA);
     assert_string_equal(captured->err, "glint-failing: scene \"s\", frame 1: no more\n");
@@ -125,9 +123,8 @@ static void frames_before_a_failure_go_out_and_the_message_names_the_frame(void 
 }
 
 /* Stages behind a failure see the end of the stream, those before it do not. */
-static void the_code_is_that_of_the_rightmost_stage_that_fails(void **state)
+TEST(the_code_is_that_of_the_rightmost_stage_that_fails)
 {
-    (void)state;
     struct captured *captured = chain(&source, &failing, &stopping);
     assert_int_equal(captured->code, DIAG_CONFIG);
     assert_string_equal(captured->err, "glint-failing: scene \"s\", frame 1: no more\n"
@@ -143,9 +140,8 @@ static int run_main(const void *with)
     return chain_main(&turner, 2, (char *[]){(char[]){"glint-turner"}, strdup(with), NULL});
 }
 
-static void a_program_of_one_stage_prints_what_it_is_or_refuses(void **state)
+TEST(a_program_of_one_stage_prints_what_it_is_or_refuses)
 {
-    (void)state;
     static struct captured captured;
     capture(&captured, run_main, "--version");
     assert_int_equal(captured.code, 0);
@@ -156,15 +152,4 @@ static void a_program_of_one_stage_prints_what_it_is_or_refuses(void **state)
     capture(&captured, run_main, "-");
     assert_int_equal(captured.code, 0);
     assert_string_equal(captured.out, "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_frame_goes_through_all_stages),
-        cmocka_unit_test(frames_before_a_failure_go_out_and_the_message_names_the_frame),
-        cmocka_unit_test(the_code_is_that_of_the_rightmost_stage_that_fails),
-        cmocka_unit_test(a_program_of_one_stage_prints_what_it_is_or_refuses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,9 +60,8 @@ static struct tried_chain *run(struct bench *bench, const char *effects, const c
     return chain;
 }
 
-static void every_scan_counts_in_its_scene_and_the_shares_sum_to_1(void **state)
+TEST(every_scan_counts_in_its_scene_and_the_shares_sum_to_1)
 {
-    (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
     assert_int_equal(run_reference(&bench, "auto"), 0);
@@ -79,9 +78,8 @@ static void every_scan_counts_in_its_scene_and_the_shares_sum_to_1(void **state)
     end(&bench);
 }
 
-static void distances_are_symmetric_and_the_same_in_every_run(void **state)
+TEST(distances_are_symmetric_and_the_same_in_every_run)
 {
-    (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
     assert_int_equal(run_reference(&bench, "auto"), 0);
@@ -98,9 +96,8 @@ static void distances_are_symmetric_and_the_same_in_every_run(void **state)
 }
 
 /* The reference has seeds of its own: its own chain has other lists, of the same law. */
-static void other_seeds_make_other_lists_of_the_same_law(void **state)
+TEST(other_seeds_make_other_lists_of_the_same_law)
 {
-    (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
     assert_int_equal(run_reference(&bench, "auto"), 0);
@@ -121,9 +118,8 @@ static void other_seeds_make_other_lists_of_the_same_law(void **state)
 
 /* Lists that lose all their targets are farther off than those that lose a half, and the sum over
  * the reference's own lists is near 0. */
-static void spoiled_lists_are_the_farther_off_the_more_is_lost(void **state)
+TEST(spoiled_lists_are_the_farther_off_the_more_is_lost)
 {
-    (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
     assert_int_equal(run_reference(&bench, "auto"), 0);
@@ -138,9 +134,8 @@ static void spoiled_lists_are_the_farther_off_the_more_is_lost(void **state)
 }
 
 /* Beside the whole chain and from its home on, a chain has the lists that it has alone. */
-static void a_chain_has_the_same_lists_beside_another_one(void **state)
+TEST(a_chain_has_the_same_lists_beside_another_one)
 {
-    (void)state;
     struct bench bench;
     struct tried_chains chains = {0};
     begin(&bench, "srr24-pair-every-frame");
@@ -163,9 +158,8 @@ static void a_chain_has_the_same_lists_beside_another_one(void **state)
     end(&bench);
 }
 
-static void frames_without_a_scan_are_refused(void **state)
+TEST(frames_without_a_scan_are_refused)
 {
-    (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
     bench.sample.list.count = 0;
@@ -175,27 +169,12 @@ static void frames_without_a_scan_are_refused(void **state)
     end(&bench);
 }
 
-static void a_stage_that_fails_names_itself_and_the_frame(void **state)
+TEST(a_stage_that_fails_names_itself_and_the_frame)
 {
-    (void)state;
     struct bench bench;
     begin(&bench, "srr24-pair-every-frame");
     assert_int_equal(run_reference(&bench, "rian"), -1);
     assert_non_null(strstr(bench.runner.diag.text, "glint-ideal: --effects: "));
     assert_memory_equal(bench.runner.diag.text, "scene \"random-dense/", 20);
     end(&bench);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_scan_counts_in_its_scene_and_the_shares_sum_to_1),
-        cmocka_unit_test(distances_are_symmetric_and_the_same_in_every_run),
-        cmocka_unit_test(other_seeds_make_other_lists_of_the_same_law),
-        cmocka_unit_test(spoiled_lists_are_the_farther_off_the_more_is_lost),
-        cmocka_unit_test(a_chain_has_the_same_lists_beside_another_one),
-        cmocka_unit_test(frames_without_a_scan_are_refused),
-        cmocka_unit_test(a_stage_that_fails_names_itself_and_the_frame),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

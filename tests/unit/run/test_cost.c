@@ -51,9 +51,8 @@ static struct tried_chain *without(struct bench *bench, enum effect_id effect)
     return NULL;
 }
 
-static void the_reference_is_the_signal_where_there_is_one(void **state)
+TEST(the_reference_is_the_signal_where_there_is_one)
 {
-    (void)state;
     static const struct {
         const char *suite, *no_signal;
         enum cost_reference asked, reference;
@@ -78,9 +77,8 @@ static void the_reference_is_the_signal_where_there_is_one(void **state)
     }
 }
 
-static void a_sample_has_250_frames_or_fewer_where_the_signal_is_long(void **state)
+TEST(a_sample_has_250_frames_or_fewer_where_the_signal_is_long)
 {
-    (void)state;
     struct bench bench;
     assert_int_equal(begin(&bench, "srr24-pair", COST_SIGNAL, 0), 0);
     assert_int_equal(bench.cost.sample.most, 250);
@@ -96,9 +94,8 @@ static void a_sample_has_250_frames_or_fewer_where_the_signal_is_long(void **sta
     end(&bench);
 }
 
-static void an_effect_has_a_row_if_the_frames_call_for_it(void **state)
+TEST(an_effect_has_a_row_if_the_frames_call_for_it)
 {
-    (void)state;
     static const char *const names[] = {"perfect", "paper", "auto", "smear"};
     struct bench bench;
     measure(&bench, false);
@@ -131,9 +128,8 @@ static void an_effect_has_a_row_if_the_frames_call_for_it(void **state)
 }
 
 /* The squared error that an effect adds is a difference of energies over that of ideal echoes. */
-static void what_an_effect_adds_is_paired(void **state)
+TEST(what_an_effect_adds_is_paired)
 {
-    (void)state;
     struct bench bench;
     measure(&bench, false);
     const struct tried_chain *merging = without(&bench, EFFECT_MERGING);
@@ -150,9 +146,8 @@ static void what_an_effect_adds_is_paired(void **state)
     end(&bench);
 }
 
-static void a_brief_cost_leaves_out_no_effect(void **state)
+TEST(a_brief_cost_leaves_out_no_effect)
 {
-    (void)state;
     struct bench bench;
     measure(&bench, true);
     assert_int_equal(bench.cost.chains.list.count, 4);
@@ -161,9 +156,8 @@ static void a_brief_cost_leaves_out_no_effect(void **state)
 }
 
 /* What Buehren and Yang's model has: the list of a radar is limited in it, too. */
-static void the_chain_of_the_paper_has_the_papers_effects_and_its_list_limit(void **state)
+TEST(the_chain_of_the_paper_has_the_papers_effects_and_its_list_limit)
 {
-    (void)state;
     static const char *const papers[] = {",-visibility",    ",-plane_reflection", ",-rows",
                                          ",-occlusion",     ",-ambiguity",        ",-merging",
                                          ",-superposition", ",-threshold",        ",-angle_noise",
@@ -191,9 +185,8 @@ static void set_chain(struct tried_chain *chain, double us, double error)
     chain->row.relative_distance = (struct relative_error){error, error, error, 0};
 }
 
-static void the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found(void **state)
+TEST(the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found)
 {
-    (void)state;
     struct bench bench;
     static const struct {
         enum cost_search_bound bound;
@@ -225,9 +218,8 @@ static void the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found(vo
 }
 
 /* Without merging the chain is faster in every round, without angle noise only in most. */
-static void an_effect_stays_unless_its_time_is_told_from_nothing(void **state)
+TEST(an_effect_stays_unless_its_time_is_told_from_nothing)
 {
-    (void)state;
     struct bench bench;
     measure(&bench, false);
     for (size_t i = 0; i < bench.cost.chains.list.count; i++) {
@@ -246,9 +238,8 @@ static void an_effect_stays_unless_its_time_is_told_from_nothing(void **state)
 
 /* No chain without several effects that breaks the bound is chosen, and what is chosen is measured.
  */
-static void a_bound_of_the_error_holds_for_what_is_found(void **state)
+TEST(a_bound_of_the_error_holds_for_what_is_found)
 {
-    (void)state;
     struct bench bench;
     static const double bounds[] = {3, 0.5, 0.3};
     for (size_t i = 0; i < 3; i++) {
@@ -262,9 +253,8 @@ static void a_bound_of_the_error_holds_for_what_is_found(void **state)
     }
 }
 
-static void without_an_error_of_ideal_echoes_nothing_is_found(void **state)
+TEST(without_an_error_of_ideal_echoes_nothing_is_found)
 {
-    (void)state;
     struct bench bench;
     measure(&bench, true);
     chain_at(&bench, COST_IDEAL)->row.present = COST_ENERGY;
@@ -273,21 +263,4 @@ static void without_an_error_of_ideal_echoes_nothing_is_found(void **state)
     assert_memory_equal(bench.runner.diag.text, "ideal echoes cannot be told from the reference",
                         46);
     end(&bench);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_reference_is_the_signal_where_there_is_one),
-        cmocka_unit_test(a_sample_has_250_frames_or_fewer_where_the_signal_is_long),
-        cmocka_unit_test(an_effect_has_a_row_if_the_frames_call_for_it),
-        cmocka_unit_test(what_an_effect_adds_is_paired),
-        cmocka_unit_test(a_brief_cost_leaves_out_no_effect),
-        cmocka_unit_test(the_chain_of_the_paper_has_the_papers_effects_and_its_list_limit),
-        cmocka_unit_test(the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found),
-        cmocka_unit_test(an_effect_stays_unless_its_time_is_told_from_nothing),
-        cmocka_unit_test(a_bound_of_the_error_holds_for_what_is_found),
-        cmocka_unit_test(without_an_error_of_ideal_echoes_nothing_is_found),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,9 +50,8 @@ static const struct consistency *check_of(const struct sensor *sensor, const cha
 }
 
 /* Every check with figures that just agree, and the same a little off. */
-static void checks_tell_figures_that_agree_from_those_that_do_not(void **state)
+TEST(checks_tell_figures_that_agree_from_those_that_do_not)
 {
-    (void)state;
     struct sensor good = quiet_sensor();
     good.cycle_s = 0.0201;
     good.unambiguous_rate_mps = 50; /* a repetition of 20 us, a walk of 1 m */
@@ -117,9 +116,8 @@ static void checks_tell_figures_that_agree_from_those_that_do_not(void **state)
     assert_false(consistency_holds(check_of(&good, "Cramer-Rao")));
 }
 
-static void figures_that_a_document_leaves_out_are_not_checked(void **state)
+TEST(figures_that_a_document_leaves_out_are_not_checked)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     struct consistency checks[CONSISTENCY_MOST];
     suite_derive(&sensor);
@@ -127,9 +125,8 @@ static void figures_that_a_document_leaves_out_are_not_checked(void **state)
     assert_int_equal(consistency_list(&sensor, checks), 2);
 }
 
-static void half_widths_count_twice(void **state)
+TEST(half_widths_count_twice)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     suite_derive(&sensor);
     assert_close(sensor.dwell_s, 0.02, 1e-15);
@@ -139,9 +136,8 @@ static void half_widths_count_twice(void **state)
 }
 
 /* A waveform's dwell is that of its bins, however wide its window makes cells. */
-static void cells_of_a_waveform_are_as_wide_as_its_window_resolves(void **state)
+TEST(cells_of_a_waveform_are_as_wide_as_its_window_resolves)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     sensor.waveform = (struct waveform){.samples = 128, .window = POINT_RESPONSE_HANN};
     suite_derive(&sensor);
@@ -158,9 +154,8 @@ static void cells_of_a_waveform_are_as_wide_as_its_window_resolves(void **state)
     assert_near(sensor.half_range_rate_mps, 0.9967 * bin_mps, 1e-6);
 }
 
-static void a_signal_has_its_own_limits(void **state)
+TEST(a_signal_has_its_own_limits)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     sensor.waveform = (struct waveform){.samples = 128, .repetitions = 64};
     assert_close(consistency_fold_mps(&sensor), 3.2, 1e-12);
@@ -180,9 +175,8 @@ static void a_signal_has_its_own_limits(void **state)
 }
 
 /* 99 ranges and 64 range rates at 1e-4, or 4 samples to a range for pulses. */
-static void false_alarms_of_a_signal_are_those_of_its_cfar(void **state)
+TEST(false_alarms_of_a_signal_are_those_of_its_cfar)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     sensor.pointer_sigma = 0.1;
     sensor.false_alarms = 1;
@@ -193,9 +187,8 @@ static void false_alarms_of_a_signal_are_those_of_its_cfar(void **state)
     assert_near(check_of(&sensor, "false_alarms")->right_value, 4 * 0.6336, 1e-12);
 }
 
-static void a_walk_that_is_compensated_is_no_doubt(void **state)
+TEST(a_walk_that_is_compensated_is_no_doubt)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     sensor.unambiguous_rate_mps = 60;
     assert_false(consistency_holds(check_of(&sensor, "walk")));
@@ -204,9 +197,8 @@ static void a_walk_that_is_compensated_is_no_doubt(void **state)
 }
 
 /* MODEL 4.1: ranges go with the root of an ERCS, which is 1 at 10 dBsm. */
-static void echoes_are_detected_where_they_meet_the_threshold(void **state)
+TEST(echoes_are_detected_where_they_meet_the_threshold)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     struct datasheet sheet;
     suite_derive(&sensor);
@@ -226,9 +218,8 @@ static void echoes_are_detected_where_they_meet_the_threshold(void **state)
     assert_close(sheet.weakest_dbsm, 10 + 40 * log10(2), 1e-9);
 }
 
-static void ranges_end_at_the_sensors_own(void **state)
+TEST(ranges_end_at_the_sensors_own)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     struct datasheet sheet;
     sensor.range_max_m = 60;
@@ -249,9 +240,8 @@ static void ranges_end_at_the_sensors_own(void **state)
 }
 
 /* At 9 in 10, a Swerling 1 echo without noise is stronger by sqrt(-1/ln 0.9). */
-static void fluctuation_costs_range(void **state)
+TEST(fluctuation_costs_range)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     struct datasheet sheet;
     sensor.fluctuation = FLUCTUATION_SWERLING_1;
@@ -262,9 +252,8 @@ static void fluctuation_costs_range(void **state)
 }
 
 /* Levels of 3, 2 and 6 dB are one of 7 dB; 9 in 10 are above its mean less 1.281552 deviations. */
-static void levels_cost_range(void **state)
+TEST(levels_cost_range)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     struct datasheet sheet;
     sensor.level_constant_db = 3;
@@ -280,9 +269,8 @@ static void levels_cost_range(void **state)
     }
 }
 
-static void accuracy_follows_law_noise_and_steps(void **state)
+TEST(accuracy_follows_law_noise_and_steps)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     struct datasheet sheet;
     sensor.pointer_sigma = units_amplitude_from_db(6 - 10);
@@ -311,9 +299,8 @@ static void accuracy_follows_law_noise_and_steps(void **state)
     assert_near(sheet.accuracy[2].range_rate_sigma_mps, 0.001, 1e-9);
 }
 
-static void without_noise_rows_of_accuracy_say_how_strong_an_echo_is(void **state)
+TEST(without_noise_rows_of_accuracy_say_how_strong_an_echo_is)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     struct suite suite = {.sensors = {&sensor, 1, 1}};
     struct text text = {0};
@@ -326,9 +313,8 @@ static void without_noise_rows_of_accuracy_say_how_strong_an_echo_is(void **stat
     text_free(&text);
 }
 
-static void a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions(void **state)
+TEST(a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions)
 {
-    (void)state;
     struct sensor sensor = quiet_sensor();
     struct range_limit limits[] = {{0, 50}, {40 * DEGREE, 32}};
     const char *sentences[] = {"The list is the nearest.", "Noise is white."};
@@ -349,18 +335,16 @@ static void a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions(void *
     text_free(&text);
 }
 
-static void levels_stand_for_fluctuation(void **state)
+TEST(levels_stand_for_fluctuation)
 {
-    (void)state;
     struct sensor sensor = {.level_fast_db = 1};
     assert_true((datasheet_missing(&sensor) & EFFECT_BIT(EFFECT_FLUCTUATION)) == 0);
     sensor = (struct sensor){.fluctuation = FLUCTUATION_SWERLING_1};
     assert_true((datasheet_missing(&sensor) & EFFECT_BIT(EFFECT_LEVEL)) != 0);
 }
 
-static void the_examples_lack_what_they_are_said_to_lack(void **state)
+TEST(the_examples_lack_what_they_are_said_to_lack)
 {
-    (void)state;
     struct arena arena = {0};
     struct diag diag = {0};
     const double reaches_m[] = {60, 250};
@@ -376,9 +360,8 @@ static void the_examples_lack_what_they_are_said_to_lack(void **state)
     arena_free(&arena);
 }
 
-static void sensors_that_differ_in_their_mount_share_a_sheet(void **state)
+TEST(sensors_that_differ_in_their_mount_share_a_sheet)
 {
-    (void)state;
     struct sensor sensors[3] = {quiet_sensor(), quiet_sensor(), quiet_sensor()};
     struct suite suite = {.sensors = {sensors, 3, 3}};
     struct text text = {0};
@@ -399,28 +382,4 @@ static void sensors_that_differ_in_their_mount_share_a_sheet(void **state)
         strstr(text.bytes, "\nleft: at x 0 m, y 0 m, looking to 57.3 degrees\n  carrier"));
     assert_non_null(strstr(text.bytes, "\n\nfar: "));
     text_free(&text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(checks_tell_figures_that_agree_from_those_that_do_not),
-        cmocka_unit_test(figures_that_a_document_leaves_out_are_not_checked),
-        cmocka_unit_test(half_widths_count_twice),
-        cmocka_unit_test(cells_of_a_waveform_are_as_wide_as_its_window_resolves),
-        cmocka_unit_test(a_signal_has_its_own_limits),
-        cmocka_unit_test(false_alarms_of_a_signal_are_those_of_its_cfar),
-        cmocka_unit_test(a_walk_that_is_compensated_is_no_doubt),
-        cmocka_unit_test(echoes_are_detected_where_they_meet_the_threshold),
-        cmocka_unit_test(ranges_end_at_the_sensors_own),
-        cmocka_unit_test(fluctuation_costs_range),
-        cmocka_unit_test(levels_cost_range),
-        cmocka_unit_test(accuracy_follows_law_noise_and_steps),
-        cmocka_unit_test(without_noise_rows_of_accuracy_say_how_strong_an_echo_is),
-        cmocka_unit_test(a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions),
-        cmocka_unit_test(levels_stand_for_fluctuation),
-        cmocka_unit_test(the_examples_lack_what_they_are_said_to_lack),
-        cmocka_unit_test(sensors_that_differ_in_their_mount_share_a_sheet),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

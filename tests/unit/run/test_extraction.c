@@ -19,9 +19,8 @@ static int step(struct frame *frame, struct runner *runner, extraction_describe 
     return extraction_step(runner->state, frame, runner, describe);
 }
 
-static void sizes_of_zero_are_those_of_the_class(void **state)
+TEST(sizes_of_zero_are_those_of_the_class)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame;
     struct runner runner;
@@ -39,9 +38,8 @@ static void sizes_of_zero_are_those_of_the_class(void **state)
     arena_free(&arena);
 }
 
-static void objects_of_a_class_share_its_reflectors_and_the_ego_has_none(void **state)
+TEST(objects_of_a_class_share_its_reflectors_and_the_ego_has_none)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame;
     struct runner runner;
@@ -73,9 +71,8 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
     list_add(&set->points, arena)->name = vehicle->reflectors.model;
 }
 
-static void a_description_takes_the_place_of_the_documents_reflectors(void **state)
+TEST(a_description_takes_the_place_of_the_documents_reflectors)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame;
     struct runner runner;
@@ -92,9 +89,8 @@ static void a_description_takes_the_place_of_the_documents_reflectors(void **sta
     arena_free(&arena);
 }
 
-static void the_message_names_the_object_as_the_frame_numbers_it(void **state)
+TEST(the_message_names_the_object_as_the_frame_numbers_it)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame;
     struct runner runner;
@@ -108,9 +104,8 @@ static void the_message_names_the_object_as_the_frame_numbers_it(void **state)
 }
 
 /* As when a stream that was extracted with other documents is extracted again. */
-static void a_frame_keeps_to_the_documents_that_it_was_extracted_with(void **state)
+TEST(a_frame_keeps_to_the_documents_that_it_was_extracted_with)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame;
     struct runner runner;
@@ -124,9 +119,8 @@ static void a_frame_keeps_to_the_documents_that_it_was_extracted_with(void **sta
     arena_free(&arena);
 }
 
-static void a_folder_that_is_not_there_is_refused_at_the_start(void **state)
+TEST(a_folder_that_is_not_there_is_refused_at_the_start)
 {
-    (void)state;
     struct runner runner;
     assert_int_equal(runner_prepare(&runner, stage_by_name("extract"), 2,
                                     (const char *[]){"--vehicles", "nowhere"}),
@@ -134,17 +128,4 @@ static void a_folder_that_is_not_there_is_refused_at_the_start(void **state)
     assert_int_equal(extraction_start(runner.state, &runner), -1);
     assert_string_equal(runner.diag.text, "--vehicles: \"nowhere\" is no folder");
     runner_free(&runner);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_of_zero_are_those_of_the_class),
-        cmocka_unit_test(objects_of_a_class_share_its_reflectors_and_the_ego_has_none),
-        cmocka_unit_test(a_description_takes_the_place_of_the_documents_reflectors),
-        cmocka_unit_test(the_message_names_the_object_as_the_frame_numbers_it),
-        cmocka_unit_test(a_frame_keeps_to_the_documents_that_it_was_extracted_with),
-        cmocka_unit_test(a_folder_that_is_not_there_is_refused_at_the_start),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,9 +20,8 @@ static struct frame_sample sample_of(int frames, int scenes, int64_t most, struc
     return sample;
 }
 
-static void all_frames_are_kept_while_they_are_few(void **state)
+TEST(all_frames_are_kept_while_they_are_few)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame_sample sample = sample_of(100, 1, 100, &arena);
     assert_int_equal(sample.list.count, 100);
@@ -31,9 +30,8 @@ static void all_frames_are_kept_while_they_are_few(void **state)
     arena_free(&arena);
 }
 
-static void exactly_as_many_frames_are_kept_as_are_asked_for(void **state)
+TEST(exactly_as_many_frames_are_kept_as_are_asked_for)
 {
-    (void)state;
     static const struct {
         int frames, most, kept;
     } cases[] = {{201, 64, 64}, {64, 64, 64}, {63, 64, 63}, {127, 64, 64},  {128, 64, 64},
@@ -52,9 +50,8 @@ static void exactly_as_many_frames_are_kept_as_are_asked_for(void **state)
     }
 }
 
-static void of_many_frames_one_of_each_stretch_is_kept(void **state)
+TEST(of_many_frames_one_of_each_stretch_is_kept)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame_sample sample = sample_of(6400, 1, 100, &arena);
     assert_int_equal(sample.seen, 6400);
@@ -66,9 +63,8 @@ static void of_many_frames_one_of_each_stretch_is_kept(void **state)
 }
 
 /* A radar that measures in every second, third or eighth frame is met in all its phases. */
-static void a_sample_is_in_step_with_no_cycle(void **state)
+TEST(a_sample_is_in_step_with_no_cycle)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame_sample sample = sample_of(6400, 1, 100, &arena);
     for (int cycle = 2; cycle <= 8; cycle++)
@@ -79,15 +75,4 @@ static void a_sample_is_in_step_with_no_cycle(void **state)
             assert_in_range(met, 50 / cycle, 150 / cycle + 4);
         }
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_frames_are_kept_while_they_are_few),
-        cmocka_unit_test(exactly_as_many_frames_are_kept_as_are_asked_for),
-        cmocka_unit_test(of_many_frames_one_of_each_stretch_is_kept),
-        cmocka_unit_test(a_sample_is_in_step_with_no_cycle),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,7 +44,9 @@ static void assert_refuses(struct scratch *scratch, struct bench *bench, const c
     frame_stream_close(&bench->stream);
 }
 
-static void files_are_read_one_after_the_other(void **state)
+FIXTURE(make_scratch, remove_scratch);
+
+TEST(files_are_read_one_after_the_other)
 {
     struct bench bench;
     begin(&bench, *state, FRAME("0") "\n" LAST("1"), 2);
@@ -56,14 +58,14 @@ static void files_are_read_one_after_the_other(void **state)
     assert_int_equal(next(&bench), 0);
 }
 
-static void an_empty_file_has_no_frames(void **state)
+TEST(an_empty_file_has_no_frames)
 {
     struct bench bench;
     begin(&bench, *state, "", 3);
     assert_int_equal(next(&bench), 0);
 }
 
-static void a_message_names_file_and_line(void **state)
+TEST(a_message_names_file_and_line)
 {
     struct bench bench;
     begin(&bench, *state, FRAME("0") "\n" FRAME("1") "\nbroken", 2);
@@ -72,7 +74,7 @@ static void a_message_names_file_and_line(void **state)
     assert_refuses(*state, &bench, ":3: 'b' where a frame is expected");
 }
 
-static void lines_are_counted_from_one_in_every_file(void **state)
+TEST(lines_are_counted_from_one_in_every_file)
 {
     struct bench bench;
     begin(&bench, *state, FRAME("0") "\n" FRAME("1"), 2);
@@ -84,7 +86,7 @@ static void lines_are_counted_from_one_in_every_file(void **state)
     frame_stream_close(&bench.stream);
 }
 
-static void a_folder_has_no_lines(void **state)
+TEST(a_folder_has_no_lines)
 {
     struct scratch *scratch = *state;
     struct bench bench;
@@ -98,7 +100,7 @@ static void a_folder_has_no_lines(void **state)
     frame_stream_close(&bench.stream);
 }
 
-static void a_file_that_is_not_there_is_named(void **state)
+TEST(a_file_that_is_not_there_is_named)
 {
     struct bench bench;
     begin(&bench, *state, "", 1);
@@ -109,7 +111,7 @@ static void a_file_that_is_not_there_is_named(void **state)
 }
 
 /* A line may be well-formed, and each of its members too, and yet be no frame. */
-static void frames_are_checked(void **state)
+TEST(frames_are_checked)
 {
     struct bench bench;
     begin(&bench, *state,
@@ -117,18 +119,4 @@ static void frames_are_checked(void **state)
           "\"ego\":\"e\",\"objects\":[]}",
           1);
     assert_refuses(*state, &bench, ":1: ego: \"e\" is not among the objects");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(files_are_read_one_after_the_other),
-        cmocka_unit_test(an_empty_file_has_no_frames),
-        cmocka_unit_test(a_message_names_file_and_line),
-        cmocka_unit_test(lines_are_counted_from_one_in_every_file),
-        cmocka_unit_test(a_folder_has_no_lines),
-        cmocka_unit_test(a_file_that_is_not_there_is_named),
-        cmocka_unit_test(frames_are_checked),
-    };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

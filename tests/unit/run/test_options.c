@@ -96,9 +96,8 @@ static int read_line(const struct stage *stage, const char *line, struct result 
                         &result->diag);
 }
 
-static void options_come_in_any_order_and_both_spellings(void **state)
+TEST(options_come_in_any_order_and_both_spellings)
 {
-    (void)state;
     static const char *const lines[] = {
         "--where here --radius-m 50 --number 3 --quick --mode fast -o out --seed 5 --sections none "
         "a b",
@@ -124,9 +123,8 @@ static void options_come_in_any_order_and_both_spellings(void **state)
     }
 }
 
-static void what_is_not_given_is_absent(void **state)
+TEST(what_is_not_given_is_absent)
 {
-    (void)state;
     struct result result;
     assert_int_equal(read_line(&filter, "--where x", &result), 0);
     assert_close(result.choice.radius_m, 7, 0);
@@ -138,9 +136,8 @@ static void what_is_not_given_is_absent(void **state)
     arena_free(&result.arena);
 }
 
-static void values_and_files_may_begin_with_a_dash(void **state)
+TEST(values_and_files_may_begin_with_a_dash)
 {
-    (void)state;
     struct result result;
     assert_int_equal(read_line(&filter, "--radius-m -5 --where -x - -- --where -", &result), 0);
     assert_close(result.choice.radius_m, -5, 0);
@@ -155,9 +152,8 @@ static void values_and_files_may_begin_with_a_dash(void **state)
     arena_free(&result.arena);
 }
 
-static void help_and_version_need_nothing_else(void **state)
+TEST(help_and_version_need_nothing_else)
 {
-    (void)state;
     struct result result;
     assert_int_equal(read_line(&filter, "--help", &result), 0);
     assert_true(result.common.help);
@@ -167,9 +163,8 @@ static void help_and_version_need_nothing_else(void **state)
     arena_free(&result.arena);
 }
 
-static void wrong_command_lines_are_refused(void **state)
+TEST(wrong_command_lines_are_refused)
 {
-    (void)state;
     static const struct {
         const struct stage *stage;
         const char *line, *message;
@@ -208,9 +203,8 @@ static void wrong_command_lines_are_refused(void **state)
     }
 }
 
-static void a_tools_operand_comes_before_the_files_that_it_reads(void **state)
+TEST(a_tools_operand_comes_before_the_files_that_it_reads)
 {
-    (void)state;
     struct result result;
     assert_int_equal(read_line(&tables, "folder a --complete b", &result), 0);
     assert_string_equal(result.choice.where, "folder");
@@ -224,9 +218,8 @@ static void a_tools_operand_comes_before_the_files_that_it_reads(void **state)
     arena_free(&result.arena);
 }
 
-static void only_what_writes_frames_or_draws_takes_a_seed(void **state)
+TEST(only_what_writes_frames_or_draws_takes_a_seed)
 {
-    (void)state;
     struct result result;
     struct stage drawer = tables, sink = filter;
     drawer.draws = true;
@@ -243,9 +236,8 @@ static void only_what_writes_frames_or_draws_takes_a_seed(void **state)
     }
 }
 
-static void a_tool_refuses_options_that_would_do_nothing(void **state)
+TEST(a_tool_refuses_options_that_would_do_nothing)
 {
-    (void)state;
     static const struct {
         const struct stage *tool;
         const char *line, *message;
@@ -277,9 +269,8 @@ static void assert_helps(const struct stage *stage, const char *const *parts, si
     text_free(&text);
 }
 
-static void help_names_every_option_with_unit_bounds_and_choices(void **state)
+TEST(help_names_every_option_with_unit_bounds_and_choices)
 {
-    (void)state;
     static const char *const of_filter[] = {"Usage: glint-filter [OPTION]... [FILE]...\nFilter.\n",
                                             "input; parts: echoes.\n",
                                             "output; parts: cells.\n",
@@ -312,20 +303,4 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
     assert_null(strstr(text.bytes, "--complete"));
     assert_null(strstr(text.bytes, "--where"));
     text_free(&text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(options_come_in_any_order_and_both_spellings),
-        cmocka_unit_test(what_is_not_given_is_absent),
-        cmocka_unit_test(values_and_files_may_begin_with_a_dash),
-        cmocka_unit_test(help_and_version_need_nothing_else),
-        cmocka_unit_test(wrong_command_lines_are_refused),
-        cmocka_unit_test(a_tools_operand_comes_before_the_files_that_it_reads),
-        cmocka_unit_test(only_what_writes_frames_or_draws_takes_a_seed),
-        cmocka_unit_test(a_tool_refuses_options_that_would_do_nothing),
-        cmocka_unit_test(help_names_every_option_with_unit_bounds_and_choices),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

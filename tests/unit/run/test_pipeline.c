@@ -32,9 +32,8 @@ static struct text shown(const struct pipeline *pipeline)
     return text;
 }
 
-static void words_and_bars_are_what_they_look_like(void **state)
+TEST(words_and_bars_are_what_they_look_like)
 {
-    (void)state;
     static const struct {
         const char *text, *commands;
     } cases[] = {
@@ -104,9 +103,8 @@ static void add_question(const char *words, struct text *script, struct text *ex
     arena_free(&arena);
 }
 
-static void bash_sees_the_same_words(void **state)
+TEST(bash_sees_the_same_words)
 {
-    (void)state;
     static const char *const words[] = {"a b c",
                                         "'a b' \"c d\"",
                                         "a'b'\"c\"d",
@@ -193,9 +191,8 @@ static void bash_sees_the_same_words(void **state)
 }
 
 /* Random texts of the characters that mean something: whatever is not refused, bash reads alike. */
-static void bash_sees_the_same_words_in_random_texts(void **state)
+TEST(bash_sees_the_same_words_in_random_texts)
 {
-    (void)state;
     static const char *const pieces[] = {"a",  "b",  "'", "'", "\"", "\"",  "\\",
                                          "\\", "\n", " ", " ", "#",  "\t",  "\\\n",
                                          "$",  "x=", "%", "]", "-",  "\\\""};
@@ -223,9 +220,8 @@ static void bash_sees_the_same_words_in_random_texts(void **state)
     text_free(&answer);
 }
 
-static void everything_else_is_refused_with_its_line(void **state)
+TEST(everything_else_is_refused_with_its_line)
 {
-    (void)state;
 #define VARIABLE "variables and substitutions are not understood here"
 #define PATTERN "file name patterns are not understood here"
 #define REDIRECTION "redirections are not understood here (use -o FILE)"
@@ -282,9 +278,8 @@ static void everything_else_is_refused_with_its_line(void **state)
     }
 }
 
-static void commands_know_their_lines(void **state)
+TEST(commands_know_their_lines)
 {
-    (void)state;
     struct arena arena = {0};
     struct pipeline pipeline;
     struct diag diag;
@@ -296,9 +291,8 @@ static void commands_know_their_lines(void **state)
     arena_free(&arena);
 }
 
-static void a_nul_byte_is_refused(void **state)
+TEST(a_nul_byte_is_refused)
 {
-    (void)state;
     static const char text[] = "a b | c d";
     for (size_t i = 0; i < sizeof text - 1; i++) {
         struct arena arena = {0};
@@ -310,17 +304,4 @@ static void a_nul_byte_is_refused(void **state)
         assert_int_equal(pipeline_parse(with, sizeof text - 1, &pipeline, &arena, &diag), -1);
         arena_free(&arena);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_and_bars_are_what_they_look_like),
-        cmocka_unit_test(bash_sees_the_same_words),
-        cmocka_unit_test(bash_sees_the_same_words_in_random_texts),
-        cmocka_unit_test(everything_else_is_refused_with_its_line),
-        cmocka_unit_test(commands_know_their_lines),
-        cmocka_unit_test(a_nul_byte_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

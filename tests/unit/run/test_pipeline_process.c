@@ -34,9 +34,8 @@ static void expect_refused(const char *pipeline, int code, const char *message)
     assert_string_equal(captured->out, "");
 }
 
-static void a_pipeline_runs_in_one_process(void **state)
+TEST(a_pipeline_runs_in_one_process)
 {
-    (void)state;
     struct captured *captured =
         glint("-c", "set -o pipefail\nglint-traffic-random --frames 3 | glint-extract # twice\n");
     assert_int_equal(captured->code, 0);
@@ -48,9 +47,8 @@ static void a_pipeline_runs_in_one_process(void **state)
     assert_non_null(strstr(captured->out, "\"reflectors\":"));
 }
 
-static void programs_out_of_place_are_refused(void **state)
+TEST(programs_out_of_place_are_refused)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"glint-extract | glint-traffic a.json",
          "glint: -c:1: glint-traffic is a source and can only stand first; run it with bash\n"},
@@ -77,16 +75,14 @@ static void programs_out_of_place_are_refused(void **state)
 }
 
 /* As bash does it under pipefail. */
-static void the_exit_code_is_that_of_the_rightmost_program_that_fails(void **state)
+TEST(the_exit_code_is_that_of_the_rightmost_program_that_fails)
 {
-    (void)state;
     assert_int_equal(glint("-c", "glint-traffic nowhere | glint-extract")->code, 78);
     assert_int_equal(glint("-c", "glint-traffic nowhere | glint-noise --sensor 3")->code, 64);
 }
 
-static void what_glint_does_not_know_is_refused_with_what_it_does(void **state)
+TEST(what_glint_does_not_know_is_refused_with_what_it_does)
 {
-    (void)state;
     assert_int_equal(glint("--lisst", "stages")->code, 64);
     assert_string_equal(glint("--lisst", "stages")->err,
                         "glint: unknown option --lisst (did you mean --list?); see --help\n");
@@ -114,9 +110,8 @@ static void expect_line(const char *kind, const char *line, bool expected)
         fail_msg("\"%s\" is %sin:\n%s", line, expected ? "not " : "", text);
 }
 
-static void stages_and_tools_have_a_line_each_with_their_sentence(void **state)
+TEST(stages_and_tools_have_a_line_each_with_their_sentence)
 {
-    (void)state;
     char line[512];
     for (size_t i = 0; stages[i] != NULL; i++) {
         snprintf(line, sizeof line, "glint-%-18s %s  %s\n", stages[i]->name,
@@ -125,9 +120,8 @@ static void stages_and_tools_have_a_line_each_with_their_sentence(void **state)
     }
 }
 
-static void an_effect_is_listed_by_its_name_and_with_the_others(void **state)
+TEST(an_effect_is_listed_by_its_name_and_with_the_others)
 {
-    (void)state;
     char line[512];
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const struct effect *effect = effect_table[i];
@@ -142,9 +136,8 @@ static void an_effect_is_listed_by_its_name_and_with_the_others(void **state)
     expect_line("rain", "simulated by glint-sensor\n", true);
 }
 
-static void documents_tell_what_they_are(void **state)
+TEST(documents_tell_what_they_are)
 {
-    (void)state;
     expect_line("vehicles", "car                    4.5 m long, 1.8 m wide, 1.5 m high\n", true);
     expect_line("scenarios", "cut-in                 ", true);
     const char *sensors = listed("sensors");
@@ -173,7 +166,8 @@ static void remove_document(const struct scratch *scratch, const char *kind, con
     assert_int_equal(rmdir(path), 0);
 }
 
-static void documents_of_the_user_are_listed_also_if_they_cannot_be_read(void **state)
+TEST_WITH(make_scratch, remove_scratch,
+          documents_of_the_user_are_listed_also_if_they_cannot_be_read)
 {
     struct scratch *scratch = *state;
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
@@ -188,9 +182,8 @@ static void documents_of_the_user_are_listed_also_if_they_cannot_be_read(void **
     remove_document(scratch, "pipelines", "mine.sh");
 }
 
-static void an_unknown_kind_is_refused_with_what_was_meant(void **state)
+TEST(an_unknown_kind_is_refused_with_what_was_meant)
 {
-    (void)state;
     struct captured *captured = glint("--list", "sensor");
     assert_int_equal(captured->code, DIAG_USAGE);
     assert_string_equal(
@@ -198,22 +191,4 @@ static void an_unknown_kind_is_refused_with_what_was_meant(void **state)
         "glint: --list sensor is unknown (did you mean sensors?); expected programs, "
         "effects, sensors, scenarios, vehicles, pipelines or the name of an effect\n");
     assert_string_equal(captured->out, "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_pipeline_runs_in_one_process),
-        cmocka_unit_test(programs_out_of_place_are_refused),
-        cmocka_unit_test(the_exit_code_is_that_of_the_rightmost_program_that_fails),
-        cmocka_unit_test(what_glint_does_not_know_is_refused_with_what_it_does),
-        cmocka_unit_test(stages_and_tools_have_a_line_each_with_their_sentence),
-        cmocka_unit_test(an_effect_is_listed_by_its_name_and_with_the_others),
-        cmocka_unit_test(documents_tell_what_they_are),
-        cmocka_unit_test_setup_teardown(
-            documents_of_the_user_are_listed_also_if_they_cannot_be_read, make_scratch,
-            remove_scratch),
-        cmocka_unit_test(an_unknown_kind_is_refused_with_what_was_meant),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,9 +55,8 @@ static void assert_writes(const struct plan *plan, bool all, const char *part, b
 }
 
 /* An effect is idle, or it changes a list and stays. */
-static void what_changes_no_list_leaves_the_pipeline(void **state)
+TEST(what_changes_no_list_leaves_the_pipeline)
 {
-    (void)state;
     struct bench bench;
     plan_traffic(&bench, NULL);
     const struct plan *plan = &bench.plan;
@@ -81,9 +80,8 @@ static void what_changes_no_list_leaves_the_pipeline(void **state)
 }
 
 /* All effects in all scans have the lists of those that auto chooses. */
-static void the_choice_in_each_scan_stands_beside_all_effects(void **state)
+TEST(the_choice_in_each_scan_stands_beside_all_effects)
 {
-    (void)state;
     struct bench bench;
     plan_traffic(&bench, "auto,-rows");
     const struct cost_chain *row = &bench.plan.table.chains.items[2];
@@ -96,9 +94,8 @@ static void the_choice_in_each_scan_stands_beside_all_effects(void **state)
     end(&bench);
 }
 
-static void idle_effects_are_rows_only_with_all(void **state)
+TEST(idle_effects_are_rows_only_with_all)
 {
-    (void)state;
     struct bench bench;
     plan_traffic(&bench, NULL);
     assert_writes(&bench.plan, false, "\n# Idle, as no list changes without one of them: ", true);
@@ -111,9 +108,8 @@ static void idle_effects_are_rows_only_with_all(void **state)
     end(&bench);
 }
 
-static void what_was_not_asked_for_says_so(void **state)
+TEST(what_was_not_asked_for_says_so)
 {
-    (void)state;
     struct bench bench;
     plan_traffic(&bench, "all,-merging");
     assert_writes(&bench.plan, true, "\n# merging           off: not asked for\n", true);
@@ -123,9 +119,8 @@ static void what_was_not_asked_for_says_so(void **state)
 }
 
 /* Without an effect at home in noise, glint-noise-none writes the same. */
-static void a_stage_goes_where_another_gives_the_same_lists(void **state)
+TEST(a_stage_goes_where_another_gives_the_same_lists)
 {
-    (void)state;
     struct bench bench;
     plan_traffic(&bench, "occlusion,merging,superposition,threshold");
     assert_writes(&bench.plan, false,
@@ -136,9 +131,8 @@ static void a_stage_goes_where_another_gives_the_same_lists(void **state)
 }
 
 /* Effects of which each does for the other: alone they change no list, and together they do. */
-static void what_is_put_back_is_named(void **state)
+TEST(what_is_put_back_is_named)
 {
-    (void)state;
     struct bench bench;
     plan_traffic(&bench, NULL);
     struct plan *plan = &bench.plan;
@@ -149,9 +143,8 @@ static void what_is_put_back_is_named(void **state)
     end(&bench);
 }
 
-static void no_frames_make_no_plan(void **state)
+TEST(no_frames_make_no_plan)
 {
-    (void)state;
     struct bench bench;
     struct text text = {0};
     begin(&bench, NULL);
@@ -163,9 +156,8 @@ static void no_frames_make_no_plan(void **state)
 }
 
 /* The rounds of the whole chain lie 3 us apart. */
-static void a_part_is_dearer_only_by_more_than_rounds_lie_apart(void **state)
+TEST(a_part_is_dearer_only_by_more_than_rounds_lie_apart)
 {
-    (void)state;
     static const struct {
         struct trial_time saved;
         bool part;
@@ -186,19 +178,4 @@ static void a_part_is_dearer_only_by_more_than_rounds_lie_apart(void **state)
         assert_int_equal(chain.close, cases[i].close);
     }
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_changes_no_list_leaves_the_pipeline),
-        cmocka_unit_test(the_choice_in_each_scan_stands_beside_all_effects),
-        cmocka_unit_test(idle_effects_are_rows_only_with_all),
-        cmocka_unit_test(what_was_not_asked_for_says_so),
-        cmocka_unit_test(a_stage_goes_where_another_gives_the_same_lists),
-        cmocka_unit_test(what_is_put_back_is_named),
-        cmocka_unit_test(no_frames_make_no_plan),
-        cmocka_unit_test(a_part_is_dearer_only_by_more_than_rounds_lie_apart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

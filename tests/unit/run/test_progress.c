@@ -8,9 +8,8 @@ struct moment {
     const char *line;
 };
 
-static void the_line_tells_share_rate_and_time_left(void **state)
+TEST(the_line_tells_share_rate_and_time_left)
 {
-    (void)state;
     static const struct moment moments[] = {
         {500, 5, 0.25, "[######                  ]  25 %, 100 frames/s, 0:00:15 left"},
         {10, 2, 0.5, "[############            ]  50 %, 5.0 frames/s, 0:00:02 left"},
@@ -25,20 +24,10 @@ static void the_line_tells_share_rate_and_time_left(void **state)
     }
 }
 
-static void a_file_that_grows_is_never_more_than_whole(void **state)
+TEST(a_file_that_grows_is_never_more_than_whole)
 {
-    (void)state;
     struct progress progress = {.unit = "frames", .count = 9};
     char line[100];
     progress_write(&progress, 3, 1.5, line, sizeof line);
     assert_string_equal(line, "[########################] 100 %, 3.0 frames/s, 0:00:00 left");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_line_tells_share_rate_and_time_left),
-        cmocka_unit_test(a_file_that_grows_is_never_more_than_whole),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,9 +130,8 @@ static void run_filters(const char *suite, const char *density)
     arena_free(&arena);
 }
 
-static void no_stage_changes_what_it_does_not_declare(void **state)
+TEST(no_stage_changes_what_it_does_not_declare)
 {
-    (void)state;
     static const char *const suites[] = {"corner77-every-frame", "lrr77-full", "lrr77-coherent",
                                          "lrr77-signal-small"};
     for (size_t i = 0; i < COUNT(suites); i++) {
@@ -166,9 +165,8 @@ static void begin_frame(struct frame *frame)
     runner_free(&source);
 }
 
-static void a_change_that_is_not_declared_is_found(void **state)
+TEST(a_change_that_is_not_declared_is_found)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     struct stage stage = {
@@ -183,9 +181,8 @@ static void a_change_that_is_not_declared_is_found(void **state)
     arena_free(&arena);
 }
 
-static void a_stage_that_writes_an_invalid_frame_fails_itself(void **state)
+TEST(a_stage_that_writes_an_invalid_frame_fails_itself)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     const struct stage stage = {.name = "invalid",
@@ -220,9 +217,8 @@ static int extract_negative_ercs(void *state, struct frame *frame, struct runner
 }
 
 /* A document's reflectors were checked when it was read; others in their place were not. */
-static void a_list_in_place_of_the_documents_is_checked(void **state)
+TEST(a_list_in_place_of_the_documents_is_checked)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     const struct stage stage = {.name = "invalid",
@@ -239,15 +235,4 @@ static void a_list_in_place_of_the_documents_is_checked(void **state)
         "wrote an invalid frame: reflectors[0].points[0].ercs: -1 is outside [0, 1000]");
     runner_free(&runner);
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_stage_changes_what_it_does_not_declare),
-        cmocka_unit_test(a_change_that_is_not_declared_is_found),
-        cmocka_unit_test(a_stage_that_writes_an_invalid_frame_fails_itself),
-        cmocka_unit_test(a_list_in_place_of_the_documents_is_checked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,39 +141,6 @@ static void assert_describes(const json_t *schema, const struct record *record)
     assert_int_equal(json_array_size(json_object_get(schema, "required")), required);
 }
 
-static void every_schema_says_what_its_field_table_says(void **state)
-{
-    static const struct {
-        const char *name;
-        const struct record *record;
-    } schemas[] = {{"frame", &frame_record},
-                   {"scenario", &scenario_record},
-                   {"sensors", &suite_record},
-                   {"vehicle", &vehicle_record}};
-    for (size_t i = 0; i < sizeof schemas / sizeof schemas[0]; i++) {
-        json_t *schema = schema_of(schemas[i].name, *state);
-        assert_string_equal(word(schema, "$schema"),
-                            "https://json-schema.org/draft/2020-12/schema");
-        assert_describes(schema, schemas[i].record);
-        json_decref(schema);
-    }
-}
-
-/* `make schemas` writes them; they are kept so that a change shows. */
-static void the_files_in_schemas_are_up_to_date(void **state)
-{
-    for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
-        char path[64];
-        snprintf(path, sizeof path, "schemas/%s.json", written[i]);
-        json_t *file = json_load_file(path, 0, NULL), *printed = schema_of(written[i], *state);
-        assert_non_null(file);
-        if (!json_equal(file, printed))
-            fail_msg("%s is out of date; run make schemas", path);
-        json_decref(file);
-        json_decref(printed);
-    }
-}
-
 static int write_schemas(void **state)
 {
     make_scratch(state);
@@ -194,11 +161,37 @@ static int remove_schemas(void **state)
     return remove_scratch(state);
 }
 
-int main(void)
+FIXTURE(write_schemas, remove_schemas);
+
+TEST(every_schema_says_what_its_field_table_says)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_schema_says_what_its_field_table_says),
-        cmocka_unit_test(the_files_in_schemas_are_up_to_date),
-    };
-    return cmocka_run_group_tests(tests, write_schemas, remove_schemas);
+    static const struct {
+        const char *name;
+        const struct record *record;
+    } schemas[] = {{"frame", &frame_record},
+                   {"scenario", &scenario_record},
+                   {"sensors", &suite_record},
+                   {"vehicle", &vehicle_record}};
+    for (size_t i = 0; i < sizeof schemas / sizeof schemas[0]; i++) {
+        json_t *schema = schema_of(schemas[i].name, *state);
+        assert_string_equal(word(schema, "$schema"),
+                            "https://json-schema.org/draft/2020-12/schema");
+        assert_describes(schema, schemas[i].record);
+        json_decref(schema);
+    }
+}
+
+/* `make schemas` writes them; they are kept so that a change shows. */
+TEST(the_files_in_schemas_are_up_to_date)
+{
+    for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "schemas/%s.json", written[i]);
+        json_t *file = json_load_file(path, 0, NULL), *printed = schema_of(written[i], *state);
+        assert_non_null(file);
+        if (!json_equal(file, printed))
+            fail_msg("%s is out of date; run make schemas", path);
+        json_decref(file);
+        json_decref(printed);
+    }
 }

@@ -2,18 +2,16 @@
 
 #include "run/stage.h"
 
-static void a_program_has_the_name_behind_glint(void **state)
+TEST(a_program_has_the_name_behind_glint)
 {
-    (void)state;
     assert_string_equal(stage_name_in_path("glint-plan"), "plan");
     assert_string_equal(stage_name_in_path("/usr/bin/glint-sensor-signal"), "sensor-signal");
     assert_null(stage_name_in_path("glint"));
     assert_null(stage_name_in_path("/glint-plan/other"));
 }
 
-static void every_stage_and_every_tool_is_found_by_its_name_alone(void **state)
+TEST(every_stage_and_every_tool_is_found_by_its_name_alone)
 {
-    (void)state;
     for (size_t i = 0; stages[i] != NULL; i++) {
         assert_ptr_equal(stage_by_name(stages[i]->name), stages[i]);
         for (size_t j = 0; j < i; j++)
@@ -31,9 +29,8 @@ static int next(void *state, struct frame *frame, struct runner *runner)
     return 0;
 }
 
-static void a_stage_is_a_source_a_filter_or_a_sink(void **state)
+TEST(a_stage_is_a_source_a_filter_or_a_sink)
 {
-    (void)state;
     static const struct {
         struct stage stage;
         enum stage_kind kind;
@@ -49,22 +46,10 @@ static void a_stage_is_a_source_a_filter_or_a_sink(void **state)
     }
 }
 
-static void a_tool_takes_files_of_frames_only_if_it_reads_any(void **state)
+TEST(a_tool_takes_files_of_frames_only_if_it_reads_any)
 {
-    (void)state;
     assert_int_equal(stage_kind(stage_by_name("plan")), STAGE_TOOL);
     assert_int_equal(stage_kind(stage_by_name("schema")), STAGE_TOOL);
     assert_true(stage_takes_files(stage_by_name("plan")));
     assert_false(stage_takes_files(stage_by_name("schema")));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_program_has_the_name_behind_glint),
-        cmocka_unit_test(every_stage_and_every_tool_is_found_by_its_name_alone),
-        cmocka_unit_test(a_stage_is_a_source_a_filter_or_a_sink),
-        cmocka_unit_test(a_tool_takes_files_of_frames_only_if_it_reads_any),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

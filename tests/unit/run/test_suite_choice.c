@@ -38,9 +38,8 @@ static void expect_refused(struct bench *bench, enum diag_code code, const char 
     bench->runner.diag = (struct diag){0};
 }
 
-static void the_option_goes_before_the_suite_and_the_suite_before_auto(void **state)
+TEST(the_option_goes_before_the_suite_and_the_suite_before_auto)
 {
-    (void)state;
     static const char *const cases[][3] = {/* option, suite, request */
                                            {"none", "rows", "none"},
                                            {NULL, "rows", "rows"},
@@ -57,9 +56,8 @@ static void the_option_goes_before_the_suite_and_the_suite_before_auto(void **st
     }
 }
 
-static void an_unknown_effect_is_a_fault_of_whoever_names_it(void **state)
+TEST(an_unknown_effect_is_a_fault_of_whoever_names_it)
 {
-    (void)state;
     struct suite suite = {.name = "a", .digest = "d", .effects = "rain,snew"};
     struct suite_choice choice = {.effects = "rian"};
     struct sensors request;
@@ -73,9 +71,8 @@ static void an_unknown_effect_is_a_fault_of_whoever_names_it(void **state)
     assert_memory_equal(of_suite.text, "effects: ", 9);
 }
 
-static void a_stage_takes_the_suite_that_the_frame_was_seen_with(void **state)
+TEST(a_stage_takes_the_suite_that_the_frame_was_seen_with)
 {
-    (void)state;
     struct bench bench;
     begin(&bench);
     struct suite_choice own = {0}, given = {.sensors = suite_name}, other = {.sensors = "lrr77"};
@@ -90,9 +87,8 @@ static void a_stage_takes_the_suite_that_the_frame_was_seen_with(void **state)
     end(&bench);
 }
 
-static void frame_and_suite_have_the_same_sensors(void **state)
+TEST(frame_and_suite_have_the_same_sensors)
 {
-    (void)state;
     struct bench bench;
     struct suite_choice choice = {0};
     begin(&bench);
@@ -106,9 +102,8 @@ static void frame_and_suite_have_the_same_sensors(void **state)
     end(&bench);
 }
 
-static void effects_are_those_that_the_frame_was_seen_with(void **state)
+TEST(effects_are_those_that_the_frame_was_seen_with)
 {
-    (void)state;
     struct bench bench;
     struct selection selection;
     struct suite_choice own = {0}, same = {.effects = "rain,snow"}, other = {.effects = "rain"};
@@ -136,9 +131,8 @@ static void visit(struct frame *frame, const struct sensor *sensor,
     effects_note(selection, EFFECT_RAIN, true);
 }
 
-static void every_sensor_is_visited_once_and_only_scans_are_noted(void **state)
+TEST(every_sensor_is_visited_once_and_only_scans_are_noted)
 {
-    (void)state;
     struct bench bench;
     struct effect_log log = {0};
     static const struct stage stage = {.name = "visitor", .visit = visit};
@@ -152,17 +146,4 @@ static void every_sensor_is_visited_once_and_only_scans_are_noted(void **state)
     assert_int_equal(log.scans, 1);
     assert_int_equal(log.scans_simulated[EFFECT_RAIN], 1);
     end(&bench);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_option_goes_before_the_suite_and_the_suite_before_auto),
-        cmocka_unit_test(an_unknown_effect_is_a_fault_of_whoever_names_it),
-        cmocka_unit_test(a_stage_takes_the_suite_that_the_frame_was_seen_with),
-        cmocka_unit_test(frame_and_suite_have_the_same_sensors),
-        cmocka_unit_test(effects_are_those_that_the_frame_was_seen_with),
-        cmocka_unit_test(every_sensor_is_visited_once_and_only_scans_are_noted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

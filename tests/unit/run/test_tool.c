@@ -157,7 +157,9 @@ static int files_in(const struct scratch *scratch)
     return count;
 }
 
-static void every_output_takes_its_name_when_all_went_well(void **state)
+#define TOOL_TEST(name) TEST_WITH(make_scratch, remove_scratch, name)
+
+TOOL_TEST(every_output_takes_its_name_when_all_went_well)
 {
     assert_int_equal(run(&writer, *state, (const char *[]){NULL}), 0);
     assert_holds(*state, "first", "one\n");
@@ -165,7 +167,7 @@ static void every_output_takes_its_name_when_all_went_well(void **state)
     assert_int_equal(files_in(*state), 3);
 }
 
-static void no_output_takes_its_name_if_the_tool_fails(void **state)
+TOOL_TEST(no_output_takes_its_name_if_the_tool_fails)
 {
     assert_int_equal(run(&writer, *state, (const char *[]){"--fail", NULL}), DIAG_DATA);
     assert_holds(*state, "first", "old");
@@ -173,7 +175,7 @@ static void no_output_takes_its_name_if_the_tool_fails(void **state)
 }
 
 /* The first is whole by then, and on the disk. */
-static void no_output_takes_its_name_if_another_cannot_be_written(void **state)
+TOOL_TEST(no_output_takes_its_name_if_another_cannot_be_written)
 {
     struct scratch *scratch = *state;
     char full[96];
@@ -184,7 +186,7 @@ static void no_output_takes_its_name_if_another_cannot_be_written(void **state)
     assert_int_equal(files_in(scratch), 3);
 }
 
-static void an_output_that_cannot_be_made_fails_the_tool(void **state)
+TOOL_TEST(an_output_that_cannot_be_made_fails_the_tool)
 {
     assert_int_equal(run(&writer, *state, (const char *[]){"--second", "nowhere/a", NULL}),
                      DIAG_CANNOT_CREATE);
@@ -192,12 +194,12 @@ static void an_output_that_cannot_be_made_fails_the_tool(void **state)
     assert_int_equal(files_in(*state), 2);
 }
 
-static void a_tool_that_fails_without_a_word_is_told_of(void **state)
+TOOL_TEST(a_tool_that_fails_without_a_word_is_told_of)
 {
     assert_int_equal(run(&writer, *state, (const char *[]){"--silent", NULL}), DIAG_INTERNAL);
 }
 
-static void a_tool_gets_every_frame_with_the_seed_that_is_given(void **state)
+TOOL_TEST(a_tool_gets_every_frame_with_the_seed_that_is_given)
 {
     struct scratch *scratch = *state;
     assert_int_equal(run(&counter, scratch, (const char *[]){scratch->frames, NULL}), 0);
@@ -207,7 +209,7 @@ static void a_tool_gets_every_frame_with_the_seed_that_is_given(void **state)
     assert_holds(scratch, "first", "2");
 }
 
-static void a_tool_gets_no_frame_without_what_it_reads(void **state)
+TOOL_TEST(a_tool_gets_no_frame_without_what_it_reads)
 {
     struct scratch *scratch = *state;
     write_text(scratch->folder, "frames", FRAME("0", "7") HEAD("1", "7") "}\n");
@@ -215,27 +217,10 @@ static void a_tool_gets_no_frame_without_what_it_reads(void **state)
     assert_holds(scratch, "first", "old");
 }
 
-static void a_tool_fails_at_the_end_of_scenes_that_should_be_whole(void **state)
+TOOL_TEST(a_tool_fails_at_the_end_of_scenes_that_should_be_whole)
 {
     struct scratch *scratch = *state;
     assert_int_equal(run(&counter, scratch, (const char *[]){"--complete", scratch->frames, NULL}),
                      DIAG_DATA);
     assert_holds(scratch, "first", "old");
-}
-
-#define TEST(function) cmocka_unit_test_setup_teardown(function, make_scratch, remove_scratch)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(every_output_takes_its_name_when_all_went_well),
-        TEST(no_output_takes_its_name_if_the_tool_fails),
-        TEST(no_output_takes_its_name_if_another_cannot_be_written),
-        TEST(an_output_that_cannot_be_made_fails_the_tool),
-        TEST(a_tool_that_fails_without_a_word_is_told_of),
-        TEST(a_tool_gets_every_frame_with_the_seed_that_is_given),
-        TEST(a_tool_gets_no_frame_without_what_it_reads),
-        TEST(a_tool_fails_at_the_end_of_scenes_that_should_be_whole),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,9 +19,8 @@ static struct energy_sample sample_of(const double *place, size_t ones, size_t o
     return (struct energy_sample){distance, ones, others};
 }
 
-static void two_lists_of_each_follow_the_definition(void **state)
+TEST(two_lists_of_each_follow_the_definition)
 {
-    (void)state;
     double distance[MOST];
     struct energy_sample sample = sample_of((double[]){0, 1, 5, 8}, 2, 2, distance);
     /* 2 (5 + 8 + 4 + 7)/4 - 1 - 3 */
@@ -30,9 +29,8 @@ static void two_lists_of_each_follow_the_definition(void **state)
 
 /* For one target that is there with probability p against q, D = 2 (p - q)^2 |m|. Here all possible
  * lists come as often as they should, so the mean of the estimate over them is D exactly. */
-static void a_target_listed_more_often_costs_twice_the_squared_difference(void **state)
+TEST(a_target_listed_more_often_costs_twice_the_squared_difference)
 {
-    (void)state;
     double length = sqrt(3), distance[16];
     for (double p = 0; p <= 1; p += 0.25)
         for (double q = 0; q <= 1; q += 0.125) {
@@ -54,9 +52,8 @@ static void a_target_listed_more_often_costs_twice_the_squared_difference(void *
 
 /* Numbers even in [0, 1) and in [s, 1 + s): D = 2 E|X - Y| - 2/3 with E|X - Y| = 1/3 + s^2 - s^3/3
  * for s up to 1. The mean over many samples is D; below 0 for equal laws as often as above. */
-static void estimates_are_unbiased(void **state)
+TEST(estimates_are_unbiased)
 {
-    (void)state;
     enum { ROUNDS = 4000, EACH = 5 };
     uint64_t random = 9;
     for (double shift = 0; shift <= 1; shift += 0.5) {
@@ -103,9 +100,8 @@ static double distance_of(const struct embedded_target *one, size_t ones,
     return distance;
 }
 
-static void a_target_more_is_the_length_of_its_kernel(void **state)
+TEST(a_target_more_is_the_length_of_its_kernel)
 {
-    (void)state;
     const struct embedded_target targets[] = {{{3, 4, 5, 6}}, {{1e6, 0, 0, 0}}};
     assert_near(distance_of(targets, 0, targets, 1), sqrt(3), 1e-15);
     assert_near(distance_of(targets, 1, targets, 2), sqrt(3), 1e-15);
@@ -114,9 +110,8 @@ static void a_target_more_is_the_length_of_its_kernel(void **state)
 }
 
 /* |m(x) - m(y)|^2 = 2 (3 - sum of exp(-s^2/2w^2)), whatever the direction of the shift. */
-static void a_shifted_target_is_as_far_as_its_kernels_say(void **state)
+TEST(a_shifted_target_is_as_far_as_its_kernels_say)
 {
-    (void)state;
     for (int axis = 0; axis < EMBEDDED_AXES; axis++)
         for (double shift = -40; shift <= 40; shift += 0.7) {
             struct embedded_target at = {{1, 2, 3, 4}}, moved = at;
@@ -127,17 +122,15 @@ static void a_shifted_target_is_as_far_as_its_kernels_say(void **state)
         }
 }
 
-static void twice_the_same_target_is_twice_as_far_from_none(void **state)
+TEST(twice_the_same_target_is_twice_as_far_from_none)
 {
-    (void)state;
     const struct embedded_target twice[] = {{{1, 2, 3, 4}}, {{1, 2, 3, 4}}};
     assert_near(distance_of(twice, 2, twice, 0), 2 * sqrt(3), 1e-15);
     assert_near(distance_of(twice, 2, twice, 1), sqrt(3), 1e-15);
 }
 
-static void the_order_of_targets_changes_no_bit(void **state)
+TEST(the_order_of_targets_changes_no_bit)
 {
-    (void)state;
     uint64_t sample = 5;
     for (int round = 0; round < 100; round++) {
         struct embedded_target one[9], turned[9], other[7];
@@ -154,9 +147,8 @@ static void the_order_of_targets_changes_no_bit(void **state)
     }
 }
 
-static void the_distance_of_lists_is_a_metric(void **state)
+TEST(the_distance_of_lists_is_a_metric)
 {
-    (void)state;
     uint64_t sample = 6;
     for (int round = 0; round < 300; round++) {
         struct embedded_target all[9];
@@ -166,19 +158,4 @@ static void the_distance_of_lists_is_a_metric(void **state)
         double ab = distance_of(all, 3, all + 3, 2), bc = distance_of(all + 3, 2, all + 5, 4);
         assert_true(distance_of(all, 3, all + 5, 4) <= ab + bc);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_lists_of_each_follow_the_definition),
-        cmocka_unit_test(a_target_listed_more_often_costs_twice_the_squared_difference),
-        cmocka_unit_test(estimates_are_unbiased),
-        cmocka_unit_test(a_target_more_is_the_length_of_its_kernel),
-        cmocka_unit_test(a_shifted_target_is_as_far_as_its_kernels_say),
-        cmocka_unit_test(twice_the_same_target_is_twice_as_far_from_none),
-        cmocka_unit_test(the_order_of_targets_changes_no_bit),
-        cmocka_unit_test(the_distance_of_lists_is_a_metric),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -62,9 +62,8 @@ static void end(struct stream *stream)
 
 /* For fixed lists D is twice their distance. One target is shifted by s cells in range; the other
  * is in both lists and cancels. */
-static void shifted_lists_are_at_twice_their_distance(void **state)
+TEST(shifted_lists_are_at_twice_their_distance)
 {
-    (void)state;
     for (double cells = 0; cells <= 4; cells += 0.5) {
         struct stream truth, listed;
         begin(&truth, 0), begin(&listed, 100);
@@ -85,9 +84,8 @@ static void shifted_lists_are_at_twice_their_distance(void **state)
 }
 
 /* A target seen in one of four lists against three of four: the U-statistic by hand. */
-static void a_target_listed_less_often_gives_the_distance_by_hand(void **state)
+TEST(a_target_listed_less_often_gives_the_distance_by_hand)
 {
-    (void)state;
     struct stream truth, listed;
     begin(&truth, 0), begin(&listed, 100);
     for (int seed = 0; seed < 4; seed++) {
@@ -118,9 +116,8 @@ static double mean_gospa(const double *truth, const double *listed, int count)
 
 /* Lists that never scatter have the smaller mean GOSPA from lists that do, though lists of the same
  * law as the truth are what is wanted. The energy distance is near 0 for those alone. */
-static void gospa_favours_lists_without_scatter_and_energy_does_not(void **state)
+TEST(gospa_favours_lists_without_scatter_and_energy_does_not)
 {
-    (void)state;
     enum { SEEDS = 60 };
     uint64_t random = 11;
     double truth[SEEDS], same[SEEDS], still[SEEDS];
@@ -159,9 +156,8 @@ static void begin_two_scenes(struct stream *truth, struct stream *listed, const 
 }
 
 /* With several scenes the mean is over scenes, and resampling spreads from one to the other. */
-static void the_interval_spans_the_scenes(void **state)
+TEST(the_interval_spans_the_scenes)
 {
-    (void)state;
     struct stream truth, listed;
     begin_two_scenes(&truth, &listed, (double[]){20, 20}, (size_t[]){1, 0});
     struct ensemble_score score = compare(&truth, &listed);
@@ -176,9 +172,8 @@ static void the_interval_spans_the_scenes(void **state)
 
 /* A target is shifted by a cell in one scene and by two in the other: one resample in four has the
  * nearer scene alone, one the farther. */
-static void the_interval_of_two_scenes_ends_at_their_energies(void **state)
+TEST(the_interval_of_two_scenes_ends_at_their_energies)
 {
-    (void)state;
     struct stream truth, listed;
     begin_two_scenes(&truth, &listed, (double[]){22, 24}, (size_t[]){1, 1});
     struct ensemble_score score = compare(&truth, &listed);
@@ -189,9 +184,8 @@ static void the_interval_of_two_scenes_ends_at_their_energies(void **state)
     end(&truth), end(&listed);
 }
 
-static void streams_that_do_not_match_are_refused(void **state)
+TEST(streams_that_do_not_match_are_refused)
 {
-    (void)state;
     struct stream truth, listed;
     struct ensemble_score score;
     struct diag diag = {0};
@@ -219,17 +213,4 @@ static void streams_that_do_not_match_are_refused(void **state)
         ensemble_compare(&truth.ensemble, &listed.ensemble, 0, &truth.arena, &score, &diag), 0);
     assert_non_null(strstr(diag.text, "scenes: 2"));
     end(&truth), end(&listed);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shifted_lists_are_at_twice_their_distance),
-        cmocka_unit_test(a_target_listed_less_often_gives_the_distance_by_hand),
-        cmocka_unit_test(gospa_favours_lists_without_scatter_and_energy_does_not),
-        cmocka_unit_test(the_interval_spans_the_scenes),
-        cmocka_unit_test(the_interval_of_two_scenes_ends_at_their_energies),
-        cmocka_unit_test(streams_that_do_not_match_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,17 +40,15 @@ static struct set draw(uint64_t *sample)
     return set;
 }
 
-static void two_empty_lists_have_no_distance(void **state)
+TEST(two_empty_lists_have_no_distance)
 {
-    (void)state;
     struct answer answer = compare(&(struct set){0}, &(struct set){0}, 2);
     assert_close(answer.gospa.value, 0, 0);
     assert_close(answer.gospa.ospa, 0, 0);
 }
 
-static void every_missed_or_false_item_costs_half_a_squared_cutoff(void **state)
+TEST(every_missed_or_false_item_costs_half_a_squared_cutoff)
 {
-    (void)state;
     const struct set some = {4, {1, 2, 3, 4}}, none = {0};
     struct answer missed = compare(&some, &none, 3), wrong = compare(&none, &some, 3);
     assert_near(missed.gospa.value, 3 / sqrt(2) * sqrt(4), 1e-15);
@@ -62,9 +60,8 @@ static void every_missed_or_false_item_costs_half_a_squared_cutoff(void **state)
     assert_close(missed.gospa.ospa, 3, 0);
 }
 
-static void one_pair_has_its_own_distance(void **state)
+TEST(one_pair_has_its_own_distance)
 {
-    (void)state;
     struct answer near = compare(&(struct set){1, {1}}, &(struct set){1, {2.5}}, 2);
     assert_int_equal(near.pairs, 1);
     assert_close(near.gospa.value, 1.5, 0);
@@ -75,9 +72,8 @@ static void one_pair_has_its_own_distance(void **state)
     assert_close(far.gospa.ospa, 2, 0);
 }
 
-static void items_exactly_at_the_cutoff_are_no_pair(void **state)
+TEST(items_exactly_at_the_cutoff_are_no_pair)
 {
-    (void)state;
     struct answer answer = compare(&(struct set){1, {1}}, &(struct set){1, {3}}, 2);
     assert_int_equal(answer.pairs, 0);
     assert_close(answer.gospa.missed_part, 2, 0);
@@ -86,9 +82,8 @@ static void items_exactly_at_the_cutoff_are_no_pair(void **state)
 
 /* Ten targets with a cut-off of 2: one moved by 1, one missing, one false, one of each, five
  * missing; and empty lists against one of one and of ten. */
-static void ten_targets_give_the_figures_of_the_definitions(void **state)
+TEST(ten_targets_give_the_figures_of_the_definitions)
 {
-    (void)state;
     static const struct {
         double squares;
         size_t pairs, truths, listed;
@@ -106,9 +101,8 @@ static void ten_targets_give_the_figures_of_the_definitions(void **state)
     }
 }
 
-static void both_are_metrics(void **state)
+TEST(both_are_metrics)
 {
-    (void)state;
     uint64_t sample = 1;
     for (int round = 0; round < 20000; round++) {
         struct set a = draw(&sample), b = draw(&sample), c = draw(&sample);
@@ -124,9 +118,8 @@ static void both_are_metrics(void **state)
     }
 }
 
-static void the_order_of_a_list_changes_no_distance(void **state)
+TEST(the_order_of_a_list_changes_no_distance)
 {
-    (void)state;
     uint64_t sample = 2;
     for (int round = 0; round < 2000; round++) {
         struct set a = draw(&sample), b = draw(&sample), turned = b;
@@ -137,9 +130,8 @@ static void the_order_of_a_list_changes_no_distance(void **state)
     }
 }
 
-static void the_parts_add_up(void **state)
+TEST(the_parts_add_up)
 {
-    (void)state;
     uint64_t sample = 3;
     for (int round = 0; round < 2000; round++) {
         struct set a = draw(&sample), b = draw(&sample);
@@ -200,9 +192,8 @@ static void check(const double *cost, size_t rows, size_t columns)
     arena_free(&arena);
 }
 
-static void random_costs_are_paired_as_cheaply_as_trying_all_finds(void **state)
+TEST(random_costs_are_paired_as_cheaply_as_trying_all_finds)
 {
-    (void)state;
     uint64_t sample = 1;
     double cost[SIDE * SIDE];
     for (int round = 0; round < 4000; round++) {
@@ -214,9 +205,8 @@ static void random_costs_are_paired_as_cheaply_as_trying_all_finds(void **state)
     }
 }
 
-static void costs_that_tie_are_paired_as_cheaply_as_trying_all_finds(void **state)
+TEST(costs_that_tie_are_paired_as_cheaply_as_trying_all_finds)
 {
-    (void)state;
     uint64_t sample = 2;
     double cost[SIDE * SIDE];
     for (int round = 0; round < 4000; round++) {
@@ -229,9 +219,8 @@ static void costs_that_tie_are_paired_as_cheaply_as_trying_all_finds(void **stat
 }
 
 /* Pairing the nearest first would cost 1 + 9; the best is 2 + 3. */
-static void a_row_moves_on_where_that_is_cheaper(void **state)
+TEST(a_row_moves_on_where_that_is_cheaper)
 {
-    (void)state;
     struct arena arena = {0};
     size_t column_of[2];
     gospa_assign((double[]){1, 2, 3, 9}, 2, 2, column_of, &arena);
@@ -240,9 +229,8 @@ static void a_row_moves_on_where_that_is_cheaper(void **state)
     arena_free(&arena);
 }
 
-static void equal_costs_are_paired_in_order(void **state)
+TEST(equal_costs_are_paired_in_order)
 {
-    (void)state;
     struct arena arena = {0};
     size_t column_of[3];
     const double cost[6] = {0};
@@ -258,9 +246,8 @@ static void equal_costs_are_paired_in_order(void **state)
 
 /* The sum of costs i j is least when the longest go with the shortest: rows ascend, columns
  * descend. */
-static void a_large_matrix_is_paired_as_the_rearrangement_inequality_says(void **state)
+TEST(a_large_matrix_is_paired_as_the_rearrangement_inequality_says)
 {
-    (void)state;
     enum { LARGE = 200 };
     struct arena arena = {0};
     double *cost = arena_get(&arena, LARGE * LARGE * sizeof *cost);
@@ -271,24 +258,4 @@ static void a_large_matrix_is_paired_as_the_rearrangement_inequality_says(void *
     for (size_t row = 0; row < LARGE; row++)
         assert_int_equal(column_of[row], LARGE - 1 - row);
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_empty_lists_have_no_distance),
-        cmocka_unit_test(every_missed_or_false_item_costs_half_a_squared_cutoff),
-        cmocka_unit_test(one_pair_has_its_own_distance),
-        cmocka_unit_test(items_exactly_at_the_cutoff_are_no_pair),
-        cmocka_unit_test(ten_targets_give_the_figures_of_the_definitions),
-        cmocka_unit_test(both_are_metrics),
-        cmocka_unit_test(the_order_of_a_list_changes_no_distance),
-        cmocka_unit_test(the_parts_add_up),
-        cmocka_unit_test(random_costs_are_paired_as_cheaply_as_trying_all_finds),
-        cmocka_unit_test(costs_that_tie_are_paired_as_cheaply_as_trying_all_finds),
-        cmocka_unit_test(a_row_moves_on_where_that_is_cheaper),
-        cmocka_unit_test(equal_costs_are_paired_in_order),
-        cmocka_unit_test(a_large_matrix_is_paired_as_the_rearrangement_inequality_says),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

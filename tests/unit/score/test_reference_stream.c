@@ -49,7 +49,9 @@ static void interleave(uint64_t *sample, int order[SCENES * FRAMES])
     }
 }
 
-static void frames_meet_in_every_interleaving(void **state)
+FIXTURE(make_scratch, remove_scratch);
+
+TEST(frames_meet_in_every_interleaving)
 {
     struct scratch *scratch = *state;
     uint64_t sample = 1;
@@ -73,7 +75,7 @@ static void frames_meet_in_every_interleaving(void **state)
 }
 
 /* Each stream lacks some frames; all others meet. */
-static void frames_meet_where_either_stream_lacks_some(void **state)
+TEST(frames_meet_where_either_stream_lacks_some)
 {
     struct scratch *scratch = *state;
     uint64_t sample = 2;
@@ -104,7 +106,7 @@ static void frames_meet_where_either_stream_lacks_some(void **state)
     }
 }
 
-static void a_frame_without_a_line_is_refused(void **state)
+TEST(a_frame_without_a_line_is_refused)
 {
     struct scratch *scratch = *state;
     FILE *file = fopen(scratch->path, "w");
@@ -121,7 +123,7 @@ static void a_frame_without_a_line_is_refused(void **state)
     reference_stream_close(reference);
 }
 
-static void a_line_without_a_frame_is_refused_with_its_place(void **state)
+TEST(a_line_without_a_frame_is_refused_with_its_place)
 {
     struct scratch *scratch = *state;
     FILE *file = fopen(scratch->path, "w");
@@ -138,7 +140,7 @@ static void a_line_without_a_frame_is_refused_with_its_place(void **state)
     reference_stream_close(reference);
 }
 
-static void a_file_that_is_not_there_is_refused(void **state)
+TEST(a_file_that_is_not_there_is_refused)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -147,16 +149,4 @@ static void a_file_that_is_not_there_is_refused(void **state)
                                       (struct input_pause){0}, &diag));
     assert_int_equal(diag.code, DIAG_NO_INPUT);
     reference_stream_close(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_meet_in_every_interleaving),
-        cmocka_unit_test(frames_meet_where_either_stream_lacks_some),
-        cmocka_unit_test(a_frame_without_a_line_is_refused),
-        cmocka_unit_test(a_line_without_a_frame_is_refused_with_its_place),
-        cmocka_unit_test(a_file_that_is_not_there_is_refused),
-    };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

@@ -45,9 +45,8 @@ static struct energy_sample lists_of(const double *distance)
     return (struct energy_sample){distance, SEEDS, SEEDS};
 }
 
-static void ideal_echoes_have_an_error_of_exactly_1(void **state)
+TEST(ideal_echoes_have_an_error_of_exactly_1)
 {
-    (void)state;
     struct trial trial = draw(0.1, 1);
     struct energy_sample ideal = lists_of(trial.ideal);
     struct relative_error error = relative_error_of(&ideal, &ideal);
@@ -57,9 +56,8 @@ static void ideal_echoes_have_an_error_of_exactly_1(void **state)
 }
 
 /* 0 and 1 apart: 2 x 1 - 0 - 0 and 2 x 0.5 - 0 - 3/5 by the definition. */
-static void the_squared_error_is_the_ratio_of_energy_distances(void **state)
+TEST(the_squared_error_is_the_ratio_of_energy_distances)
 {
-    (void)state;
     struct arena arena = {0};
     double chain[ALL * ALL] = {0}, ideal[ALL * ALL] = {0};
     for (int i = 0; i < ALL; i++)
@@ -77,9 +75,8 @@ static void the_squared_error_is_the_ratio_of_energy_distances(void **state)
 
 /* Numbers as lists: the deviation is that of ratios that are made again without each list, and the
  * interval that of Student's t, 2.2281 for 10 degrees of freedom of two equal laws. */
-static void the_deviation_is_that_of_the_jackknife(void **state)
+TEST(the_deviation_is_that_of_the_jackknife)
 {
-    (void)state;
     const double place[ALL] = {0.3, 1.2, -0.4, 2.2, 0.9, 1.5};
     double distance[ALL * ALL], values[ALL], mean = 0, squares = 0;
     for (int i = 0; i < ALL; i++)
@@ -99,9 +96,8 @@ static void the_deviation_is_that_of_the_jackknife(void **state)
     assert_near(found.high - found.value, found.value - found.low, 1e-12);
 }
 
-static void the_root_stands_above_0(void **state)
+TEST(the_root_stands_above_0)
 {
-    (void)state;
     static const struct relative_error squares[] = {
         {0.09, 0.04, 0.14, 0}, {0.01, -0.03, 0.05, 0}, {-0.02, -0.05, 0.01, 0}};
     static const double roots[][3] = {{0.3, 0.2, 0.37416573867739417},
@@ -116,9 +112,8 @@ static void the_root_stands_above_0(void **state)
 }
 
 /* Nominally 95 %; more where chain and reference have one law, as the jackknife errs upwards. */
-static void the_interval_covers_the_true_error(void **state)
+TEST(the_interval_covers_the_true_error)
 {
-    (void)state;
     enum { TRIALS = 300 };
     for (double more = 0; more <= 0.4; more += 0.1) {
         double truth = more * more / 0.36;
@@ -132,16 +127,4 @@ static void the_interval_covers_the_true_error(void **state)
         assert_in_range(covered, 0.92 * TRIALS, TRIALS);
         assert_true(more == 0 || covered < TRIALS);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ideal_echoes_have_an_error_of_exactly_1),
-        cmocka_unit_test(the_squared_error_is_the_ratio_of_energy_distances),
-        cmocka_unit_test(the_deviation_is_that_of_the_jackknife),
-        cmocka_unit_test(the_root_stands_above_0),
-        cmocka_unit_test(the_interval_covers_the_true_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

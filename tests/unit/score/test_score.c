@@ -15,9 +15,8 @@ static struct score_tally two_scans(void)
     return tally;
 }
 
-static void counts_are_sums_over_the_scans(void **state)
+TEST(counts_are_sums_over_the_scans)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tally tally = two_scans();
     struct score score = score_of(&tally, 1, &arena);
@@ -33,9 +32,8 @@ static void counts_are_sums_over_the_scans(void **state)
 
 /* GOSPA^2 is 1.25 + 2 of the first scan and 0.5 + 4 of the second; OSPA^2 is (1.25 + 4)/3 and
  * (0.5 + 8)/3. */
-static void metrics_are_means_over_the_scans(void **state)
+TEST(metrics_are_means_over_the_scans)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tally tally = two_scans();
     struct score score = score_of(&tally, 1, &arena);
@@ -49,9 +47,8 @@ static void metrics_are_means_over_the_scans(void **state)
     arena_free(&arena);
 }
 
-static void without_any_scan_all_is_zero(void **state)
+TEST(without_any_scan_all_is_zero)
 {
-    (void)state;
     struct arena arena = {0};
     struct score score = score_of(NULL, 0, &arena);
     assert_null(score.sensor);
@@ -68,9 +65,8 @@ static void add(struct score_tally *tally, enum score_kind kind, double value, s
     *list_add(&tally->values[kind][SCORE_AZIMUTH].list, arena) = value;
 }
 
-static void differences_are_those_of_the_pairs_and_of_the_lists(void **state)
+TEST(differences_are_those_of_the_pairs_and_of_the_lists)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tally tallies[2] = {{.sensor = "front"}, {.sensor = "rear"}};
     static const double apart[] = {-1, 1, 1, 3};
@@ -92,9 +88,8 @@ static void differences_are_those_of_the_pairs_and_of_the_lists(void **state)
     arena_free(&arena);
 }
 
-static void a_list_without_counterpart_has_no_distance(void **state)
+TEST(a_list_without_counterpart_has_no_distance)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tally tally = {.sensor = "front"};
     add(&tally, SCORE_LISTED, 1, &arena);
@@ -105,9 +100,8 @@ static void a_list_without_counterpart_has_no_distance(void **state)
 }
 
 /* 19 of 20 are no larger than 1, though the one that is larger is all that the second tally has. */
-static void quantiles_are_of_all_values_and_no_mean_of_quantiles(void **state)
+TEST(quantiles_are_of_all_values_and_no_mean_of_quantiles)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tally tallies[2] = {{.sensor = "front"}, {.sensor = "rear"}};
     for (int i = 0; i < 19; i++)
@@ -136,9 +130,8 @@ static void assert_same(const struct score *one, const struct score *other)
     }
 }
 
-static void a_merged_tally_says_what_both_say_together(void **state)
+TEST(a_merged_tally_says_what_both_say_together)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tally tallies[2] = {{.sensor = "rear"}, two_scans()};
     score_add_scan(&tallies[0], 9, 1, 1, 4, 8);
@@ -155,9 +148,8 @@ static void a_merged_tally_says_what_both_say_together(void **state)
     arena_free(&arena);
 }
 
-static void scans_are_kept_by_sensor_and_summed_up_by_name(void **state)
+TEST(scans_are_kept_by_sensor_and_summed_up_by_name)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tallies tallies = {0};
     static const char *const sensors[] = {"rear", "front", "rear", "left"};
@@ -188,9 +180,8 @@ static void scans_are_kept_by_sensor_and_summed_up_by_name(void **state)
     arena_free(&arena);
 }
 
-static void the_mean_is_signed_and_the_other_figures_are_sizes(void **state)
+TEST(the_mean_is_signed_and_the_other_figures_are_sizes)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_differences of = score_statistics((double[]){-3, 1, 1, 1}, 4, &arena);
     assert_close(of.mean, 0, 0);
@@ -204,9 +195,8 @@ static void the_mean_is_signed_and_the_other_figures_are_sizes(void **state)
     arena_free(&arena);
 }
 
-static void ninety_five_of_a_hundred_are_no_larger(void **state)
+TEST(ninety_five_of_a_hundred_are_no_larger)
 {
-    (void)state;
     struct arena arena = {0};
     double values[100];
     for (int i = 0; i < 100; i++)
@@ -217,9 +207,8 @@ static void ninety_five_of_a_hundred_are_no_larger(void **state)
     arena_free(&arena);
 }
 
-static void a_shifted_sample_is_apart_by_its_shift(void **state)
+TEST(a_shifted_sample_is_apart_by_its_shift)
 {
-    (void)state;
     struct arena arena = {0};
     uint64_t sample = 1;
     double one[40], other[40], same[40];
@@ -237,9 +226,8 @@ static void a_shifted_sample_is_apart_by_its_shift(void **state)
     arena_free(&arena);
 }
 
-static void samples_of_different_sizes_share_their_mass(void **state)
+TEST(samples_of_different_sizes_share_their_mass)
 {
-    (void)state;
     struct arena arena = {0};
     double zero[] = {0}, pair[] = {3, 1}, three[] = {0, 3, 3};
     assert_near(score_wasserstein(zero, 1, pair, 2, &arena), 2.0, 1e-15);
@@ -252,9 +240,8 @@ static void samples_of_different_sizes_share_their_mass(void **state)
 
 /* Compared with the definition over quantiles: the mean of |sorted one - sorted other| for equal
  * counts. */
-static void samples_of_one_size_are_apart_as_their_sorted_values(void **state)
+TEST(samples_of_one_size_are_apart_as_their_sorted_values)
 {
-    (void)state;
     struct arena arena = {0};
     uint64_t sample = 3;
     for (int round = 0; round < 1000; round++) {
@@ -270,24 +257,4 @@ static void samples_of_one_size_are_apart_as_their_sorted_values(void **state)
         arena_clear(&arena);
     }
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(counts_are_sums_over_the_scans),
-        cmocka_unit_test(metrics_are_means_over_the_scans),
-        cmocka_unit_test(without_any_scan_all_is_zero),
-        cmocka_unit_test(differences_are_those_of_the_pairs_and_of_the_lists),
-        cmocka_unit_test(a_list_without_counterpart_has_no_distance),
-        cmocka_unit_test(quantiles_are_of_all_values_and_no_mean_of_quantiles),
-        cmocka_unit_test(a_merged_tally_says_what_both_say_together),
-        cmocka_unit_test(scans_are_kept_by_sensor_and_summed_up_by_name),
-        cmocka_unit_test(the_mean_is_signed_and_the_other_figures_are_sizes),
-        cmocka_unit_test(ninety_five_of_a_hundred_are_no_larger),
-        cmocka_unit_test(a_shifted_sample_is_apart_by_its_shift),
-        cmocka_unit_test(samples_of_different_sizes_share_their_mass),
-        cmocka_unit_test(samples_of_one_size_are_apart_as_their_sorted_values),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

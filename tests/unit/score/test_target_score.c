@@ -63,9 +63,8 @@ static void assert_same_text(const struct score *one, const struct score *other)
     text_free(&other_text);
 }
 
-static void the_azimuth_cell_is_the_option_the_suites_or_a_twentieth_of_the_view(void **state)
+TEST(the_azimuth_cell_is_the_option_the_suites_or_a_twentieth_of_the_view)
 {
-    (void)state;
     struct sensor_view view = {.cell_range_m = 1, .cell_range_rate_mps = 2, .field_of_view_rad = 3};
     assert_close(target_score_cell(&view, 0).azimuth_rad, 0.15, 1e-16);
     view.azimuth_cell_rad = 0.02;
@@ -73,9 +72,8 @@ static void the_azimuth_cell_is_the_option_the_suites_or_a_twentieth_of_the_view
     assert_close(target_score_cell(&view, 0.07).azimuth_rad, 0.07, 0);
 }
 
-static void one_cell_is_a_distance_of_one_in_each_component(void **state)
+TEST(one_cell_is_a_distance_of_one_in_each_component)
 {
-    (void)state;
     const struct target at = {.range_m = 10, .azimuth_rad = 0.2, .range_rate_mps = -3};
     struct target range = at, azimuth = at, rate = at, all = at, louder = at;
     range.range_m += 0.5;
@@ -92,9 +90,8 @@ static void one_cell_is_a_distance_of_one_in_each_component(void **state)
     assert_close(target_score_distance(&at, &louder, &cell), 0, 0);
 }
 
-static void azimuths_differ_the_short_way_round(void **state)
+TEST(azimuths_differ_the_short_way_round)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_scene left = {.targets = {{.sensor = "front", .azimuth_rad = PI - 0.01}}};
     struct score_scene right = {.targets = {{.sensor = "front", .azimuth_rad = 0.02 - PI}}};
@@ -106,9 +103,8 @@ static void azimuths_differ_the_short_way_round(void **state)
     arena_free(&arena);
 }
 
-static void the_order_of_targets_changes_no_bit(void **state)
+TEST(the_order_of_targets_changes_no_bit)
 {
-    (void)state;
     struct arena arena = {0};
     uint64_t sample = 1;
     for (int round = 0; round < 2000; round++) {
@@ -128,9 +124,8 @@ static void the_order_of_targets_changes_no_bit(void **state)
 }
 
 /* With both lists exchanged, missed targets are false ones and differences change their sign. */
-static void scores_are_symmetric(void **state)
+TEST(scores_are_symmetric)
 {
-    (void)state;
     struct arena arena = {0};
     uint64_t sample = 2;
     for (int round = 0; round < 2000; round++) {
@@ -153,9 +148,8 @@ static void scores_are_symmetric(void **state)
     arena_free(&arena);
 }
 
-static void a_list_has_no_distance_from_itself(void **state)
+TEST(a_list_has_no_distance_from_itself)
 {
-    (void)state;
     struct arena arena = {0};
     uint64_t sample = 3;
     for (int round = 0; round < 200; round++) {
@@ -177,9 +171,8 @@ static double cost_of(double squares, size_t pairs, size_t targets)
     return squares + 2 * (double)(targets - 2 * pairs);
 }
 
-static void groups_are_paired_as_cheaply_as_whole_lists(void **state)
+TEST(groups_are_paired_as_cheaply_as_whole_lists)
 {
-    (void)state;
     uint64_t sample = 9;
     struct arena arena = {0};
     size_t found = 0;
@@ -217,9 +210,8 @@ static void groups_are_paired_as_cheaply_as_whole_lists(void **state)
     arena_free(&arena);
 }
 
-static void targets_of_other_sensors_do_not_count(void **state)
+TEST(targets_of_other_sensors_do_not_count)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
     struct score_scene listed = {
@@ -232,9 +224,8 @@ static void targets_of_other_sensors_do_not_count(void **state)
 
 /* Means are over scans, differences over all pairs; the merged tally of parts equals the tally of
  * all. */
-static void tallies_add_up(void **state)
+TEST(tallies_add_up)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tally near = {.sensor = "front"}, far = {.sensor = "front"}, both = {0};
     struct score_scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
@@ -261,9 +252,8 @@ static void tallies_add_up(void **state)
     arena_free(&arena);
 }
 
-static void without_scans_all_is_zero(void **state)
+TEST(without_scans_all_is_zero)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tallies none = {0};
     struct score_summary summary = {0};
@@ -273,21 +263,4 @@ static void without_scans_all_is_zero(void **state)
     assert_int_equal(summary.all.differences[SCORE_RANGE].present, 0);
     assert_int_equal(summary.sensors.count, 0);
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_azimuth_cell_is_the_option_the_suites_or_a_twentieth_of_the_view),
-        cmocka_unit_test(one_cell_is_a_distance_of_one_in_each_component),
-        cmocka_unit_test(azimuths_differ_the_short_way_round),
-        cmocka_unit_test(the_order_of_targets_changes_no_bit),
-        cmocka_unit_test(scores_are_symmetric),
-        cmocka_unit_test(a_list_has_no_distance_from_itself),
-        cmocka_unit_test(groups_are_paired_as_cheaply_as_whole_lists),
-        cmocka_unit_test(targets_of_other_sensors_do_not_count),
-        cmocka_unit_test(tallies_add_up),
-        cmocka_unit_test(without_scans_all_is_zero),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

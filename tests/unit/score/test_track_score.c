@@ -36,9 +36,8 @@ static bool in_view(double x_m, double y_m)
     return track_score_counts(&frame, &objects[1], TRACK_TRUTH_IN_VIEW, NULL);
 }
 
-static void objects_in_range_and_view_count(void **state)
+TEST(objects_in_range_and_view_count)
 {
-    (void)state;
     assert_true(in_view(81, 52));
     assert_false(in_view(79, 52));
     assert_true(in_view(90, 61));
@@ -48,17 +47,15 @@ static void objects_in_range_and_view_count(void **state)
     assert_false(in_view(110, 52));
 }
 
-static void the_ego_never_counts(void **state)
+TEST(the_ego_never_counts)
 {
-    (void)state;
     struct frame frame = frame_with_thing_at(90, 52);
     assert_false(track_score_counts(&frame, &objects[0], TRACK_TRUTH_ALL, NULL));
     assert_true(track_score_counts(&frame, &objects[1], TRACK_TRUTH_ALL, NULL));
 }
 
-static void objects_with_an_echo_in_a_target_are_detected(void **state)
+TEST(objects_with_an_echo_in_a_target_are_detected)
 {
-    (void)state;
     struct frame frame = frame_with_thing_at(500, 52);
     assert_false(track_score_counts(&frame, &objects[1], TRACK_TRUTH_DETECTED, NULL));
     frame.targets.items = &target;
@@ -66,9 +63,8 @@ static void objects_with_an_echo_in_a_target_are_detected(void **state)
     assert_true(track_score_counts(&frame, &objects[1], TRACK_TRUTH_DETECTED, NULL));
 }
 
-static void classes_are_whole_words(void **state)
+TEST(classes_are_whole_words)
 {
-    (void)state;
     struct frame frame = frame_with_thing_at(90, 52);
     static const struct {
         const char *classes;
@@ -81,9 +77,8 @@ static void classes_are_whole_words(void **state)
                          cases[i].counts);
 }
 
-static void a_frame_without_the_part_that_decides_is_refused(void **state)
+TEST(a_frame_without_the_part_that_decides_is_refused)
 {
-    (void)state;
     struct diag diag = {0};
     struct frame frame = {.present = PART_OBJECTS};
     assert_int_equal(track_score_check(&frame, TRACK_TRUTH_ALL, &diag), 0);
@@ -96,9 +91,8 @@ static void a_frame_without_the_part_that_decides_is_refused(void **state)
     assert_int_equal(diag.code, DIAG_DATA);
 }
 
-static void a_switch_is_another_track_than_last_in_its_scene(void **state)
+TEST(a_switch_is_another_track_than_last_in_its_scene)
 {
-    (void)state;
     struct arena arena = {0};
     struct track_memory memory = {0};
     assert_null(track_score_replaced(&memory, "s", "a", "1", &arena));
@@ -114,9 +108,8 @@ static void a_switch_is_another_track_than_last_in_its_scene(void **state)
     arena_free(&arena);
 }
 
-static void a_track_is_paired_with_an_object_nearer_than_five_metres(void **state)
+TEST(a_track_is_paired_with_an_object_nearer_than_five_metres)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = frame_with_thing_at(90, 52);
     frame.arena = &arena;
@@ -139,9 +132,8 @@ static void a_track_is_paired_with_an_object_nearer_than_five_metres(void **stat
     arena_free(&arena);
 }
 
-static void tracks_are_sorted_by_id(void **state)
+TEST(tracks_are_sorted_by_id)
 {
-    (void)state;
     struct arena arena = {0};
     struct diag diag = {0};
     struct track tracks[] = {{.id = "b"}, {.id = "a"}, {.id = "c"}};
@@ -156,9 +148,8 @@ static void tracks_are_sorted_by_id(void **state)
 
 /* A metre to each side with variances of 4 and 1 and a covariance of 1: (1 1) over [4 1; 1 1] is 1,
  * and without the covariance 1.25. */
-static void a_squared_distance_is_over_the_covariance(void **state)
+TEST(a_squared_distance_is_over_the_covariance)
 {
-    (void)state;
     struct arena arena = {0};
     struct frame frame = frame_with_thing_at(90, 52);
     frame.arena = &arena;
@@ -186,9 +177,8 @@ static void a_squared_distance_is_over_the_covariance(void **state)
 
 /* Quantiles of chi squared by table: 3.247 and 20.483 with 10, 74.222 and 129.561 with 100 degrees
  * of freedom. */
-static void the_mean_of_the_nees_has_the_interval_of_chi_squared(void **state)
+TEST(the_mean_of_the_nees_has_the_interval_of_chi_squared)
 {
-    (void)state;
     struct arena arena = {0};
     struct score_tally tally = {0};
     for (int i = 0; i < 50; i++) {
@@ -206,9 +196,8 @@ static void the_mean_of_the_nees_has_the_interval_of_chi_squared(void **state)
     arena_free(&arena);
 }
 
-static void a_covariance_is_positive_definite(void **state)
+TEST(a_covariance_is_positive_definite)
 {
-    (void)state;
     static const struct {
         double x, xy, y;
         int status;
@@ -226,22 +215,4 @@ static void a_covariance_is_positive_definite(void **state)
         assert_int_equal(track_score_order(&list, &arena, &diag), cases[i].status);
         arena_free(&arena);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(objects_in_range_and_view_count),
-        cmocka_unit_test(the_ego_never_counts),
-        cmocka_unit_test(objects_with_an_echo_in_a_target_are_detected),
-        cmocka_unit_test(classes_are_whole_words),
-        cmocka_unit_test(a_frame_without_the_part_that_decides_is_refused),
-        cmocka_unit_test(a_switch_is_another_track_than_last_in_its_scene),
-        cmocka_unit_test(a_track_is_paired_with_an_object_nearer_than_five_metres),
-        cmocka_unit_test(tracks_are_sorted_by_id),
-        cmocka_unit_test(a_squared_distance_is_over_the_covariance),
-        cmocka_unit_test(the_mean_of_the_nees_has_the_interval_of_chi_squared),
-        cmocka_unit_test(a_covariance_is_positive_definite),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

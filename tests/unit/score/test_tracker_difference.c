@@ -17,9 +17,8 @@ static void add(struct tracker_scenes *scenes, int number, double gospa, struct 
 
 /* 1, 2, 3, 4, 5 have the mean 3, the standard error sqrt(1/2), and t = 2.776 with 4 degrees of
  * freedom. A scene counts once, however many frames it has. */
-static void the_interval_is_students_over_scenes(void **state)
+TEST(the_interval_is_students_over_scenes)
 {
-    (void)state;
     struct arena arena = {0};
     struct diag diag = {0};
     struct tracker_scenes scenes = {0};
@@ -36,9 +35,8 @@ static void the_interval_is_students_over_scenes(void **state)
     arena_free(&arena);
 }
 
-static void fewer_than_five_scenes_are_refused(void **state)
+TEST(fewer_than_five_scenes_are_refused)
 {
-    (void)state;
     struct arena arena = {0};
     struct diag diag = {0};
     struct tracker_scenes scenes = {0};
@@ -77,26 +75,13 @@ static double covered(int scenes_each, bool skewed)
     return (double)inside / TRIALS;
 }
 
-static void the_interval_covers_95_percent_of_gaussian_scenes(void **state)
+TEST(the_interval_covers_95_percent_of_gaussian_scenes)
 {
-    (void)state;
     assert_close(covered(5, false), 0.95, 0.02);
     assert_close(covered(20, false), 0.95, 0.02);
 }
 
-static void the_interval_of_skewed_scenes_covers_nearly_as_much(void **state)
+TEST(the_interval_of_skewed_scenes_covers_nearly_as_much)
 {
-    (void)state;
     assert_true(covered(20, true) > 0.88);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_interval_is_students_over_scenes),
-        cmocka_unit_test(fewer_than_five_scenes_are_refused),
-        cmocka_unit_test(the_interval_covers_95_percent_of_gaussian_scenes),
-        cmocka_unit_test(the_interval_of_skewed_scenes_covers_nearly_as_much),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

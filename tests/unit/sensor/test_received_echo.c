@@ -4,7 +4,7 @@
 
 /* Rain of 25 mm/h takes 2.190804 dB there and back over 100 m. An ERCS of 100 makes the strength 1
  * at 100 m. */
-static void an_echo_is_received_with_the_effects_of_its_scan(void **state)
+EFFECT_TEST(an_echo_is_received_with_the_effects_of_its_scan)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
@@ -29,12 +29,4 @@ static void an_echo_is_received_with_the_effects_of_its_scan(void **state)
     assert_true(received.echo.range_m == 100);
     assert_true(received.effects ==
                 (echo.effects | EFFECT_BIT(EFFECT_RAIN) | EFFECT_BIT(EFFECT_AMBIGUITY)));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        EFFECT_TEST(an_echo_is_received_with_the_effects_of_its_scan),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

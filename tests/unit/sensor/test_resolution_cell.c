@@ -41,9 +41,8 @@ static double pattern(double azimuth_rad)
     return (u == 0 ? 1 : sin(u) / u) * cos(azimuth_rad) * cos(u);
 }
 
-static void strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pattern(void **state)
+TEST(strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pattern)
 {
-    (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct echo echo = echo_at(15, 0.4, -2, 0.5);
     struct received_echo received = received_echo_in_free_space(&sensor, &echo, 0.25);
@@ -57,9 +56,8 @@ static void strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pat
     assert_near(received_echo_in_free_space(&sensor, &echo, 0).strength, 2.5 * 3600, 1e-12);
 }
 
-static void without_superposition_a_cell_is_one_echo_of_the_summed_strength(void **state)
+TEST(without_superposition_a_cell_is_one_echo_of_the_summed_strength)
 {
-    (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
     struct received_echo echoes[4];
@@ -81,9 +79,8 @@ static struct echo ghost_at(double azimuth_rad, double departure_azimuth_rad)
     return ghost;
 }
 
-static void a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_reverse(void **state)
+TEST(a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_reverse)
 {
-    (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
     for (double azimuth_rad = -1.4; azimuth_rad <= 1.4; azimuth_rad += 0.1) {
@@ -112,9 +109,8 @@ static void a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_re
     arena_free(&arena);
 }
 
-static void a_single_echo_is_its_cell(void **state)
+TEST(a_single_echo_is_its_cell)
 {
-    (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
     for (double azimuth_rad = -1.5; azimuth_rad <= 1.5; azimuth_rad += 0.01) {
@@ -132,9 +128,8 @@ static void a_single_echo_is_its_cell(void **state)
 }
 
 /* To the bit: auto leaves superposition out where no cell has two echoes. */
-static void a_single_echo_of_an_array_has_one_cell_with_and_without_superposition(void **state)
+TEST(a_single_echo_of_an_array_has_one_cell_with_and_without_superposition)
 {
-    (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     sensor.beams.count = 1;
     struct arena arena = {0};
@@ -149,9 +144,8 @@ static void a_single_echo_of_an_array_has_one_cell_with_and_without_superpositio
 }
 
 /* Equations (4) and (5): amplitudes 6 and 2, so weights 3/4 and 1/4. */
-static void two_echoes_are_weighted_by_amplitude(void **state)
+TEST(two_echoes_are_weighted_by_amplitude)
 {
-    (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct received_echo echoes[] = {
         {.echo = {.id.object = "a", .id.reflector = "r", .range_m = 10, .range_rate_mps = -1},
@@ -187,9 +181,8 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
 /* Equation (8) for echoes at 30 degrees to the left and to the right, u = pi/4: with
  * f = si(pi/4) cos(pi/6) and cos u = sin u = sqrt(1/2), H_sum = f sqrt(1/2) and
  * H_delta = -+ j f sqrt(1/2) with phases from the centre. */
-static void pointers_add_up_as_in_equation_8(void **state)
+TEST(pointers_add_up_as_in_equation_8)
 {
-    (void)state;
     double part = sin(PI / 4) / (PI / 4) * cos(PI / 6) * sqrt(0.5);
     struct arena arena = {0};
     for (int element = 0; element < 2; element++) {
@@ -216,9 +209,8 @@ static void pointers_add_up_as_in_equation_8(void **state)
     arena_free(&arena);
 }
 
-static void phases_turn_the_pointers(void **state)
+TEST(phases_turn_the_pointers)
 {
-    (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
     struct received_echo echoes[] = {
@@ -246,9 +238,8 @@ static void phases_turn_the_pointers(void **state)
  * size of the complex position, sqrt((1 + rho^2 - 2 rho cos psi) / (1 + rho^2 + 2 rho cos psi)),
  * which is g in phase and in antiphase alone. Range stays at the mean weighted by amplitude,
  * equation (4). */
-static void a_coherent_pair_is_read_at_its_coherent_position(void **state)
+TEST(a_coherent_pair_is_read_at_its_coherent_position)
 {
-    (void)state;
     static const struct {
         double rho, psi_deg, ratio, magnitude;
     } cases[] = {
@@ -282,9 +273,8 @@ static void a_coherent_pair_is_read_at_its_coherent_position(void **state)
 }
 
 /* The mean of g over all phases is exactly the stronger echo's place (MODEL 14.18). */
-static void a_coherent_pair_is_at_its_stronger_echo_on_average(void **state)
+TEST(a_coherent_pair_is_at_its_stronger_echo_on_average)
 {
-    (void)state;
     enum { PHASES = 4096 };
     const double half_rad = 1e-5;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
@@ -307,9 +297,8 @@ static void a_coherent_pair_is_at_its_stronger_echo_on_average(void **state)
     arena_free(&arena);
 }
 
-static void weights_sum_to_one_and_means_stay_inside(void **state)
+TEST(weights_sum_to_one_and_means_stay_inside)
 {
-    (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     uint64_t random = 4;
     struct arena arena = {0};
@@ -344,9 +333,8 @@ static void weights_sum_to_one_and_means_stay_inside(void **state)
     arena_free(&arena);
 }
 
-static void ties_of_amplitude_go_by_the_frames_order(void **state)
+TEST(ties_of_amplitude_go_by_the_frames_order)
 {
-    (void)state;
     struct received_echo near = {.echo = {.id.object = "b", .id.reflector = "r", .range_m = 1},
                                  .amplitude = 2};
     struct received_echo far = {.echo = {.id.object = "a", .id.reflector = "r", .range_m = 2},
@@ -355,23 +343,4 @@ static void ties_of_amplitude_go_by_the_frames_order(void **state)
     assert_true(resolution_cell_compare(&far, &near) > 0);
     far.amplitude = 2.0000000000000004;
     assert_true(resolution_cell_compare(&near, &far) > 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pattern),
-        cmocka_unit_test(without_superposition_a_cell_is_one_echo_of_the_summed_strength),
-        cmocka_unit_test(a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_reverse),
-        cmocka_unit_test(a_single_echo_is_its_cell),
-        cmocka_unit_test(a_single_echo_of_an_array_has_one_cell_with_and_without_superposition),
-        cmocka_unit_test(two_echoes_are_weighted_by_amplitude),
-        cmocka_unit_test(pointers_add_up_as_in_equation_8),
-        cmocka_unit_test(phases_turn_the_pointers),
-        cmocka_unit_test(a_coherent_pair_is_read_at_its_coherent_position),
-        cmocka_unit_test(a_coherent_pair_is_at_its_stronger_echo_on_average),
-        cmocka_unit_test(weights_sum_to_one_and_means_stay_inside),
-        cmocka_unit_test(ties_of_amplitude_go_by_the_frames_order),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,9 +54,8 @@ static void assert_margin(const struct margins *margins, enum margin which, doub
 
 static const double none = (double)INFINITY;
 
-static void a_cell_has_the_least_margins_of_its_pairs(void **state)
+TEST(a_cell_has_the_least_margins_of_its_pairs)
 {
-    (void)state;
     const double ten_to_8 = 20 * log10(10 / 8.0), ten_to_5 = 20 * log10(2.0);
     const struct {
         const char *what;
@@ -158,9 +157,8 @@ static struct margins margins_from_all_pairs(const struct clustered_echoes *all,
 }
 
 /* Echoes along range, along range rate, in a crowd and few, some with larger cells than others. */
-static void margins_are_those_of_all_pairs(void **state)
+TEST(margins_are_those_of_all_pairs)
 {
-    (void)state;
     enum { ECHOES = 60 };
     static const struct margins no_margins = {0};
     uint64_t random = 5;
@@ -194,9 +192,8 @@ static void margins_are_those_of_all_pairs(void **state)
 }
 
 /* One of the cells reaches 2 m, of which 1.5 m are a quarter from the edge. */
-static void the_edge_is_that_of_the_larger_cell(void **state)
+TEST(the_edge_is_that_of_the_larger_cell)
 {
-    (void)state;
     for (size_t wide = 0; wide < 2; wide++) {
         const struct margins none_of_sight = {0};
         struct received_echo echoes[] = {
@@ -212,9 +209,8 @@ static void the_edge_is_that_of_the_larger_cell(void **state)
 }
 
 /* With delta 3 - 4j and sum 2, Im(delta conj sum) is -8 and |delta| |sum| is 10. */
-static void a_cell_has_margins_of_threshold_and_sign(void **state)
+TEST(a_cell_has_margins_of_threshold_and_sign)
 {
-    (void)state;
     struct cell cell = {.amplitude = 20, .sum_re = 2, .delta_re = 3, .delta_im = -4};
     resolution_cell_note_margins(&sensor, &cell);
     assert_int_equal(cell.margins.present, MARGIN_THRESHOLD | MARGIN_SIGN);
@@ -232,9 +228,8 @@ static void a_cell_has_margins_of_threshold_and_sign(void **state)
     assert_close(cell.margins.threshold_db, 20, 1e-13);
 }
 
-static void the_noisy_cell_has_the_lesser_margins(void **state)
+TEST(the_noisy_cell_has_the_lesser_margins)
 {
-    (void)state;
     struct margins margins = {
         .threshold_db = 10, .sign = 0.5, .present = MARGIN_THRESHOLD | MARGIN_SIGN};
     const struct cell cell = {0};
@@ -248,16 +243,4 @@ static void the_noisy_cell_has_the_lesser_margins(void **state)
     assert_close(margins.threshold_db, 10, 0);
     target_list_note_margins(&final, &cell, pointers, 2, final.final_threshold, &margins);
     assert_close(margins.threshold_db, 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cell_has_the_least_margins_of_its_pairs),
-        cmocka_unit_test(margins_are_those_of_all_pairs),
-        cmocka_unit_test(the_edge_is_that_of_the_larger_cell),
-        cmocka_unit_test(a_cell_has_margins_of_threshold_and_sign),
-        cmocka_unit_test(the_noisy_cell_has_the_lesser_margins),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,7 +77,9 @@ static struct scan scan_of(struct bench *bench)
     return scan_make(&context, &bench->selection);
 }
 
-static void cells_are_numbered_by_their_leaders_strongest_first(void **state)
+#define SCAN_TEST(name) TEST_WITH(make_bench, remove_bench, name)
+
+SCAN_TEST(cells_are_numbered_by_their_leaders_strongest_first)
 {
     struct bench *bench = *state;
     add_echo(bench, "another", "z", 20, 0, 99);
@@ -97,7 +99,7 @@ static void cells_are_numbered_by_their_leaders_strongest_first(void **state)
 }
 
 /* Echoes b and d have no cross section. */
-static void echoes_without_amplitude_are_silent_and_in_no_cell(void **state)
+SCAN_TEST(echoes_without_amplitude_are_silent_and_in_no_cell)
 {
     struct bench *bench = *state;
     add_echo(bench, "radar", "a", 20, 0, 1);
@@ -113,7 +115,7 @@ static void echoes_without_amplitude_are_silent_and_in_no_cell(void **state)
     assert_string_equal(scan.silent[1].echo.id.object, "d");
 }
 
-static void where_all_echoes_are_silent_there_is_no_cell(void **state)
+SCAN_TEST(where_all_echoes_are_silent_there_is_no_cell)
 {
     struct bench *bench = *state;
     add_echo(bench, "radar", "a", 20, 0, 0);
@@ -122,7 +124,7 @@ static void where_all_echoes_are_silent_there_is_no_cell(void **state)
     assert_int_equal(scan.silent_count, 1);
 }
 
-static void silent_echoes_are_lost_with_their_margins(void **state)
+SCAN_TEST(silent_echoes_are_lost_with_their_margins)
 {
     struct bench *bench = *state;
     bench->frame.sections = CARRY_ACCOUNT;
@@ -142,7 +144,7 @@ static void silent_echoes_are_lost_with_their_margins(void **state)
     assert_close(group->echoes.items[0].margins.sight_m, 0.25, 0);
 }
 
-static void a_scan_of_nothing_has_no_cells(void **state)
+SCAN_TEST(a_scan_of_nothing_has_no_cells)
 {
     struct bench *bench = *state;
     struct scan scan = scan_of(bench);
@@ -150,7 +152,7 @@ static void a_scan_of_nothing_has_no_cells(void **state)
     assert_int_equal(scan.silent_count, 0);
 }
 
-static void auto_leaves_out_merging_where_no_echoes_are_close(void **state)
+SCAN_TEST(auto_leaves_out_merging_where_no_echoes_are_close)
 {
     struct bench *bench = *state;
     bench->selection.automatic = true;
@@ -173,7 +175,7 @@ static void auto_leaves_out_merging_where_no_echoes_are_close(void **state)
 }
 
 /* Ranges fold at 15 m: a and b share a cell, unless folding is switched off. */
-static void a_scan_has_only_the_effects_of_its_selection(void **state)
+SCAN_TEST(a_scan_has_only_the_effects_of_its_selection)
 {
     struct bench *bench = *state;
     bench->sensor.unambiguous_range_m = 15;
@@ -189,7 +191,7 @@ static void a_scan_has_only_the_effects_of_its_selection(void **state)
 
 /* A window with cells of 1 m by 1 m/s resolves 1.7748 of them. b is so far from a as to have half
  * of its amplitude there; c is as far from a as the window resolves. */
-static void echoes_of_a_window_part_by_phase_and_count_by_their_response(void **state)
+SCAN_TEST(echoes_of_a_window_part_by_phase_and_count_by_their_response)
 {
     struct bench *bench = *state;
     double resolution = point_response_resolution(POINT_RESPONSE_HANN);
@@ -218,26 +220,4 @@ static void echoes_of_a_window_part_by_phase_and_count_by_their_response(void **
     struct scan scan = scan_of(bench);
     check_cell(&scan, 0, "ab");
     assert_near(scan.by_cell[1].amplitude, 2.0, 1e-9);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(cells_are_numbered_by_their_leaders_strongest_first,
-                                        make_bench, remove_bench),
-        cmocka_unit_test_setup_teardown(echoes_without_amplitude_are_silent_and_in_no_cell,
-                                        make_bench, remove_bench),
-        cmocka_unit_test_setup_teardown(where_all_echoes_are_silent_there_is_no_cell, make_bench,
-                                        remove_bench),
-        cmocka_unit_test_setup_teardown(silent_echoes_are_lost_with_their_margins, make_bench,
-                                        remove_bench),
-        cmocka_unit_test_setup_teardown(a_scan_of_nothing_has_no_cells, make_bench, remove_bench),
-        cmocka_unit_test_setup_teardown(auto_leaves_out_merging_where_no_echoes_are_close,
-                                        make_bench, remove_bench),
-        cmocka_unit_test_setup_teardown(a_scan_has_only_the_effects_of_its_selection, make_bench,
-                                        remove_bench),
-        cmocka_unit_test_setup_teardown(
-            echoes_of_a_window_part_by_phase_and_count_by_their_response, make_bench, remove_bench),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

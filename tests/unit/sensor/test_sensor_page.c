@@ -36,9 +36,8 @@ static double parted(enum point_response response, double ratio)
     return high;
 }
 
-static void resolutions(void **state)
+TEST(resolutions)
 {
-    (void)state;
     PRINTED("6", "# bins for Hann, # bins without a window, # X for pulses of width X",
             point_response_resolution(POINT_RESPONSE_HANN),
             point_response_resolution(POINT_RESPONSE_RECTANGULAR),
@@ -92,9 +91,8 @@ static double bandwidth(enum point_response response)
 
 #define HALF_POWER (10 * log10(2))
 
-static void smearing(void **state)
+TEST(smearing)
 {
-    (void)state;
     PRINTED("6.1", "W: 1 at 0, # at 0.5, # at 1, # at 1.5, # at 2.5", hann(0.5), hann(1), hann(1.5),
             hann(2.5));
     PRINTED("6.1", "one peak between them, # dB (ψ = 0), # dB (90 deg)", 20 * log10(2 * hann(0.5)),
@@ -129,9 +127,8 @@ static double of_8_degrees(enum antenna_phase phase, double ratio)
     return merged(phase, 1, -8, ratio, 8);
 }
 
-static void superposition(void **state)
+TEST(superposition)
 {
-    (void)state;
     PRINTED("8.1", "element # # # # # # # # #", mirrored(4), mirrored(6), mirrored(8), mirrored(10),
             mirrored(12), mirrored(15), mirrored(20), mirrored(25), mirrored(30));
     PRINTED("8.1", "`element` #, #, #, `centre` #, #, # deg", of_8_degrees(PHASE_ELEMENT, 1),
@@ -149,9 +146,8 @@ static double quantile(double part)
     return asin(2 / PI * atan(tan(u) * tan(PI / 2 * part))) / DEGREE;
 }
 
-static void phases(void **state)
+TEST(phases)
 {
-    (void)state;
     PRINTED("8.2", "quantiles #, #, #, #, # deg (10, 25, 50, 75, 90 %)", quantile(0.1),
             quantile(0.25), quantile(0.5), quantile(0.75), quantile(0.9));
     PRINTED("8.3", "T then stands # dB above the noise",
@@ -159,15 +155,4 @@ static void phases(void **state)
     PRINTED("14.18", "10 dB below their mean power with #, 20 dB with #", acos(0.9) / PI,
             acos(0.99) / PI);
     PRINTED("14.18", "half a turn: # mm at 76.5 GHz", 250 * units_wavelength_m(76.5e9));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(resolutions),
-        cmocka_unit_test(smearing),
-        cmocka_unit_test(superposition),
-        cmocka_unit_test(phases),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

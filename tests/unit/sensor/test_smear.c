@@ -103,7 +103,9 @@ static void assert_same_cell(const struct cell *cell, const struct cell *expecte
     assert_true(cell->effects == expected->effects);
 }
 
-static void a_single_echo_has_the_cell_of_glint_sensor(void **state)
+#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, name)
+
+SCENE_TEST(a_single_echo_has_the_cell_of_glint_sensor)
 {
     struct scene *scene = *state;
     uint64_t sample = 1;
@@ -129,7 +131,7 @@ static void a_single_echo_has_the_cell_of_glint_sensor(void **state)
     }
 }
 
-static void echoes_that_are_far_apart_do_not_touch(void **state)
+SCENE_TEST(echoes_that_are_far_apart_do_not_touch)
 {
     struct scene *scene = *state;
     start(scene);
@@ -161,7 +163,7 @@ static double place_of(const struct cell *cell, bool along_range)
     return along_range ? cell->range_m / 0.5 : cell->range_rate_mps / 0.25;
 }
 
-static void two_echoes_a_bin_apart_merge_unless_they_are_opposite(void **state)
+SCENE_TEST(two_echoes_a_bin_apart_merge_unless_they_are_opposite)
 {
     struct scene *scene = *state;
     for (int axis = 0; axis < 2; axis++) {
@@ -179,7 +181,7 @@ static void two_echoes_a_bin_apart_merge_unless_they_are_opposite(void **state)
     }
 }
 
-static void two_echoes_part_by_their_distance_and_phase(void **state)
+SCENE_TEST(two_echoes_part_by_their_distance_and_phase)
 {
     struct scene *scene = *state;
     for (double middle = 20; middle < 21; middle += 0.03) {
@@ -193,7 +195,7 @@ static void two_echoes_part_by_their_distance_and_phase(void **state)
     }
 }
 
-static void merged_echoes_read_at_the_angle_between_them(void **state)
+SCENE_TEST(merged_echoes_read_at_the_angle_between_them)
 {
     struct scene *scene = *state;
     start(scene);
@@ -205,7 +207,7 @@ static void merged_echoes_read_at_the_angle_between_them(void **state)
     assert_true((scene->cells[0].effects & EFFECT_BIT(EFFECT_COHERENCE)) == 0);
 }
 
-static void an_echo_beside_a_strong_one_is_in_its_cell(void **state)
+SCENE_TEST(an_echo_beside_a_strong_one_is_in_its_cell)
 {
     struct scene *scene = *state;
     start(scene);
@@ -221,7 +223,7 @@ static void an_echo_beside_a_strong_one_is_in_its_cell(void **state)
     assert_int_equal(scene->cells[1].members.count, 1);
 }
 
-static void side_lobes_alone_are_no_cells(void **state)
+SCENE_TEST(side_lobes_alone_are_no_cells)
 {
     struct scene *scene = *state;
     start(scene);
@@ -229,7 +231,7 @@ static void side_lobes_alone_are_no_cells(void **state)
     assert_int_equal(cells_of(scene), 1);
 }
 
-static void echoes_that_cancel_have_no_amplitude(void **state)
+SCENE_TEST(echoes_that_cancel_have_no_amplitude)
 {
     struct scene *scene = *state;
     start(scene);
@@ -242,7 +244,7 @@ static void echoes_that_cancel_have_no_amplitude(void **state)
     assert_int_equal(scene->cells[0].members.count, 2);
 }
 
-static void every_echo_is_in_one_cell_and_weights_add_up(void **state)
+SCENE_TEST(every_echo_is_in_one_cell_and_weights_add_up)
 {
     struct scene *scene = *state;
     uint64_t sample = 5;
@@ -266,7 +268,7 @@ static void every_echo_is_in_one_cell_and_weights_add_up(void **state)
 }
 
 /* Over widths of Hann's response from that at rest to eight times as much. */
-static void a_walking_echo_alone_keeps_its_place_and_amplitude(void **state)
+SCENE_TEST(a_walking_echo_alone_keeps_its_place_and_amplitude)
 {
     struct scene *scene = *state;
     uint64_t sample = 1;
@@ -284,7 +286,7 @@ static void a_walking_echo_alone_keeps_its_place_and_amplitude(void **state)
 
 /* Equal echoes in phase, a bin and a half apart with the sum's one peak at rest (MODEL 6.1), are
  * one up to about 1.5 f bins for responses f times as wide. */
-static void echoes_that_walk_are_one_farther_apart(void **state)
+SCENE_TEST(echoes_that_walk_are_one_farther_apart)
 {
     struct scene *scene = *state;
     for (double width = 1; width <= 4; width *= 2)
@@ -294,32 +296,4 @@ static void echoes_that_walk_are_one_farther_apart(void **state)
             add(scene, 20 + apart * width, 8, 5, 0)->widening = width - 1;
             assert_int_equal(cells_of(scene), (size_t)apart);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_single_echo_has_the_cell_of_glint_sensor, make_scene,
-                                        remove_scene),
-        cmocka_unit_test_setup_teardown(echoes_that_are_far_apart_do_not_touch, make_scene,
-                                        remove_scene),
-        cmocka_unit_test_setup_teardown(two_echoes_a_bin_apart_merge_unless_they_are_opposite,
-                                        make_scene, remove_scene),
-        cmocka_unit_test_setup_teardown(two_echoes_part_by_their_distance_and_phase, make_scene,
-                                        remove_scene),
-        cmocka_unit_test_setup_teardown(merged_echoes_read_at_the_angle_between_them, make_scene,
-                                        remove_scene),
-        cmocka_unit_test_setup_teardown(an_echo_beside_a_strong_one_is_in_its_cell, make_scene,
-                                        remove_scene),
-        cmocka_unit_test_setup_teardown(side_lobes_alone_are_no_cells, make_scene, remove_scene),
-        cmocka_unit_test_setup_teardown(echoes_that_cancel_have_no_amplitude, make_scene,
-                                        remove_scene),
-        cmocka_unit_test_setup_teardown(a_walking_echo_alone_keeps_its_place_and_amplitude,
-                                        make_scene, remove_scene),
-        cmocka_unit_test_setup_teardown(echoes_that_walk_are_one_farther_apart, make_scene,
-                                        remove_scene),
-        cmocka_unit_test_setup_teardown(every_echo_is_in_one_cell_and_weights_add_up, make_scene,
-                                        remove_scene),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

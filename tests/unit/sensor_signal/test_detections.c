@@ -90,9 +90,8 @@ static const char *leader_of(const struct detection *detection)
     return detection->cell.members.items[0].id.object;
 }
 
-static void an_echo_belongs_to_the_detection_that_shows_most_of_it(void **state)
+TEST(an_echo_belongs_to_the_detection_that_shows_most_of_it)
 {
-    (void)state;
     static struct bench bench;
     begin(&bench);
     receive(&bench, "far", 20.25, 1, 60);
@@ -114,9 +113,8 @@ static void an_echo_belongs_to_the_detection_that_shows_most_of_it(void **state)
 }
 
 /* The truth, in the label, does not tell a rate that the waveform cannot tell. */
-static void without_a_second_train_range_rates_fold_in_target_and_cell(void **state)
+TEST(without_a_second_train_range_rates_fold_in_target_and_cell)
 {
-    (void)state;
     static struct bench bench;
     begin(&bench);
     receive(&bench, "fast", 10, -29.75, 50);
@@ -132,9 +130,8 @@ static void without_a_second_train_range_rates_fold_in_target_and_cell(void **st
     arena_free(&bench.arena);
 }
 
-static void a_detection_without_an_echo_is_a_false_alarm_and_counted(void **state)
+TEST(a_detection_without_an_echo_is_a_false_alarm_and_counted)
 {
-    (void)state;
     static struct bench bench;
     begin(&bench);
     receive(&bench, "echo", 10, 0, 50);
@@ -149,9 +146,8 @@ static void a_detection_without_an_echo_is_a_false_alarm_and_counted(void **stat
 }
 
 /* Peaks to both sides of an echo, each too far off to be its own. */
-static void a_detection_that_an_echo_makes_half_of_has_its_label_too(void **state)
+TEST(a_detection_that_an_echo_makes_half_of_has_its_label_too)
 {
-    (void)state;
     static struct bench bench;
     begin(&bench);
     receive(&bench, "echo", 10.4, 0, 50);
@@ -165,9 +161,8 @@ static void a_detection_that_an_echo_makes_half_of_has_its_label_too(void **stat
     arena_free(&bench.arena);
 }
 
-static void echoes_without_a_detection_are_lost_for_their_reason(void **state)
+TEST(echoes_without_a_detection_are_lost_for_their_reason)
 {
-    (void)state;
     static struct bench bench;
     static const enum loss reasons[] = {LOSS_MASKED, LOSS_BELOW_FINAL, LOSS_BELOW_THRESHOLD};
     begin(&bench);
@@ -186,16 +181,4 @@ static void echoes_without_a_detection_are_lost_for_their_reason(void **state)
     assert_close(bench.frame.lost.items[1].echoes.items[0].shortfall_db, 20 * log10(2), 1e-2);
     assert_close(bench.frame.lost.items[2].echoes.items[0].shortfall_db, 20 * log10(2), 1e-9);
     arena_free(&bench.arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_echo_belongs_to_the_detection_that_shows_most_of_it),
-        cmocka_unit_test(without_a_second_train_range_rates_fold_in_target_and_cell),
-        cmocka_unit_test(a_detection_without_an_echo_is_a_false_alarm_and_counted),
-        cmocka_unit_test(a_detection_that_an_echo_makes_half_of_has_its_label_too),
-        cmocka_unit_test(echoes_without_a_detection_are_lost_for_their_reason),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

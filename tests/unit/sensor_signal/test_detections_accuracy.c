@@ -45,11 +45,19 @@ static struct effect_measurement accuracy_of(const struct sensor *sensor, double
     return measurement;
 }
 
-/* The Cramer-Rao bound of a frequency in white noise, sqrt(6)/(2 pi sqrt(snr)) bins, and with a
- * steep slope nothing of the range rate's. With Hann's window 1.58 sqrt(2/3) times that. */
-static void range_and_rate_have_the_bound_of_their_window(void **state)
+static int release(void **state)
 {
     (void)state;
+    arena_free(&arena);
+    return 0;
+}
+
+FIXTURE(NULL, release);
+
+/* The Cramer-Rao bound of a frequency in white noise, sqrt(6)/(2 pi sqrt(snr)) bins, and with a
+ * steep slope nothing of the range rate's. With Hann's window 1.58 sqrt(2/3) times that. */
+TEST(range_and_rate_have_the_bound_of_their_window)
+{
     struct sensor sensor = radar(POINT_RESPONSE_RECTANGULAR, 0);
     struct effect_measurement accuracy = accuracy_of(&sensor, 0, 400, 100);
     double bound = sqrt(6) / (2 * PI) / 20;
@@ -61,9 +69,8 @@ static void range_and_rate_have_the_bound_of_their_window(void **state)
 }
 
 /* A chirp of 20 MHz/us reads 3.825 mm more of range for each m/s. */
-static void the_error_of_the_rate_adds_to_that_of_the_range(void **state)
+TEST(the_error_of_the_rate_adds_to_that_of_the_range)
 {
-    (void)state;
     struct sensor sensor = radar(POINT_RESPONSE_RECTANGULAR, 0);
     double steep = accuracy_of(&sensor, 0, 400, 100).range_sigma_m;
     sensor.chirp_slope_hzps = 2e11; /* 0.3825 m for each m/s */
@@ -74,9 +81,8 @@ static void the_error_of_the_rate_adds_to_that_of_the_range(void **state)
 
 /* N elements half a wavelength apart: sqrt(6/(N (N^2 - 1)) N/(2 pi^2 d^2 ...)) of the sine, for 8
  * of them 0.389848/(8 d) sqrt(64/63) at 0 dB. Sum and delta: (sqrt 2/pi)/sqrt(snr) (MODEL 7.3). */
-static void the_azimuth_is_that_of_elements_or_of_sum_and_delta(void **state)
+TEST(the_azimuth_is_that_of_elements_or_of_sum_and_delta)
 {
-    (void)state;
     struct sensor sensor = radar(POINT_RESPONSE_HANN, 8);
     double sine = sqrt(6) / (2 * PI) / 4 * sqrt(64. / 63) / 10;
     assert_near(accuracy_of(&sensor, 0, 400, 100).azimuth_sigma_rad, sine, 1e-9);
@@ -86,9 +92,8 @@ static void the_azimuth_is_that_of_elements_or_of_sum_and_delta(void **state)
 }
 
 /* A real delta/sum of 0.3 is 0.3 · 10/sqrt(1.09/2) standard deviations from that of one echo. */
-static void an_azimuth_of_several_echoes_has_a_wider_deviation(void **state)
+TEST(an_azimuth_of_several_echoes_has_a_wider_deviation)
 {
-    (void)state;
     struct sensor sensor = radar(POINT_RESPONSE_HANN, 0);
     struct signal_cube signal = signal_cube_of(&sensor, &arena);
     struct effect_measurement alone = {.amplitude = 10, .pointers = {10, 0}}, several = alone;
@@ -100,9 +105,8 @@ static void an_azimuth_of_several_echoes_has_a_wider_deviation(void **state)
                 1e-9);
 }
 
-static void an_echo_below_the_noise_is_anywhere(void **state)
+TEST(an_echo_below_the_noise_is_anywhere)
 {
-    (void)state;
     struct sensor sensor = radar(POINT_RESPONSE_HANN, 0);
     struct effect_measurement accuracy = accuracy_of(&sensor, 0.1, 0, 0);
     assert_near(accuracy.range_sigma_m, 2 / sqrt(12), 1e-3);
@@ -110,32 +114,11 @@ static void an_echo_below_the_noise_is_anywhere(void **state)
     assert_near(accuracy.azimuth_sigma_rad, PI / 2 / sqrt(12), 1e-9);
 }
 
-static void bins_are_ranges_times_rates_times_beams(void **state)
+TEST(bins_are_ranges_times_rates_times_beams)
 {
-    (void)state;
     struct sensor sensor = radar(POINT_RESPONSE_HANN, 0), array = radar(POINT_RESPONSE_HANN, 8);
     struct signal_cube signal = signal_cube_of(&sensor, &arena);
     assert_close(detections_noise_bins(&signal), 50 * 32, 1e-9);
     signal = signal_cube_of(&array, &arena);
     assert_close(detections_noise_bins(&signal), 50 * 32 * 8, 1e-9);
-}
-
-static int release(void **state)
-{
-    (void)state;
-    arena_free(&arena);
-    return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(range_and_rate_have_the_bound_of_their_window),
-        cmocka_unit_test(the_error_of_the_rate_adds_to_that_of_the_range),
-        cmocka_unit_test(the_azimuth_is_that_of_elements_or_of_sum_and_delta),
-        cmocka_unit_test(an_azimuth_of_several_echoes_has_a_wider_deviation),
-        cmocka_unit_test(an_echo_below_the_noise_is_anywhere),
-        cmocka_unit_test(bins_are_ranges_times_rates_times_beams),
-    };
-    return cmocka_run_group_tests(tests, NULL, release);
 }

@@ -53,9 +53,8 @@ static size_t search(struct sky *sky, const struct cfar *cfar, double threshold,
 }
 
 /* An echo alone, with its side lobes, has one peak, of its place and amplitude. */
-static void one_echo_is_one_peak_at_its_place(void **state)
+TEST(one_echo_is_one_peak_at_its_place)
 {
-    (void)state;
     static const enum point_response responses[][2] = {
         {POINT_RESPONSE_HANN, POINT_RESPONSE_HANN},
         {POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR},
@@ -78,9 +77,8 @@ static void one_echo_is_one_peak_at_its_place(void **state)
 /* Under Hann's window a pair in phase 1 bin apart is one peak at its middle, 4.60 dB up; in
  * quadrature 1.59 dB up; in antiphase it is two with their peaks outside. 2 bins apart it is always
  * two. */
-static void two_equal_echoes_are_one_peak_or_two_by_distance_and_phase(void **state)
+TEST(two_equal_echoes_are_one_peak_or_two_by_distance_and_phase)
 {
-    (void)state;
     struct sky sky;
     struct range_doppler_peak *peaks;
     static const double gains[] = {4.60, 1.59};
@@ -106,9 +104,8 @@ static void two_equal_echoes_are_one_peak_or_two_by_distance_and_phase(void **st
 /* Near each other, two echoes of amplitude ratio rho and phase psi have their peak g half
  * separations from their middle, toward the stronger one. Near its cell the parabola reads 1.7 %
  * too much. */
-static void a_close_pair_has_its_peak_at_the_published_place(void **state)
+TEST(a_close_pair_has_its_peak_at_the_published_place)
 {
-    (void)state;
     static const struct {
         double rho, degrees, g;
     } cases[] = {{0.5, 0, 0.333333}, {0.5, 90, 0.6},      {0.5, 150, 1.953254}, {0.5, 180, 3},
@@ -128,9 +125,8 @@ static void a_close_pair_has_its_peak_at_the_published_place(void **state)
     }
 }
 
-static void a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only(void **state)
+TEST(a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only)
 {
-    (void)state;
     struct sky sky;
     struct range_doppler_peak *peaks;
     begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
@@ -144,9 +140,8 @@ static void a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only(voi
 }
 
 /* Every range rate of a range has an amplitude of 2: a peak must exceed that by the CFAR factor. */
-static void a_peak_must_exceed_the_rates_of_its_range(void **state)
+TEST(a_peak_must_exceed_the_rates_of_its_range)
 {
-    (void)state;
     for (double factor = 1; factor <= 100; factor *= 100) {
         struct sky sky;
         struct range_doppler_peak *peaks;
@@ -160,9 +155,8 @@ static void a_peak_must_exceed_the_rates_of_its_range(void **state)
     }
 }
 
-static void a_peak_is_that_of_its_strongest_beam(void **state)
+TEST(a_peak_is_that_of_its_strongest_beam)
 {
-    (void)state;
     enum { BEAMS = 3 };
     static const double amplitudes[BEAMS] = {5, 9, 7};
     static double power[BEAMS * WIDTH * HEIGHT];
@@ -186,9 +180,8 @@ static void a_peak_is_that_of_its_strongest_beam(void **state)
 }
 
 /* In its strongest beam the peak stands in a clutter of rates, in the other one alone. */
-static void a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam(void **state)
+TEST(a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam)
 {
-    (void)state;
     static double power[2 * WIDTH * HEIGHT];
     struct sky cluttered, clear;
     struct range_doppler_peak *peaks;
@@ -216,9 +209,8 @@ static void a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam(v
     arena_free(&clear.arena);
 }
 
-static void rings_close_at_both_ends(void **state)
+TEST(rings_close_at_both_ends)
 {
-    (void)state;
     struct sky sky;
     struct range_doppler_peak *peaks;
     begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
@@ -230,19 +222,4 @@ static void rings_close_at_both_ends(void **state)
     struct range_doppler_peak there = range_doppler_at(&sky.spectrum, &quiet, 32.25, 32);
     assert_near(there.amplitude, 100 * point_response_value(POINT_RESPONSE_HANN, 0.25), 1e-12);
     arena_free(&sky.arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_echo_is_one_peak_at_its_place),
-        cmocka_unit_test(two_equal_echoes_are_one_peak_or_two_by_distance_and_phase),
-        cmocka_unit_test(a_close_pair_has_its_peak_at_the_published_place),
-        cmocka_unit_test(a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only),
-        cmocka_unit_test(a_peak_must_exceed_the_rates_of_its_range),
-        cmocka_unit_test(a_peak_is_that_of_its_strongest_beam),
-        cmocka_unit_test(a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam),
-        cmocka_unit_test(rings_close_at_both_ends),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -122,9 +122,8 @@ static double size_of(struct phasor value)
 
 /* Around a standing echo, every bin of the sum channel is amplitude times point responses, but for
  * the finite number of samples. */
-static void a_standing_echo_has_the_point_response_of_its_window(void **state)
+TEST(a_standing_echo_has_the_point_response_of_its_window)
 {
-    (void)state;
     for (int window = POINT_RESPONSE_HANN; window <= POINT_RESPONSE_RECTANGULAR; window++) {
         struct bench bench;
         begin(&bench, radar(WAVEFORM_CHIRP, (enum point_response)window, 0));
@@ -144,9 +143,8 @@ static void a_standing_echo_has_the_point_response_of_its_window(void **state)
 }
 
 /* The echo's own bin has the pointers of glint-sensor, turned by its phase. */
-static void at_its_place_an_echo_has_its_pointers_and_its_phase(void **state)
+TEST(at_its_place_an_echo_has_its_pointers_and_its_phase)
 {
-    (void)state;
     for (int kind = WAVEFORM_CHIRP; kind <= WAVEFORM_PULSE; kind++) {
         struct bench bench;
         begin(&bench, radar((enum waveform_kind)kind, POINT_RESPONSE_HANN, 0));
@@ -178,9 +176,8 @@ static long double beat(long double carrier, long double slope, long double rang
 
 /* At 60 m/s each of 16 chirps of 240 us moves the echo by 15 mm. The samples of chirps that fall,
  * of which the second train's are made here, are sorted by frequency. */
-static void every_sample_has_the_exact_phase_of_its_delay(void **state)
+TEST(every_sample_has_the_exact_phase_of_its_delay)
 {
-    (void)state;
     for (size_t train = 0; train < 2; train++) {
         int way = train == 0 ? 1 : -1;
         struct bench bench;
@@ -210,9 +207,8 @@ static void every_sample_has_the_exact_phase_of_its_delay(void **state)
 
 /* A chirp of 1 m cells with a slope that couples half a bin with 2 m/s, 4 bins of rate. Over the
  * scan the echo moves symmetrically about its range. */
-static void a_moving_echo_is_at_its_place_at_mid_scan(void **state)
+TEST(a_moving_echo_is_at_its_place_at_mid_scan)
 {
-    (void)state;
     struct bench bench;
     struct sensor sensor = radar(WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 0);
     sensor.chirp_slope_hzps = 2 * 76.5e9 * 2;
@@ -232,9 +228,8 @@ static void a_moving_echo_is_at_its_place_at_mid_scan(void **state)
 }
 
 /* At 400 m/s it moves 1.57 m in a scan of 3.9 ms: each pulse by itself shows it sharply. */
-static void a_fast_echo_moves_through_the_range_bins(void **state)
+TEST(a_fast_echo_moves_through_the_range_bins)
 {
-    (void)state;
     struct bench bench;
     begin(&bench, radar(WAVEFORM_PULSE, POINT_RESPONSE_RECTANGULAR, 0));
     struct signal_input input = echo(&bench, ray_at(&bench.sensor, 3, 400, 0, 0));
@@ -253,9 +248,8 @@ static void a_fast_echo_moves_through_the_range_bins(void **state)
 }
 
 /* The curve of an element halves the amplitude 0.4 rad aside. */
-static void elements_have_the_curve_of_the_antenna_and_the_phase_of_their_place(void **state)
+TEST(elements_have_the_curve_of_the_antenna_and_the_phase_of_their_place)
 {
-    (void)state;
     static const struct receiver_curve_row rows[] = {{-0.4, -6.0206}, {0, 0}, {0.4, -6.0206}};
     struct bench bench;
     struct sensor sensor = radar(WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 4);
@@ -298,9 +292,8 @@ static void transform(const struct signal_cube *signal, const struct signal_inpu
 
 /* Of N elements d apart the beam towards another sine, x/(pi d) away, receives sin(N x)/(N sin x)
  * of an echo. */
-static void the_beams_of_the_spectrum_have_the_array_factor(void **state)
+TEST(the_beams_of_the_spectrum_have_the_array_factor)
 {
-    (void)state;
     struct bench bench;
     struct sensor sensor = radar(WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 8);
     sensor.field_of_view_rad = PI / 2;
@@ -327,9 +320,8 @@ static struct signal_input noise(uint64_t frame, double sigma)
 
 /* The mean power of many bins far apart is sigma^2 in each channel, times the elements of an array.
  * 5 % are five standard errors of 10,000 independent values. */
-static void noise_has_the_sensors_rms_after_windows_and_transforms(void **state)
+TEST(noise_has_the_sensors_rms_after_windows_and_transforms)
 {
-    (void)state;
     static const struct {
         enum waveform_kind kind;
         enum point_response window;
@@ -360,9 +352,8 @@ static void noise_has_the_sensors_rms_after_windows_and_transforms(void **state)
 }
 
 /* The noise of a matched receiver: the correlation of range bins is the pulse's point response. */
-static void the_noise_of_pulses_is_correlated_as_their_point_response(void **state)
+TEST(the_noise_of_pulses_is_correlated_as_their_point_response)
 {
-    (void)state;
     struct bench bench;
     double sums[5] = {0};
     begin(&bench, radar(WAVEFORM_PULSE, POINT_RESPONSE_RECTANGULAR, 0));
@@ -380,20 +371,4 @@ static void the_noise_of_pulses_is_correlated_as_their_point_response(void **sta
         assert_close(sums[away] / sums[0], point_response_value(POINT_RESPONSE_PULSE, (double)away),
                      0.01);
     arena_free(&bench.arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_standing_echo_has_the_point_response_of_its_window),
-        cmocka_unit_test(at_its_place_an_echo_has_its_pointers_and_its_phase),
-        cmocka_unit_test(every_sample_has_the_exact_phase_of_its_delay),
-        cmocka_unit_test(a_moving_echo_is_at_its_place_at_mid_scan),
-        cmocka_unit_test(a_fast_echo_moves_through_the_range_bins),
-        cmocka_unit_test(elements_have_the_curve_of_the_antenna_and_the_phase_of_their_place),
-        cmocka_unit_test(the_beams_of_the_spectrum_have_the_array_factor),
-        cmocka_unit_test(noise_has_the_sensors_rms_after_windows_and_transforms),
-        cmocka_unit_test(the_noise_of_pulses_is_correlated_as_their_point_response),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

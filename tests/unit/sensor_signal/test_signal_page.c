@@ -21,9 +21,8 @@ static double worst(enum point_response response, bool decibels)
     return most;
 }
 
-static void the_signal(void **state)
+TEST(the_signal)
 {
-    (void)state;
     PRINTED("11.3", "up to # bins and # dB off with Hann, # and # without",
             worst(POINT_RESPONSE_HANN, false), worst(POINT_RESPONSE_HANN, true),
             worst(POINT_RESPONSE_RECTANGULAR, false), worst(POINT_RESPONSE_RECTANGULAR, true));
@@ -42,18 +41,8 @@ static double ordered_factor(double false_alarm)
     return cfar_factor(CFAR_ORDERED, 16, 12, false_alarm);
 }
 
-static void thresholds(void **state)
+TEST(thresholds)
 {
-    (void)state;
     PRINTED("11.4", "CA, N = 16 # # # OS, 12th of 16 # # #", mean_factor(1e-3), mean_factor(1e-4),
             mean_factor(1e-6), ordered_factor(1e-3), ordered_factor(1e-4), ordered_factor(1e-6));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_signal),
-        cmocka_unit_test(thresholds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,9 +84,8 @@ static struct range_doppler_peak peak_of(const struct bench *bench,
     return peak;
 }
 
-static void the_second_train_tells_range_rates_apart_within_its_folds(void **state)
+TEST(the_second_train_tells_range_rates_apart_within_its_folds)
 {
-    (void)state;
     for (size_t elements = 0; elements <= 4; elements += 4)
         for (double rate_mps = -39; rate_mps < 40; rate_mps += 6.1) {
             struct bench bench;
@@ -104,9 +103,8 @@ static void the_second_train_tells_range_rates_apart_within_its_folds(void **sta
 }
 
 /* Beyond 40 m/s there is no hypothesis: 45 reads as -35, five bins too far. */
-static void beyond_its_folds_a_rate_folds_and_takes_its_range_along(void **state)
+TEST(beyond_its_folds_a_rate_folds_and_takes_its_range_along)
 {
-    (void)state;
     struct bench bench;
     struct unfolding_reading reading;
     struct received_echo echo = echo_at(12.3, 45, 0, 5);
@@ -120,9 +118,8 @@ static void beyond_its_folds_a_rate_folds_and_takes_its_range_along(void **state
 }
 
 /* The strong echo is what the second train shows where another hypothesis looks. */
-static void the_nearest_amplitude_wins_and_not_the_strongest(void **state)
+TEST(the_nearest_amplitude_wins_and_not_the_strongest)
 {
-    (void)state;
     struct bench bench;
     struct unfolding_reading reading;
     struct received_echo echoes[] = {echo_at(12.3, 4, 0, 5), echo_at(12.3, 23.2, 0, 50)};
@@ -134,9 +131,8 @@ static void the_nearest_amplitude_wins_and_not_the_strongest(void **state)
     arena_free(&bench.arena);
 }
 
-static void no_hypothesis_puts_a_target_where_the_sensor_does_not_measure(void **state)
+TEST(no_hypothesis_puts_a_target_where_the_sensor_does_not_measure)
 {
-    (void)state;
     struct bench bench;
     struct unfolding_reading reading;
     struct range_doppler_peak peak = {.range = 24.4, .rate = 8, .amplitude = 5};
@@ -154,9 +150,8 @@ static void no_hypothesis_puts_a_target_where_the_sensor_does_not_measure(void *
     arena_free(&bench.arena);
 }
 
-static void without_a_second_train_a_rate_is_read_in_the_middle_fold(void **state)
+TEST(without_a_second_train_a_rate_is_read_in_the_middle_fold)
 {
-    (void)state;
     struct bench bench;
     struct unfolding_reading reading;
     begin(&bench, 0, 0);
@@ -169,16 +164,4 @@ static void without_a_second_train_a_rate_is_read_in_the_middle_fold(void **stat
         assert_close(reading.range_m, 12 + round((rate_mps - reading.range_rate_mps) / 16), 1e-9);
     }
     arena_free(&bench.arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_second_train_tells_range_rates_apart_within_its_folds),
-        cmocka_unit_test(beyond_its_folds_a_rate_folds_and_takes_its_range_along),
-        cmocka_unit_test(the_nearest_amplitude_wins_and_not_the_strongest),
-        cmocka_unit_test(no_hypothesis_puts_a_target_where_the_sensor_does_not_measure),
-        cmocka_unit_test(without_a_second_train_a_rate_is_read_in_the_middle_fold),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

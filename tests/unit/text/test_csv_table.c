@@ -27,7 +27,9 @@ static struct csv_table table_of(struct scratch *scratch, const char *text)
     return table;
 }
 
-static void every_spelling_of_a_table_is_the_same_table(void **state)
+FIXTURE(make_scratch, remove_scratch);
+
+TEST(every_spelling_of_a_table_is_the_same_table)
 {
     static const char *const spellings[] = {
         "a,b\n1,2\n3,4\n",
@@ -54,7 +56,7 @@ static void every_spelling_of_a_table_is_the_same_table(void **state)
     }
 }
 
-static void quotes_keep_commas_line_breaks_blanks_and_quotes(void **state)
+TEST(quotes_keep_commas_line_breaks_blanks_and_quotes)
 {
     struct csv_table table =
         table_of(*state, "a,b,c,d,e\n\"1,2\",\"x\ny\",\" z \",\"say \"\"no\"\"\",\n");
@@ -64,7 +66,7 @@ static void quotes_keep_commas_line_breaks_blanks_and_quotes(void **state)
         assert_string_equal(csv_table_cell(&table, 0, i), cells[i]);
 }
 
-static void a_header_alone_is_a_table_without_rows(void **state)
+TEST(a_header_alone_is_a_table_without_rows)
 {
     struct csv_table table = table_of(*state, "a,b\n");
     assert_int_equal(table.columns, 2);
@@ -72,7 +74,7 @@ static void a_header_alone_is_a_table_without_rows(void **state)
 }
 
 /* The rows one after the other are those of the whole table, whatever the pieces of the file. */
-static void rows_come_one_after_the_other(void **state)
+TEST(rows_come_one_after_the_other)
 {
     struct scratch *scratch = *state;
     gzFile file = gzopen(scratch->path, "wb");
@@ -102,7 +104,7 @@ static void rows_come_one_after_the_other(void **state)
 }
 
 /* A fault comes after the rows before it. */
-static void rows_before_a_fault_come_first(void **state)
+TEST(rows_before_a_fault_come_first)
 {
     struct scratch *scratch = *state;
     FILE *file = fopen(scratch->path, "wb");
@@ -160,7 +162,7 @@ static void rows_of(struct scratch *scratch, const char *text, const struct csv_
     input_close(input);
 }
 
-static void a_table_of_numbers_has_the_names_that_it_lacks(void **state)
+TEST(a_table_of_numbers_has_the_names_that_it_lacks)
 {
     static const struct {
         const char *text, *rows;
@@ -179,7 +181,7 @@ static void a_table_of_numbers_has_the_names_that_it_lacks(void **state)
     }
 }
 
-static void lines_before_the_header_count_as_rows(void **state)
+TEST(lines_before_the_header_count_as_rows)
 {
     char rows[256];
     rows_of(*state, "tool 1, \"of\n\nmany, words\nid, x\n7, 1\n", &other_form, rows, sizeof rows);
@@ -190,7 +192,7 @@ static void lines_before_the_header_count_as_rows(void **state)
     assert_string_equal(rows, "2: tool 1=7 x=1\n");
 }
 
-static void long_cells_are_read_whole(void **state)
+TEST(long_cells_are_read_whole)
 {
     enum { LENGTH = 100000 };
     char *text = malloc(LENGTH + 8);
@@ -204,7 +206,7 @@ static void long_cells_are_read_whole(void **state)
     free(text);
 }
 
-static void rows_have_the_numbers_that_a_spreadsheet_shows(void **state)
+TEST(rows_have_the_numbers_that_a_spreadsheet_shows)
 {
     static const struct {
         const char *text;
@@ -227,7 +229,7 @@ static void rows_have_the_numbers_that_a_spreadsheet_shows(void **state)
     }
 }
 
-static void damaged_tables_are_refused(void **state)
+TEST(damaged_tables_are_refused)
 {
 #define QUOTE_MESSAGE                                                                              \
     "a misplaced quote; expected quotes around the whole cell, and those inside it doubled"
@@ -258,7 +260,7 @@ static void damaged_tables_are_refused(void **state)
 }
 
 /* Wherever it is cut but behind a line end: 1.8 may be 1.85. The whole rows come first. */
-static void a_table_that_is_cut_is_refused(void **state)
+TEST(a_table_that_is_cut_is_refused)
 {
     static const char *const texts[] = {
         "id,x\n1,1.85\n33,4\n",
@@ -287,7 +289,7 @@ static void a_table_that_is_cut_is_refused(void **state)
                               "line end after the last row");
 }
 
-static void a_nul_byte_is_refused_wherever_it_is(void **state)
+TEST(a_nul_byte_is_refused_wherever_it_is)
 {
     static const char text[] = "ab,c\r\n1,2\r\n3,4\r\n";
     for (size_t i = 0; i < sizeof text - 1; i++) {
@@ -308,7 +310,7 @@ static void a_nul_byte_is_refused_wherever_it_is(void **state)
     }
 }
 
-static void columns_are_found_by_their_whole_name(void **state)
+TEST(columns_are_found_by_their_whole_name)
 {
     struct csv_table table = table_of(*state, "x,xx,vx,X\n1,2,3,4\n");
     struct diag diag = {0};
@@ -322,7 +324,7 @@ static void columns_are_found_by_their_whole_name(void **state)
     assert_int_equal(diag.code, DIAG_DATA);
 }
 
-static void numbers_are_read_to_the_last_digit(void **state)
+TEST(numbers_are_read_to_the_last_digit)
 {
     struct csv_table table = table_of(
         *state, "x\n0\n-0\n12.5\n-7.25e-3\n1E2\n0.1\n5335123.4567\n2.2250738585072011e-308\n");
@@ -337,7 +339,7 @@ static void numbers_are_read_to_the_last_digit(void **state)
     }
 }
 
-static void cells_that_are_not_numbers_are_refused(void **state)
+TEST(cells_that_are_not_numbers_are_refused)
 {
     static const char *const cells[] = {"abc",    "12abc",  "\"\"",     "nan",    "NaN",   "-nan",
                                         "inf",    "-inf",   "Infinity", "0x10",   "0x1p3", "1e",
@@ -356,7 +358,7 @@ static void cells_that_are_not_numbers_are_refused(void **state)
     }
 }
 
-static void numbers_outside_their_bounds_are_refused(void **state)
+TEST(numbers_outside_their_bounds_are_refused)
 {
     struct csv_table table = table_of(*state, "azimuth_rad,x\n\n-0.5,2\n");
     double value;
@@ -368,27 +370,4 @@ static void numbers_outside_their_bounds_are_refused(void **state)
     diag = (struct diag){0};
     assert_int_equal(csv_table_number(&table, 0, 1, -1, 1.5, &value, &diag), -1);
     assert_string_equal(diag.text, "row 3, column \"x\": 2 is outside [-1, 1.5]");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_spelling_of_a_table_is_the_same_table),
-        cmocka_unit_test(quotes_keep_commas_line_breaks_blanks_and_quotes),
-        cmocka_unit_test(a_header_alone_is_a_table_without_rows),
-        cmocka_unit_test(rows_come_one_after_the_other),
-        cmocka_unit_test(rows_before_a_fault_come_first),
-        cmocka_unit_test(a_table_of_numbers_has_the_names_that_it_lacks),
-        cmocka_unit_test(lines_before_the_header_count_as_rows),
-        cmocka_unit_test(long_cells_are_read_whole),
-        cmocka_unit_test(rows_have_the_numbers_that_a_spreadsheet_shows),
-        cmocka_unit_test(damaged_tables_are_refused),
-        cmocka_unit_test(a_table_that_is_cut_is_refused),
-        cmocka_unit_test(a_nul_byte_is_refused_wherever_it_is),
-        cmocka_unit_test(columns_are_found_by_their_whole_name),
-        cmocka_unit_test(numbers_are_read_to_the_last_digit),
-        cmocka_unit_test(cells_that_are_not_numbers_are_refused),
-        cmocka_unit_test(numbers_outside_their_bounds_are_refused),
-    };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

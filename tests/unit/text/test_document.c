@@ -32,6 +32,7 @@ static int read_document(const char *path, const struct record *record, void *ba
 
 static int make_scratch(void **state)
 {
+    document_guard_memory();
     struct scratch *scratch = calloc(1, sizeof *scratch);
     assert_non_null(scratch);
     strcpy(scratch->directory, "/tmp/glint-document-XXXXXX");
@@ -69,7 +70,9 @@ static const char vehicle_text[] =
     " \"reflectors\": {\"blocks\": true, \"points\": [{\"name\": \"p\", \"x\": 0.5, \"y\": -0.5,\n"
     "  \"facing_rad\": 0, \"full_rad\": 1, \"zero_rad\": 2, \"ercs\": 1}]}}\n";
 
-static void names_are_looked_up_in_the_data_folder_first(void **state)
+FIXTURE(make_scratch, remove_scratch);
+
+TEST(names_are_looked_up_in_the_data_folder_first)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -91,7 +94,7 @@ static void names_are_looked_up_in_the_data_folder_first(void **state)
     assert_int_equal(unlink(car), 0);
 }
 
-static void a_name_with_a_slash_or_a_dot_is_a_path(void **state)
+TEST(a_name_with_a_slash_or_a_dot_is_a_path)
 {
     struct scratch *scratch = *state;
     static const char *const paths[] = {"./mine", "mine.json", "/a/b", "..", "a/b", "-", "x.y"};
@@ -101,7 +104,7 @@ static void a_name_with_a_slash_or_a_dot_is_a_path(void **state)
             document_find(NULL, "vehicles", paths[i], ".json", &scratch->arena, &diag), paths[i]);
 }
 
-static void for_an_unknown_name_the_message_lists_the_places(void **state)
+TEST(for_an_unknown_name_the_message_lists_the_places)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -117,7 +120,7 @@ static void for_an_unknown_name_the_message_lists_the_places(void **state)
     assert_int_equal(diag.code, DIAG_CONFIG);
 }
 
-static void names_are_listed_in_order_and_each_once(void **state)
+TEST(names_are_listed_in_order_and_each_once)
 {
     struct scratch *scratch = *state;
     struct document_names list;
@@ -132,7 +135,7 @@ static void names_are_listed_in_order_and_each_once(void **state)
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
 }
 
-static void folders_that_are_not_there_are_refused(void **state)
+TEST(folders_that_are_not_there_are_refused)
 {
     struct scratch *scratch = *state;
     struct document_names list;
@@ -145,7 +148,7 @@ static void folders_that_are_not_there_are_refused(void **state)
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
 }
 
-static void a_name_that_is_nearly_right_is_guessed(void **state)
+TEST(a_name_that_is_nearly_right_is_guessed)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -156,7 +159,7 @@ static void a_name_that_is_nearly_right_is_guessed(void **state)
     assert_non_null(strstr(diag.text, "; all are listed by glint --list vehicles"));
 }
 
-static void a_document_fills_its_struct(void **state)
+TEST(a_document_fills_its_struct)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -184,7 +187,7 @@ static void write_changed(const struct scratch *scratch, const char *from, const
     write_document(scratch, text);
 }
 
-static void faults_are_named_with_path_member_and_expectation(void **state)
+TEST(faults_are_named_with_path_member_and_expectation)
 {
     struct scratch *scratch = *state;
     static const struct {
@@ -221,7 +224,7 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
     }
 }
 
-static void text_that_is_not_a_document_is_refused_with_its_line(void **state)
+TEST(text_that_is_not_a_document_is_refused_with_its_line)
 {
     struct scratch *scratch = *state;
     static const struct {
@@ -249,7 +252,7 @@ static void text_that_is_not_a_document_is_refused_with_its_line(void **state)
     }
 }
 
-static void notes_are_strings(void **state)
+TEST(notes_are_strings)
 {
     struct scratch *scratch = *state;
     static const struct field fields[] = {
@@ -264,7 +267,7 @@ static void notes_are_strings(void **state)
     assert_non_null(strstr(diag.text, "mine.json: sources.c: a number; expected a string"));
 }
 
-static void a_missing_document_is_named(void **state)
+TEST(a_missing_document_is_named)
 {
     struct scratch *scratch = *state;
     struct vehicle vehicle;
@@ -277,23 +280,4 @@ static void a_missing_document_is_named(void **state)
     assert_int_equal(
         read_document(scratch->directory, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
     assert_non_null(strstr(diag.text, ": Is a directory"));
-}
-
-int main(void)
-{
-    document_guard_memory();
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_looked_up_in_the_data_folder_first),
-        cmocka_unit_test(a_name_with_a_slash_or_a_dot_is_a_path),
-        cmocka_unit_test(for_an_unknown_name_the_message_lists_the_places),
-        cmocka_unit_test(names_are_listed_in_order_and_each_once),
-        cmocka_unit_test(folders_that_are_not_there_are_refused),
-        cmocka_unit_test(a_name_that_is_nearly_right_is_guessed),
-        cmocka_unit_test(a_document_fills_its_struct),
-        cmocka_unit_test(faults_are_named_with_path_member_and_expectation),
-        cmocka_unit_test(text_that_is_not_a_document_is_refused_with_its_line),
-        cmocka_unit_test(notes_are_strings),
-        cmocka_unit_test(a_missing_document_is_named),
-    };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

@@ -44,14 +44,16 @@ static double number_of(struct bench *bench, const char *line, int64_t scene)
     return strtod(strrchr(drawn(bench, line, scene), ':') + 1, NULL);
 }
 
-static void a_document_without_distributions_stays_as_it_is(void **state)
+FIXTURE(make_bench, remove_bench);
+
+TEST(a_document_without_distributions_stays_as_it_is)
 {
     static const char line[] =
         "{\"a\":[1,-2.5,[],{}],\"b\":{\"c\":\"x\\\"\\u0001y\",\"d\":[true,null]},\"e\":\"\"}";
     assert_string_equal(drawn(*state, line, 3), line);
 }
 
-static void a_draw_is_that_of_its_seed_scene_and_path(void **state)
+TEST(a_draw_is_that_of_its_seed_scene_and_path)
 {
     double uniform[4], gaussian[4];
     struct random_address address = {
@@ -65,7 +67,7 @@ static void a_draw_is_that_of_its_seed_scene_and_path(void **state)
 }
 
 /* Tolerances are five standard errors. */
-static void uniform_draws_have_their_bounds_mean_and_variance(void **state)
+TEST(uniform_draws_have_their_bounds_mean_and_variance)
 {
     double sum = 0, squares = 0;
     for (int i = 0; i < DRAWS; i++) {
@@ -78,7 +80,7 @@ static void uniform_draws_have_their_bounds_mean_and_variance(void **state)
     assert_close(squares / DRAWS, 16 / 12.0, 5 * sqrt((256 / 80.0 - 256 / 144.0) / DRAWS));
 }
 
-static void normal_draws_have_their_mean_and_deviation(void **state)
+TEST(normal_draws_have_their_mean_and_deviation)
 {
     double sum = 0, squares = 0;
     int64_t beyond = 0;
@@ -93,7 +95,7 @@ static void normal_draws_have_their_mean_and_deviation(void **state)
     assert_close((double)beyond, 0.05 * DRAWS, 5 * sqrt(0.05 * 0.95 * DRAWS));
 }
 
-static void choices_come_equally_often_and_may_be_distributions(void **state)
+TEST(choices_come_equally_often_and_may_be_distributions)
 {
     struct bench *bench = *state;
     int64_t names = 0, lists = 0, numbers = 0;
@@ -111,7 +113,7 @@ static void choices_come_equally_often_and_may_be_distributions(void **state)
     assert_close((double)lists, DRAWS / 3.0, tolerance);
 }
 
-static void members_draw_independently(void **state)
+TEST(members_draw_independently)
 {
     double product = 0;
     for (int i = 0; i < DRAWS; i++) {
@@ -123,7 +125,7 @@ static void members_draw_independently(void **state)
     assert_close(product / DRAWS, 0, 5 / sqrt(DRAWS));
 }
 
-static void a_wrong_distribution_is_refused_by_its_member(void **state)
+TEST(a_wrong_distribution_is_refused_by_its_member)
 {
     struct bench *bench = *state;
     static const char *const wrong[] = {
@@ -150,18 +152,4 @@ static void a_wrong_distribution_is_refused_by_its_member(void **state)
         assert_memory_equal(bench->diag.text, "a[0].b: {", 9);
         assert_non_null(strstr(bench->diag.text, "; expected {"));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_document_without_distributions_stays_as_it_is),
-        cmocka_unit_test(a_draw_is_that_of_its_seed_scene_and_path),
-        cmocka_unit_test(uniform_draws_have_their_bounds_mean_and_variance),
-        cmocka_unit_test(normal_draws_have_their_mean_and_deviation),
-        cmocka_unit_test(choices_come_equally_often_and_may_be_distributions),
-        cmocka_unit_test(members_draw_independently),
-        cmocka_unit_test(a_wrong_distribution_is_refused_by_its_member),
-    };
-    return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }

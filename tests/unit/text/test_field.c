@@ -79,9 +79,8 @@ static const struct record record = {.name = "thing",
                                      .fields = fields,
                                      .present_offset = offsetof(struct thing, present)};
 
-static void the_ending_of_a_name_is_its_unit(void **state)
+TEST(the_ending_of_a_name_is_its_unit)
 {
-    (void)state;
     static const char *const cases[][2] = {{"range_m", "m"},
                                            {"time_s", "s"},
                                            {"range_rate_mps", "m/s"},
@@ -100,9 +99,8 @@ static void the_ending_of_a_name_is_its_unit(void **state)
         assert_string_equal(field_unit(cases[i][0]), cases[i][1]);
 }
 
-static void members_are_found_by_their_whole_name(void **state)
+TEST(members_are_found_by_their_whole_name)
 {
-    (void)state;
     for (size_t i = 0; fields[i].name != NULL; i++)
         assert_ptr_equal(field_find(&record, fields[i].name, strlen(fields[i].name)), &fields[i]);
     assert_ptr_equal(field_find(&record, "names", 4), &fields[NAME]);
@@ -112,9 +110,8 @@ static void members_are_found_by_their_whole_name(void **state)
     assert_null(field_find(&record, "Name", 4));
 }
 
-static void absent_members_have_their_value_and_are_recognized(void **state)
+TEST(absent_members_have_their_value_and_are_recognized)
 {
-    (void)state;
     struct arena arena = {0};
     struct thing thing;
     memset(&thing, 0xff, sizeof thing);
@@ -142,9 +139,8 @@ static void absent_members_have_their_value_and_are_recognized(void **state)
     arena_free(&arena);
 }
 
-static void an_optional_record_with_groups_is_present_with_any_of_them(void **state)
+TEST(an_optional_record_with_groups_is_present_with_any_of_them)
 {
-    (void)state;
     static const struct field inner_fields[] = {
         {FIELD_REAL_IN(struct thing, gain, 0, 1, "zero is a gain"), FIELD_OPTIONAL, .group = 1},
         {FIELD_REAL_IN(struct thing, range_m, 0, 1, "range"), FIELD_OPTIONAL, .group = 2},
@@ -167,9 +163,8 @@ static void an_optional_record_with_groups_is_present_with_any_of_them(void **st
 }
 
 /* The lower half of 0.5 is all zeros. */
-static void an_optional_record_without_groups_is_present_with_any_member(void **state)
+TEST(an_optional_record_without_groups_is_present_with_any_member)
 {
-    (void)state;
     static const struct field inner_fields[] = {
         {FIELD_REAL_IN(struct thing, gain, 0, 1, "gain"), FIELD_OPTIONAL},
         {FIELD_REAL_IN(struct thing, range_m, 0, 1, "range"), FIELD_OPTIONAL},
@@ -189,9 +184,8 @@ static void an_optional_record_without_groups_is_present_with_any_member(void **
     assert_true(field_present(&record, &outer, things));
 }
 
-static void numbers_are_taken_between_their_bounds(void **state)
+TEST(numbers_are_taken_between_their_bounds)
 {
-    (void)state;
     static const struct {
         int field;
         double value;
@@ -238,9 +232,8 @@ static int set_text(int field, struct thing *thing, const char *text, struct are
     return field_set_text(&fields[field], thing, text, strlen(text), arena, diag);
 }
 
-static void seeds_have_64_bits(void **state)
+TEST(seeds_have_64_bits)
 {
-    (void)state;
     static const struct {
         const char *text;
         uint64_t seed;
@@ -282,9 +275,8 @@ static void seeds_have_64_bits(void **state)
     arena_free(&arena);
 }
 
-static void names_and_choices_are_checked(void **state)
+TEST(names_and_choices_are_checked)
 {
-    (void)state;
     struct arena arena = {0};
     struct thing thing = {0};
     struct diag diag;
@@ -316,9 +308,8 @@ static void names_and_choices_are_checked(void **state)
     arena_free(&arena);
 }
 
-static void a_text_is_a_number_only_as_a_whole(void **state)
+TEST(a_text_is_a_number_only_as_a_whole)
 {
-    (void)state;
     static const char *const bad[] = {"",      " ",        "1 ",    " 1", "nan", "inf",
                                       "-inf",  "infinity", "0x10",  "1e", "-",   "e5",
                                       "1e999", "1,5",      "12abc", "+1", "--1"};
@@ -330,9 +321,8 @@ static void a_text_is_a_number_only_as_a_whole(void **state)
     assert_close(value, -1.5e-3, 0);
 }
 
-static void a_missing_member_is_named_with_what_it_may_be(void **state)
+TEST(a_missing_member_is_named_with_what_it_may_be)
 {
-    (void)state;
     struct diag diag = {0};
     static const struct {
         int field;
@@ -375,9 +365,8 @@ struct wide {
     SEVENTY(MEMBER)
 };
 
-static void a_table_may_have_more_than_64_members(void **state)
+TEST(a_table_may_have_more_than_64_members)
 {
-    (void)state;
     struct field wide_fields[] = {SEVENTY(FIELD){0}};
     wide_fields[69].optional = false;
     const struct record wide_record = {.size = sizeof(struct wide), .fields = wide_fields};
@@ -398,32 +387,12 @@ static void a_table_may_have_more_than_64_members(void **state)
     arena_free(&arena);
 }
 
-static void a_number_is_that_of_the_fields_kind(void **state)
+TEST(a_number_is_that_of_the_fields_kind)
 {
-    (void)state;
     struct thing thing = {.gain = 0.05, .number = -4, .flag = true, .colour = BLUE, .name = "n"};
     assert_close(field_number(&fields[GAIN], &thing), 0.05, 0);
     assert_close(field_number(&fields[NUMBER], &thing), -4, 0);
     assert_close(field_number(&fields[FLAG], &thing), 1, 0);
     assert_close(field_number(&fields[COLOUR], &thing), 2, 0);
     assert_close(field_number(&fields[NAME], &thing), 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_ending_of_a_name_is_its_unit),
-        cmocka_unit_test(members_are_found_by_their_whole_name),
-        cmocka_unit_test(absent_members_have_their_value_and_are_recognized),
-        cmocka_unit_test(an_optional_record_with_groups_is_present_with_any_of_them),
-        cmocka_unit_test(an_optional_record_without_groups_is_present_with_any_member),
-        cmocka_unit_test(numbers_are_taken_between_their_bounds),
-        cmocka_unit_test(seeds_have_64_bits),
-        cmocka_unit_test(names_and_choices_are_checked),
-        cmocka_unit_test(a_text_is_a_number_only_as_a_whole),
-        cmocka_unit_test(a_missing_member_is_named_with_what_it_may_be),
-        cmocka_unit_test(a_table_may_have_more_than_64_members),
-        cmocka_unit_test(a_number_is_that_of_the_fields_kind),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,9 +12,8 @@ static bool explains(const char *kind, const char *bytes, enum diag_code code, s
     return file_format_explain(kind, bytes, strlen(bytes), diag);
 }
 
-static void another_format_is_named_and_the_code_stays(void **state)
+TEST(another_format_is_named_and_the_code_stays)
 {
-    (void)state;
     struct diag diag;
     assert_true(explains("frame", "\xef\xbb\xbf <a><fcd-export>", DIAG_DATA, &diag));
     assert_string_equal(diag.text, "SUMO's floating car data; glint-traffic-sumo reads it");
@@ -23,9 +22,8 @@ static void another_format_is_named_and_the_code_stays(void **state)
     assert_int_equal(diag.code, DIAG_CONFIG);
 }
 
-static void a_reader_keeps_its_message_for_its_own_format_and_for_unknown_ones(void **state)
+TEST(a_reader_keeps_its_message_for_its_own_format_and_for_unknown_ones)
 {
-    (void)state;
     struct diag diag;
     assert_false(explains("floating car data", "<fcd-export>", DIAG_DATA, &diag));
     assert_string_equal(diag.text, "as it was");
@@ -34,17 +32,15 @@ static void a_reader_keeps_its_message_for_its_own_format_and_for_unknown_ones(v
     assert_false(explains("frame", "", DIAG_DATA, &diag));
 }
 
-static void a_file_that_cannot_be_read_is_of_no_format(void **state)
+TEST(a_file_that_cannot_be_read_is_of_no_format)
 {
-    (void)state;
     struct diag diag;
     assert_false(explains("frame", "<fcd-export>", DIAG_IO, &diag));
     assert_false(explains("frame", "<fcd-export>", DIAG_NO_INPUT, &diag));
 }
 
-static void encodings_that_no_reader_takes_are_named_before_what_they_hold(void **state)
+TEST(encodings_that_no_reader_takes_are_named_before_what_they_hold)
 {
-    (void)state;
     struct diag diag;
     assert_true(explains("frame", "\xef\xbb\xbf{\"version\":0}", DIAG_DATA, &diag));
     assert_string_equal(diag.text, "JSON behind a byte order mark; tail -c +4 leaves the mark out");
@@ -53,26 +49,23 @@ static void encodings_that_no_reader_takes_are_named_before_what_they_hold(void 
     assert_null(file_format_of("\n\xff\xfe{\0", 5));
 }
 
-static void words_count_only_behind_the_right_beginning(void **state)
+TEST(words_count_only_behind_the_right_beginning)
 {
-    (void)state;
     static const char frame[] = "{\"version\":0,\"scene\":\"<fcd-export xCenter trackId\"";
     assert_string_equal(file_format_of(frame, strlen(frame))->kind, "frame");
     assert_null(file_format_of("fcd-export>", 11));
     assert_null(file_format_of("text <fcd-export>", 17));
 }
 
-static void a_message_of_osi_stands_behind_its_length(void **state)
+TEST(a_message_of_osi_stands_behind_its_length)
 {
-    (void)state;
     assert_string_equal(file_format_of("\x10\0\0\0\n\x02", 6)->kind, "osi");
     assert_null(file_format_of("\x10\0\0\1\n\x02", 6));
     assert_null(file_format_of("\x10\0\0\0", 4));
 }
 
-static void cut_bytes_are_read_no_further(void **state)
+TEST(cut_bytes_are_read_no_further)
 {
-    (void)state;
     static const char text[] = "<?xml?><commonRoad>";
     size_t fits = strlen("<?xml?><commonRoad");
     char *exact = test_malloc(fits);
@@ -80,18 +73,4 @@ static void cut_bytes_are_read_no_further(void **state)
     assert_string_equal(file_format_of(exact, fits)->kind, "commonroad");
     assert_null(file_format_of(exact, fits - 1));
     test_free(exact);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(another_format_is_named_and_the_code_stays),
-        cmocka_unit_test(a_reader_keeps_its_message_for_its_own_format_and_for_unknown_ones),
-        cmocka_unit_test(a_file_that_cannot_be_read_is_of_no_format),
-        cmocka_unit_test(encodings_that_no_reader_takes_are_named_before_what_they_hold),
-        cmocka_unit_test(words_count_only_behind_the_right_beginning),
-        cmocka_unit_test(a_message_of_osi_stands_behind_its_length),
-        cmocka_unit_test(cut_bytes_are_read_no_further),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

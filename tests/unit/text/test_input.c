@@ -88,7 +88,9 @@ static struct text repeatable_bytes(size_t length, uint64_t seed)
     return text;
 }
 
-static void plain_and_gzip_and_several_members_read_the_same(void **state)
+FIXTURE(make_scratch, remove_scratch);
+
+TEST(plain_and_gzip_and_several_members_read_the_same)
 {
     static const size_t lengths[] = {0, 1, 2, 3, 65535, 65536, 65537, 131072, 300000};
     for (size_t i = 0; i < COUNT(lengths); i++) {
@@ -115,7 +117,7 @@ static void plain_and_gzip_and_several_members_read_the_same(void **state)
     }
 }
 
-static void gzip_that_expands_a_thousandfold_is_read_whole(void **state)
+TEST(gzip_that_expands_a_thousandfold_is_read_whole)
 {
     enum { LENGTH = 5000000 };
     char *zeros = calloc(1, LENGTH);
@@ -131,7 +133,7 @@ static void gzip_that_expands_a_thousandfold_is_read_whole(void **state)
     free(zeros);
 }
 
-static void gzip_cut_anywhere_is_refused(void **state)
+TEST(gzip_cut_anywhere_is_refused)
 {
     struct text bytes = repeatable_bytes(1500, 1), packed = {0};
     add_member(bytes.bytes, bytes.length, &packed);
@@ -153,7 +155,7 @@ static void gzip_cut_anywhere_is_refused(void **state)
     text_free(&packed);
 }
 
-static void a_flipped_bit_in_gzip_is_refused_or_changes_nothing(void **state)
+TEST(a_flipped_bit_in_gzip_is_refused_or_changes_nothing)
 {
     struct text bytes = repeatable_bytes(400, 2), packed = {0};
     add_member(bytes.bytes, bytes.length, &packed);
@@ -184,7 +186,7 @@ static void a_flipped_bit_in_gzip_is_refused_or_changes_nothing(void **state)
     text_free(&packed);
 }
 
-static void anything_after_the_last_member_is_refused(void **state)
+TEST(anything_after_the_last_member_is_refused)
 {
     static const char *const tails[] = {"x", "\n", "{}\n", "\x1f", "\x1f\x8b", "\x1f\x8b\x08"};
     for (size_t i = 0; i < COUNT(tails); i++) {
@@ -221,7 +223,7 @@ static void assert_lines(struct input *input, const char *const *lines, size_t c
     input_close(input);
 }
 
-static void lines_end_at_newlines_and_at_the_end(void **state)
+TEST(lines_end_at_newlines_and_at_the_end)
 {
     static const char *const lines[] = {"a", "", "bc\r", "", "d"};
     assert_lines(open_bytes(*state, "a\n\nbc\r\n\nd\n", 10), lines, 5);
@@ -231,7 +233,7 @@ static void lines_end_at_newlines_and_at_the_end(void **state)
     assert_lines(open_bytes(*state, "", 0), lines, 0);
 }
 
-static void lines_across_buffer_borders_are_whole(void **state)
+TEST(lines_across_buffer_borders_are_whole)
 {
     struct text bytes = {0}, packed = {0};
     uint64_t random = 4;
@@ -262,7 +264,7 @@ static void lines_across_buffer_borders_are_whole(void **state)
     text_free(&packed);
 }
 
-static void a_line_may_be_as_long_as_the_limit(void **state)
+TEST(a_line_may_be_as_long_as_the_limit)
 {
     static const size_t limits[] = {1, 10, 65535, 65536, 65537, 200000};
     for (size_t i = 0; i < COUNT(limits); i++)
@@ -286,7 +288,7 @@ static void a_line_may_be_as_long_as_the_limit(void **state)
             }
 }
 
-static void the_message_says_why_a_file_cannot_be_read(void **state)
+TEST(the_message_says_why_a_file_cannot_be_read)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -340,9 +342,8 @@ static void check_slow_pipe(int flags)
     text_free(&text);
 }
 
-static void a_pipe_that_gives_one_byte_at_a_time_is_read_whole(void **state)
+TEST(a_pipe_that_gives_one_byte_at_a_time_is_read_whole)
 {
-    (void)state;
     check_slow_pipe(0);
     check_slow_pipe(O_NONBLOCK);
 }
@@ -411,9 +412,8 @@ static void check_answers(bool packed)
     close(standard);
 }
 
-static void a_read_pauses_before_it_waits_and_only_then(void **state)
+TEST(a_read_pauses_before_it_waits_and_only_then)
 {
-    (void)state;
     check_answers(false);
     check_answers(true);
 }
@@ -423,7 +423,7 @@ static void count_pause(void *with)
     ++*(size_t *)with;
 }
 
-static void a_file_is_read_without_a_pause(void **state)
+TEST(a_file_is_read_without_a_pause)
 {
     struct scratch *scratch = *state;
     struct text bytes = repeatable_bytes(300000, 1), text = {0};
@@ -437,23 +437,4 @@ static void a_file_is_read_without_a_pause(void **state)
     input_close(input);
     text_free(&bytes);
     text_free(&text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plain_and_gzip_and_several_members_read_the_same),
-        cmocka_unit_test(gzip_that_expands_a_thousandfold_is_read_whole),
-        cmocka_unit_test(gzip_cut_anywhere_is_refused),
-        cmocka_unit_test(a_flipped_bit_in_gzip_is_refused_or_changes_nothing),
-        cmocka_unit_test(anything_after_the_last_member_is_refused),
-        cmocka_unit_test(lines_end_at_newlines_and_at_the_end),
-        cmocka_unit_test(lines_across_buffer_borders_are_whole),
-        cmocka_unit_test(a_line_may_be_as_long_as_the_limit),
-        cmocka_unit_test(the_message_says_why_a_file_cannot_be_read),
-        cmocka_unit_test(a_pipe_that_gives_one_byte_at_a_time_is_read_whole),
-        cmocka_unit_test(a_read_pauses_before_it_waits_and_only_then),
-        cmocka_unit_test(a_file_is_read_without_a_pause),
-    };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

@@ -25,9 +25,8 @@ static bool is_json(const char *text, size_t length, struct json_string *bytes)
     return good;
 }
 
-static void every_form_of_value_is_taken_with_its_exact_bytes(void **state)
+TEST(every_form_of_value_is_taken_with_its_exact_bytes)
 {
-    (void)state;
     static const char values[] =
         "null\ntrue\nfalse\n0\n-0\n7\n-12\n0.5\n-0.0\n1e5\n1E+5\n1e-05\n12.25e3\n1e-400\n"
         "123456789012345678901234567890\n\"\"\n\"a\"\n\"\\\"\\\\\\/\\b\\f\\n\\r\\t\"\n"
@@ -49,9 +48,8 @@ static void every_form_of_value_is_taken_with_its_exact_bytes(void **state)
     }
 }
 
-static void text_that_is_not_json_is_refused(void **state)
+TEST(text_that_is_not_json_is_refused)
 {
-    (void)state;
     static const char texts[] =
         "\n \nnul\nnulll\nTrue\ntru\ntruefalse\nNaN\nInfinity\n-Infinity\ninf\n-\n+1\n--1\n"
         "-a\n01\n-01\n00\n1.\n.5\n-.5\n1.e5\n1e\n1e+\n1E-\n1e1.5\n0x10\n1_000\n1 2\n1e309\n"
@@ -75,9 +73,8 @@ static void text_that_is_not_json_is_refused(void **state)
     assert_false(is_json("[\n1]", 4, &bytes));
 }
 
-static void a_nul_byte_is_no_json_wherever_it_stands(void **state)
+TEST(a_nul_byte_is_no_json_wherever_it_stands)
 {
-    (void)state;
     static const char text[] = "{\"ab\": [12, true, \"c\\n\"], \"d\": {}}";
     for (size_t i = 0; i <= sizeof text - 1; i++) {
         char with[sizeof text + 1];
@@ -89,9 +86,8 @@ static void a_nul_byte_is_no_json_wherever_it_stands(void **state)
     }
 }
 
-static void a_value_that_is_cut_short_is_refused(void **state)
+TEST(a_value_that_is_cut_short_is_refused)
 {
-    (void)state;
     static const char text[] = "{\"a\":[1,{\"b\\u00e9\":null},\"\xe2\x82\xac\"],\"c\":false}";
     struct json_string bytes;
     assert_true(is_json(text, sizeof text - 1, &bytes));
@@ -105,9 +101,8 @@ static void a_value_that_is_cut_short_is_refused(void **state)
     }
 }
 
-static void values_nest_to_the_limit_and_no_deeper(void **state)
+TEST(values_nest_to_the_limit_and_no_deeper)
 {
-    (void)state;
     char text[6 * (JSON_SCAN_DEPTH + 1) + 1];
     for (size_t depth = JSON_SCAN_DEPTH - 1; depth <= JSON_SCAN_DEPTH + 1; depth++) {
         struct json_string bytes;
@@ -126,9 +121,8 @@ static void values_nest_to_the_limit_and_no_deeper(void **state)
     assert_false(is_json(deep, sizeof deep, &bytes));
 }
 
-static void strings_are_decoded(void **state)
+TEST(strings_are_decoded)
 {
-    (void)state;
     static const struct {
         const char *text, *meaning;
     } cases[] = {
@@ -154,9 +148,8 @@ static void strings_are_decoded(void **state)
     }
 }
 
-static void every_code_point_survives_its_escapes(void **state)
+TEST(every_code_point_survives_its_escapes)
 {
-    (void)state;
     for (unsigned code = 1; code < 0x110000; code += code < 0x3000 ? 1 : 97) {
         if (code >= 0xd800 && code < 0xe000)
             continue;
@@ -181,9 +174,8 @@ static void every_code_point_survives_its_escapes(void **state)
     }
 }
 
-static void messages_say_what_was_expected(void **state)
+TEST(messages_say_what_was_expected)
 {
-    (void)state;
     static const struct {
         const char *text, *message;
     } cases[] = {
@@ -245,9 +237,8 @@ static size_t mutate(char *text, size_t length, size_t room, uint64_t *random)
 }
 
 /* jansson is given integers as reals: its own are 64 bits wide, JSON's are not. */
-static void jansson_takes_and_refuses_the_same_mutated_lines(void **state)
+TEST(jansson_takes_and_refuses_the_same_mutated_lines)
 {
-    (void)state;
     static const char *const seeds[] = {
         "{\"a\":[1,-2.5e3,{\"b\":null}],\"c\":\"x\\u00e9\\ud83d\\ude00\"}",
         "[true,false,null,0,-0,1e5,12345678901234567890123]",
@@ -280,20 +271,4 @@ static void jansson_takes_and_refuses_the_same_mutated_lines(void **state)
     /* Both verdicts, and the one known difference, did occur. */
     assert_in_range(taken, 10000, 90000);
     assert_true(wide > 100);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_form_of_value_is_taken_with_its_exact_bytes),
-        cmocka_unit_test(text_that_is_not_json_is_refused),
-        cmocka_unit_test(a_nul_byte_is_no_json_wherever_it_stands),
-        cmocka_unit_test(a_value_that_is_cut_short_is_refused),
-        cmocka_unit_test(values_nest_to_the_limit_and_no_deeper),
-        cmocka_unit_test(strings_are_decoded),
-        cmocka_unit_test(every_code_point_survives_its_escapes),
-        cmocka_unit_test(messages_say_what_was_expected),
-        cmocka_unit_test(jansson_takes_and_refuses_the_same_mutated_lines),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,9 +35,8 @@ static int read_points(struct frame *frame, const char *points, struct diag *dia
     return result;
 }
 
-static void the_same_text_is_the_same_list(void **state)
+TEST(the_same_text_is_the_same_list)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -57,9 +56,8 @@ static void the_same_text_is_the_same_list(void **state)
     arena_free(&arena);
 }
 
-static void a_faulty_list_is_refused_every_time(void **state)
+TEST(a_faulty_list_is_refused_every_time)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -76,9 +74,8 @@ static void a_faulty_list_is_refused_every_time(void **state)
     arena_free(&arena);
 }
 
-static void lists_that_do_not_repeat_are_kept_up_to_a_limit(void **state)
+TEST(lists_that_do_not_repeat_are_kept_up_to_a_limit)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -95,9 +92,8 @@ static void lists_that_do_not_repeat_are_kept_up_to_a_limit(void **state)
 }
 
 /* A stream's memory stays bounded whatever its lines hold. */
-static void long_lists_are_kept_up_to_a_limit_too(void **state)
+TEST(long_lists_are_kept_up_to_a_limit_too)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -122,9 +118,8 @@ static void long_lists_are_kept_up_to_a_limit_too(void **state)
     arena_free(&arena);
 }
 
-static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
+TEST(a_list_that_grows_leaves_the_kept_one_alone)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -167,9 +162,8 @@ static struct reflector_set document_of(struct point_reflector *points, size_t c
     return document;
 }
 
-static void the_text_of_a_documents_list_is_kept(void **state)
+TEST(the_text_of_a_documents_list_is_kept)
 {
-    (void)state;
     struct list_cache cache = {0};
     struct text line = {0};
     struct point_reflector points[] = {{.name = "a", .x = 0.25}, {.name = "b", .x = 0.5}};
@@ -185,9 +179,8 @@ static void the_text_of_a_documents_list_is_kept(void **state)
 }
 
 /* In the next frame the same address may hold another list. */
-static void a_frames_own_list_is_written_every_time(void **state)
+TEST(a_frames_own_list_is_written_every_time)
 {
-    (void)state;
     struct list_cache cache = {0};
     struct text line = {0};
     struct point_reflector own[] = {{.name = "a"}, {.name = "b"}}, read[] = {{.name = "a"}};
@@ -203,9 +196,8 @@ static void a_frames_own_list_is_written_every_time(void **state)
     arena_free(&cache.arena);
 }
 
-static void a_list_of_a_document_that_changed_is_written_anew(void **state)
+TEST(a_list_of_a_document_that_changed_is_written_anew)
 {
-    (void)state;
     struct list_cache cache = {0};
     struct text line = {0};
     struct point_reflector points[] = {{.name = "a"}, {.name = "b"}}, other[] = {{.name = "c"}};
@@ -221,9 +213,8 @@ static void a_list_of_a_document_that_changed_is_written_anew(void **state)
     arena_free(&cache.arena);
 }
 
-static void a_list_that_was_read_is_written_in_canonical_form(void **state)
+TEST(a_list_that_was_read_is_written_in_canonical_form)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -245,9 +236,8 @@ static void a_list_that_was_read_is_written_in_canonical_form(void **state)
 }
 
 /* A document's list that was written is known by its address alone. */
-static void a_list_that_was_only_written_is_found_in_no_line(void **state)
+TEST(a_list_that_was_only_written_is_found_in_no_line)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -267,9 +257,8 @@ static void a_list_that_was_only_written_is_found_in_no_line(void **state)
     arena_free(&arena);
 }
 
-static void a_line_that_ends_within_a_kept_list_does_not_have_it(void **state)
+TEST(a_line_that_ends_within_a_kept_list_does_not_have_it)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -285,9 +274,8 @@ static void a_line_that_ends_within_a_kept_list_does_not_have_it(void **state)
     arena_free(&arena);
 }
 
-static void the_text_of_points_is_no_list_of_planes(void **state)
+TEST(the_text_of_points_is_no_list_of_planes)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -304,9 +292,8 @@ static void the_text_of_points_is_no_list_of_planes(void **state)
 }
 
 /* The list's text in the line that was read has filled the memory already. */
-static void a_list_that_fills_the_memory_is_written_every_time(void **state)
+TEST(a_list_that_fills_the_memory_is_written_every_time)
 {
-    (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
     struct frame frame = {.arena = &arena, .list_cache = &cache};
@@ -331,9 +318,8 @@ static void a_list_that_fills_the_memory_is_written_every_time(void **state)
     arena_free(&arena);
 }
 
-static void text_that_was_written_is_kept_up_to_a_limit(void **state)
+TEST(text_that_was_written_is_kept_up_to_a_limit)
 {
-    (void)state;
     enum { MANY = 1000, DOCUMENTS = 40 };
     static struct point_reflector points[DOCUMENTS][MANY];
     struct list_cache cache = {0};
@@ -349,25 +335,4 @@ static void text_that_was_written_is_kept_up_to_a_limit(void **state)
     assert_true(cache.kept.count < DOCUMENTS);
     text_free(&line);
     arena_free(&cache.arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_text_is_the_same_list),
-        cmocka_unit_test(a_faulty_list_is_refused_every_time),
-        cmocka_unit_test(lists_that_do_not_repeat_are_kept_up_to_a_limit),
-        cmocka_unit_test(long_lists_are_kept_up_to_a_limit_too),
-        cmocka_unit_test(a_list_that_grows_leaves_the_kept_one_alone),
-        cmocka_unit_test(the_text_of_a_documents_list_is_kept),
-        cmocka_unit_test(a_frames_own_list_is_written_every_time),
-        cmocka_unit_test(a_list_of_a_document_that_changed_is_written_anew),
-        cmocka_unit_test(a_list_that_was_read_is_written_in_canonical_form),
-        cmocka_unit_test(a_list_that_was_only_written_is_found_in_no_line),
-        cmocka_unit_test(a_line_that_ends_within_a_kept_list_does_not_have_it),
-        cmocka_unit_test(the_text_of_points_is_no_list_of_planes),
-        cmocka_unit_test(a_list_that_fills_the_memory_is_written_every_time),
-        cmocka_unit_test(text_that_was_written_is_kept_up_to_a_limit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,8 +50,10 @@ int __wrap_flock(int fd, int operation);
 
 int __wrap_flock(int fd, int operation)
 {
+    if (!lockless)
+        return __real_flock(fd, operation);
     errno = ENOLCK;
-    return lockless ? -1 : __real_flock(fd, operation);
+    return -1;
 }
 
 int __real_rename(const char *from, const char *to);
@@ -134,7 +136,9 @@ static void write_file(const char *path, const struct text *text, size_t piece)
     assert_int_equal(output_close(output, 1, &diag), 0);
 }
 
-static void written_bytes_can_be_read(void **state)
+FIXTURE(make_scratch, remove_scratch);
+
+TEST(written_bytes_can_be_read)
 {
     struct scratch *scratch = *state;
     static const size_t lengths[] = {0, 1, 65535, 65536, 65537, 500000},
@@ -155,7 +159,7 @@ static void written_bytes_can_be_read(void **state)
     assert_int_equal(files_in(scratch->directory), 2);
 }
 
-static void appended_text_is_written_in_whole_pieces(void **state)
+TEST(appended_text_is_written_in_whole_pieces)
 {
     struct scratch *scratch = *state;
     static const size_t lengths[] = {1, 1000, 65535, 65536, 200000};
@@ -179,7 +183,7 @@ static void appended_text_is_written_in_whole_pieces(void **state)
     text_free(&all);
 }
 
-static void gz_is_gzip_and_depends_on_nothing_but_its_content(void **state)
+TEST(gz_is_gzip_and_depends_on_nothing_but_its_content)
 {
     struct scratch *scratch = *state;
     struct text text = sample_text(200000);
@@ -227,7 +231,7 @@ static void rewrite(const struct scratch *scratch, const char *path, bool whole)
     text_free(&new);
 }
 
-static void the_name_is_taken_only_when_the_file_is_complete(void **state)
+TEST(the_name_is_taken_only_when_the_file_is_complete)
 {
     struct scratch *scratch = *state;
     for (int i = 0; i < 8; i++) {
@@ -237,7 +241,7 @@ static void the_name_is_taken_only_when_the_file_is_complete(void **state)
     names_only = false;
 }
 
-static void a_file_that_is_replaced_keeps_its_mode(void **state)
+TEST(a_file_that_is_replaced_keeps_its_mode)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -341,7 +345,7 @@ static bool write_together(const char *const *paths, const char *word, int chang
     return WIFSIGNALED(code);
 }
 
-static void files_that_belong_together_are_never_old_beside_new(void **state)
+TEST(files_that_belong_together_are_never_old_beside_new)
 {
     struct scratch *scratch = *state;
     char names[TOGETHER][96];
@@ -384,7 +388,7 @@ static const char *temporary(const struct scratch *scratch, pid_t process, int n
     return path;
 }
 
-static void a_run_that_is_ended_leaves_the_folder_as_it_was(void **state)
+TEST(a_run_that_is_ended_leaves_the_folder_as_it_was)
 {
     struct scratch *scratch = *state;
     static const int signals[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, 0};
@@ -402,7 +406,7 @@ static void a_run_that_is_ended_leaves_the_folder_as_it_was(void **state)
         assert_int_equal(files_in(scratch->directory), before);
 }
 
-static void what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next(void **state)
+TEST(what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -424,7 +428,7 @@ static void what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next(vo
 }
 
 /* Whose file another host's temporary is, nobody here can know, and without locks nobody at all. */
-static void a_temporary_file_that_may_be_in_use_stays(void **state)
+TEST(a_temporary_file_that_may_be_in_use_stays)
 {
     struct scratch *scratch = *state;
     char foreign[128];
@@ -444,7 +448,7 @@ static void a_temporary_file_that_may_be_in_use_stays(void **state)
     unlink(foreign);
 }
 
-static void a_full_disk_leaves_the_folder_as_it_was(void **state)
+TEST(a_full_disk_leaves_the_folder_as_it_was)
 {
     struct scratch *scratch = *state;
     struct text new = sample_text(100000);
@@ -473,7 +477,7 @@ static void a_full_disk_leaves_the_folder_as_it_was(void **state)
 }
 
 /* Somebody who guessed the temporary name has made a link of that name. */
-static void a_planted_link_is_neither_followed_nor_removed(void **state)
+TEST(a_planted_link_is_neither_followed_nor_removed)
 {
     struct scratch *scratch = *state;
     char victim[128];
@@ -496,7 +500,7 @@ static void a_planted_link_is_neither_followed_nor_removed(void **state)
     unlink(victim);
 }
 
-static void two_writers_of_one_name_each_leave_a_whole_file(void **state)
+TEST(two_writers_of_one_name_each_leave_a_whole_file)
 {
     struct scratch *scratch = *state;
     int before = files_in(scratch->directory);
@@ -516,7 +520,7 @@ static void two_writers_of_one_name_each_leave_a_whole_file(void **state)
     names_only = false;
 }
 
-static void the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes(void **state)
+TEST(the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
 {
     struct scratch *scratch = *state;
     char twin[128];
@@ -535,7 +539,7 @@ static void the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes(void *
     names_only = false;
 }
 
-static void a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes(void **state)
+TEST(a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
 {
     struct scratch *scratch = *state;
     write_word(scratch->path, "old");
@@ -572,7 +576,7 @@ static void expect_refused(const struct scratch *scratch, const char *message)
     expect_bytes(scratch->path, "old");
 }
 
-static void a_file_that_may_be_written_but_not_replaced_is_refused_at_once(void **state)
+TEST(a_file_that_may_be_written_but_not_replaced_is_refused_at_once)
 {
     struct scratch *scratch = *state;
     write_word(scratch->path, "old");
@@ -590,7 +594,7 @@ static void a_file_that_may_be_written_but_not_replaced_is_refused_at_once(void 
 }
 
 /* The user who replaces it owns the new one, which gives no rights of the old owner's. */
-static void somebody_elses_file_is_replaced(void **state)
+TEST(somebody_elses_file_is_replaced)
 {
     struct scratch *scratch = *state;
     struct stat status;
@@ -618,7 +622,7 @@ static void somebody_elses_file_is_replaced(void **state)
     unlink(scratch->path);
 }
 
-static void a_file_that_may_not_be_written_is_refused_at_once(void **state)
+TEST(a_file_that_may_not_be_written_is_refused_at_once)
 {
     struct scratch *scratch = *state;
     write_word(scratch->path, "old");
@@ -629,7 +633,7 @@ static void a_file_that_may_not_be_written_is_refused_at_once(void **state)
     unlink(scratch->path);
 }
 
-static void a_link_to_nothing_makes_the_file_that_it_names(void **state)
+TEST(a_link_to_nothing_makes_the_file_that_it_names)
 {
     struct scratch *scratch = *state;
     char second[128];
@@ -655,7 +659,7 @@ static void a_link_to_nothing_makes_the_file_that_it_names(void **state)
     unlink(scratch->path);
 }
 
-static void a_name_may_be_as_long_as_the_file_system_allows(void **state)
+TEST(a_name_may_be_as_long_as_the_file_system_allows)
 {
     struct scratch *scratch = *state;
     char path[400];
@@ -673,7 +677,7 @@ static void a_name_may_be_as_long_as_the_file_system_allows(void **state)
 }
 
 /* What a shell's > would do: the bytes go where the descriptor stands, behind what is there. */
-static void an_open_descriptor_is_written_directly(void **state)
+TEST(an_open_descriptor_is_written_directly)
 {
     struct scratch *scratch = *state;
     static const char *const folders[] = {"/dev/fd", "/proc/self/fd"};
@@ -693,7 +697,7 @@ static void an_open_descriptor_is_written_directly(void **state)
     }
 }
 
-static void a_descriptor_that_cannot_be_written_is_refused(void **state)
+TEST(a_descriptor_that_cannot_be_written_is_refused)
 {
     struct scratch *scratch = *state;
     char path[64];
@@ -710,7 +714,7 @@ static void a_descriptor_that_cannot_be_written_is_refused(void **state)
     expect_bytes(scratch->path, "old");
 }
 
-static void the_message_says_why_a_file_cannot_be_created_and_nothing_is_left(void **state)
+TEST(the_message_says_why_a_file_cannot_be_created_and_nothing_is_left)
 {
     struct scratch *scratch = *state;
     int before = files_in(scratch->directory);
@@ -725,9 +729,8 @@ static void the_message_says_why_a_file_cannot_be_created_and_nothing_is_left(vo
     assert_int_equal(files_in(scratch->directory), before);
 }
 
-static void a_full_device_is_noticed_at_the_latest_when_it_is_closed(void **state)
+TEST(a_full_device_is_noticed_at_the_latest_when_it_is_closed)
 {
-    (void)state;
     static const size_t lengths[] = {1, 65536, 65537, 1000000};
     for (size_t i = 0; i < 4; i++) {
         struct text text = sample_text(lengths[i]);
@@ -744,7 +747,7 @@ static void a_full_device_is_noticed_at_the_latest_when_it_is_closed(void **stat
     }
 }
 
-static void pipes_and_devices_are_written_directly(void **state)
+TEST(pipes_and_devices_are_written_directly)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -777,7 +780,7 @@ static long waiting_in(int fd)
     return bytes;
 }
 
-static void what_a_pipe_holds_back_is_flushed(void **state)
+TEST(what_a_pipe_holds_back_is_flushed)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -796,7 +799,7 @@ static void what_a_pipe_holds_back_is_flushed(void **state)
 }
 
 /* Nobody can read a file before it has its name, and the bytes of a .gz do not depend on time. */
-static void files_keep_what_they_hold_back(void **state)
+TEST(files_keep_what_they_hold_back)
 {
     struct scratch *scratch = *state;
     for (int packed = 0; packed <= 1; packed++) {
@@ -807,37 +810,4 @@ static void files_keep_what_they_hold_back(void **state)
         assert_int_equal(output_text(output)->length, 4);
         assert_int_equal(output_close(output, true, &diag), 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(written_bytes_can_be_read),
-        cmocka_unit_test(appended_text_is_written_in_whole_pieces),
-        cmocka_unit_test(gz_is_gzip_and_depends_on_nothing_but_its_content),
-        cmocka_unit_test(the_name_is_taken_only_when_the_file_is_complete),
-        cmocka_unit_test(files_that_belong_together_are_never_old_beside_new),
-        cmocka_unit_test(a_file_that_is_replaced_keeps_its_mode),
-        cmocka_unit_test(a_run_that_is_ended_leaves_the_folder_as_it_was),
-        cmocka_unit_test(what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next),
-        cmocka_unit_test(a_temporary_file_that_may_be_in_use_stays),
-        cmocka_unit_test(a_full_disk_leaves_the_folder_as_it_was),
-        cmocka_unit_test(a_planted_link_is_neither_followed_nor_removed),
-        cmocka_unit_test(two_writers_of_one_name_each_leave_a_whole_file),
-        cmocka_unit_test(the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes),
-        cmocka_unit_test(a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes),
-        cmocka_unit_test(a_file_that_may_be_written_but_not_replaced_is_refused_at_once),
-        cmocka_unit_test(somebody_elses_file_is_replaced),
-        cmocka_unit_test(a_file_that_may_not_be_written_is_refused_at_once),
-        cmocka_unit_test(a_link_to_nothing_makes_the_file_that_it_names),
-        cmocka_unit_test(a_name_may_be_as_long_as_the_file_system_allows),
-        cmocka_unit_test(an_open_descriptor_is_written_directly),
-        cmocka_unit_test(a_descriptor_that_cannot_be_written_is_refused),
-        cmocka_unit_test(the_message_says_why_a_file_cannot_be_created_and_nothing_is_left),
-        cmocka_unit_test(a_full_device_is_noticed_at_the_latest_when_it_is_closed),
-        cmocka_unit_test(pipes_and_devices_are_written_directly),
-        cmocka_unit_test(what_a_pipe_holds_back_is_flushed),
-        cmocka_unit_test(files_keep_what_they_hold_back),
-    };
-    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

@@ -3,9 +3,8 @@
 
 #include "text/path.h"
 
-static void a_path_may_stand_for_a_descriptor(void **state)
+SCRATCH_TEST(a_path_may_stand_for_a_descriptor)
 {
-    (void)state;
     static const struct {
         const char *path;
         int descriptor;
@@ -17,9 +16,8 @@ static void a_path_may_stand_for_a_descriptor(void **state)
         assert_int_equal(path_descriptor(cases[i].path), cases[i].descriptor);
 }
 
-static void a_path_is_a_folder_and_a_name(void **state)
+SCRATCH_TEST(a_path_is_a_folder_and_a_name)
 {
-    (void)state;
     static const char *const cases[][3] = {
         {"a", ".", "a"}, {"/a", "/.", "a"}, {"b/c/a", "b/c/.", "a"}, {"b/", "b/.", ""}};
     for (size_t i = 0; i < 4; i++) {
@@ -30,7 +28,7 @@ static void a_path_is_a_folder_and_a_name(void **state)
     }
 }
 
-static void devices_and_pipes_are_special(void **state)
+SCRATCH_TEST(devices_and_pipes_are_special)
 {
     struct scratch *scratch = *state;
     assert_true(path_is_special("/dev/null"));
@@ -65,7 +63,7 @@ static void remove_links(const struct scratch *scratch)
         unlink(in(scratch, names[i]));
 }
 
-static void links_lead_to_a_path_whether_its_file_is_there_or_not(void **state)
+SCRATCH_TEST(links_lead_to_a_path_whether_its_file_is_there_or_not)
 {
     struct scratch *scratch = *state;
     make_links(scratch);
@@ -82,7 +80,7 @@ static void links_lead_to_a_path_whether_its_file_is_there_or_not(void **state)
     remove_links(scratch);
 }
 
-static void two_paths_to_one_file_are_the_same_whether_it_is_there_or_not(void **state)
+SCRATCH_TEST(two_paths_to_one_file_are_the_same_whether_it_is_there_or_not)
 {
     struct scratch *scratch = *state;
     static const char *const same[] = {"file", "./file", "link", "longer"};
@@ -102,17 +100,4 @@ static void two_paths_to_one_file_are_the_same_whether_it_is_there_or_not(void *
     assert_true(path_same_file(in(scratch, "twin"), in(scratch, "longer")));
     assert_false(path_same_file("/dev/null", "/dev/null"));
     remove_links(scratch);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, make_scratch, remove_scratch)
-        TEST(a_path_may_stand_for_a_descriptor),
-        TEST(a_path_is_a_folder_and_a_name),
-        TEST(devices_and_pipes_are_special),
-        TEST(links_lead_to_a_path_whether_its_file_is_there_or_not),
-        TEST(two_paths_to_one_file_are_the_same_whether_it_is_there_or_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,9 +71,8 @@ static const char *fault(const struct thing *thing)
     return diag.text;
 }
 
-static void a_missing_name_is_refused_unless_it_is_optional(void **state)
+TEST(a_missing_name_is_refused_unless_it_is_optional)
 {
-    (void)state;
     struct thing thing = good_thing();
     assert_string_equal(fault(&thing), "");
     thing.name = NULL;
@@ -83,9 +82,8 @@ static void a_missing_name_is_refused_unless_it_is_optional(void **state)
     assert_string_equal(fault(&thing), "alias: a name of 0 bytes; expected 1 to 1024");
 }
 
-static void a_number_out_of_bounds_is_refused_with_its_path(void **state)
+TEST(a_number_out_of_bounds_is_refused_with_its_path)
 {
-    (void)state;
     struct arena arena = {0};
     struct thing thing = good_thing();
     thing.gain = 0.2;
@@ -107,9 +105,8 @@ static void a_number_out_of_bounds_is_refused_with_its_path(void **state)
 }
 
 /* 0 is outside [1, 10], but is the value of the optional member when it is absent. */
-static void the_value_of_an_absent_member_passes_although_it_is_out_of_bounds(void **state)
+TEST(the_value_of_an_absent_member_passes_although_it_is_out_of_bounds)
 {
-    (void)state;
     struct thing thing = good_thing();
     thing.part.width_m = 0;
     assert_string_equal(fault(&thing), "");
@@ -117,9 +114,8 @@ static void the_value_of_an_absent_member_passes_although_it_is_out_of_bounds(vo
     assert_string_equal(fault(&thing), "part.width_m: -0.0 is outside [1, 10] m");
 }
 
-static void a_group_is_checked_only_if_it_is_present_and_wanted(void **state)
+TEST(a_group_is_checked_only_if_it_is_present_and_wanted)
 {
-    (void)state;
     struct arena arena = {0};
     struct thing thing = good_thing();
     struct part *part = field_list_add(&fields[PARTS], &thing, &arena);
@@ -137,9 +133,8 @@ static void a_group_is_checked_only_if_it_is_present_and_wanted(void **state)
 }
 
 /* The bad name follows the same name that is good, and precedes another one. */
-static void among_items_the_bad_name_is_found(void **state)
+TEST(among_items_the_bad_name_is_found)
 {
-    (void)state;
     struct arena arena = {0};
     struct thing thing = good_thing();
     for (int i = 0; i < 20; i++)
@@ -152,9 +147,8 @@ static void among_items_the_bad_name_is_found(void **state)
     arena_free(&arena);
 }
 
-static void lists_of_a_document_are_not_checked_again(void **state)
+TEST(lists_of_a_document_are_not_checked_again)
 {
-    (void)state;
     struct arena arena = {0};
     struct thing document = good_thing();
     struct part *part = field_list_add(&fields[MORE], &document, &arena);
@@ -178,9 +172,8 @@ static bool names_pass(const char *name, struct arena *arena)
     return message[0] == '\0';
 }
 
-static void every_byte_of_a_name_is_checked(void **state)
+TEST(every_byte_of_a_name_is_checked)
 {
-    (void)state;
     struct arena arena = {0};
     char name[FIELD_NAME_SIZE + 2] = "";
     assert_false(names_pass(name, &arena));
@@ -204,18 +197,4 @@ static void every_byte_of_a_name_is_checked(void **state)
     name[FIELD_NAME_SIZE] = 'a';
     assert_false(names_pass(name, &arena));
     arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_missing_name_is_refused_unless_it_is_optional),
-        cmocka_unit_test(a_number_out_of_bounds_is_refused_with_its_path),
-        cmocka_unit_test(the_value_of_an_absent_member_passes_although_it_is_out_of_bounds),
-        cmocka_unit_test(a_group_is_checked_only_if_it_is_present_and_wanted),
-        cmocka_unit_test(among_items_the_bad_name_is_found),
-        cmocka_unit_test(lists_of_a_document_are_not_checked_again),
-        cmocka_unit_test(every_byte_of_a_name_is_checked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -241,9 +241,11 @@ static bool starts_case(const struct object *object, const char *name)
            strcmp(object->id + length - 2, "-1") == 0;
 }
 
+FIXTURE(make_bench, remove_bench);
+
 /* The rounding of places some 500 m from the origin moves every distance by some 1e-13. A few cases
  * have no solution: three points that stay above the threshold up to the largest range. */
-static void every_case_is_as_hard_as_it_says(void **state)
+TEST(every_case_is_as_hard_as_it_says)
 {
     static const struct {
         const char *name;
@@ -289,7 +291,7 @@ static double off_bearing(const struct view *view)
 }
 
 /* Points of a chain merge by range or range rate, and an angle must then be estimated from both. */
-static void points_of_a_chain_are_seen_side_by_side(void **state)
+TEST(points_of_a_chain_are_seen_side_by_side)
 {
     struct bench *bench = *state;
     double made = 0, in_line = 0;
@@ -311,9 +313,8 @@ static void points_of_a_chain_are_seen_side_by_side(void **state)
 }
 
 /* One in eight is 0; of the others a sixth lies in each decade, half of them on either side. */
-static void margins_reach_down_six_decades_on_both_sides(void **state)
+TEST(margins_reach_down_six_decades_on_both_sides)
 {
-    (void)state;
     struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
     double zeros = 0, negative = 0, decade[6] = {0};
     for (int i = 0; i < DRAWS; i++) {
@@ -331,24 +332,12 @@ static void margins_reach_down_six_decades_on_both_sides(void **state)
 }
 
 /* To a thousandth. */
-static void one_margin_in_eight_is_0(void **state)
+TEST(one_margin_in_eight_is_0)
 {
-    (void)state;
     enum { MANY = 4000000 };
     struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
     double zeros = 0;
     for (int i = 0; i < MANY; i++)
         zeros += adversarial_traffic_margin(&draws, 1) == 0;
     assert_close(zeros / MANY, 1 / 8.0, 1e-3);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_case_is_as_hard_as_it_says),
-        cmocka_unit_test(points_of_a_chain_are_seen_side_by_side),
-        cmocka_unit_test(margins_reach_down_six_decades_on_both_sides),
-        cmocka_unit_test(one_margin_in_eight_is_0),
-    };
-    return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }

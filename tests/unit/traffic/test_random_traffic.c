@@ -64,7 +64,9 @@ static enum random_traffic_class class_of(const struct object *object)
     return class;
 }
 
-static void the_ego_stands_within_500_m_of_the_origin(void **state)
+FIXTURE(make_bench, remove_bench);
+
+TEST(the_ego_stands_within_500_m_of_the_origin)
 {
     struct bench *bench = *state;
     double most_m = 0;
@@ -76,9 +78,8 @@ static void the_ego_stands_within_500_m_of_the_origin(void **state)
     assert_close(most_m, 500, 1);
 }
 
-static void every_vehicle_document_has_a_share(void **state)
+TEST(every_vehicle_document_has_a_share)
 {
-    (void)state;
     DIR *folder = opendir("data/vehicles");
     assert_non_null(folder);
     int documents = 0;
@@ -97,7 +98,7 @@ static const double SHARES[TRAFFIC_CLASSES] = {
     [TRAFFIC_GUARDRAIL] = 0.04,
 };
 
-static void classes_come_in_their_shares(void **state)
+TEST(classes_come_in_their_shares)
 {
     double hits[TRAFFIC_CLASSES] = {0}, objects = 0;
     for (int64_t number = 0; number < 2000; number++) {
@@ -114,7 +115,7 @@ static void classes_come_in_their_shares(void **state)
 }
 
 /* The documented counts and radii, all of them reached. */
-static void densities_keep_to_their_numbers_and_radii(void **state)
+TEST(densities_keep_to_their_numbers_and_radii)
 {
     static const struct {
         int density;
@@ -174,7 +175,7 @@ static bool covers(const struct bench *bench, const struct object *one, const st
     return false;
 }
 
-static void no_object_overlaps_the_ego(void **state)
+TEST(no_object_overlaps_the_ego)
 {
     for (int density = 0; density < TRAFFIC_DENSITIES; density++)
         for (int64_t number = 0; number < SNAPSHOTS; number++) {
@@ -185,7 +186,7 @@ static void no_object_overlaps_the_ego(void **state)
         }
 }
 
-static void objects_overlap_each_other_but_rarely(void **state)
+TEST(objects_overlap_each_other_but_rarely)
 {
     double overlaps = 0, objects = 0;
     for (int64_t number = 0; number < 2 * SNAPSHOTS; number++) {
@@ -215,7 +216,7 @@ static void assert_same_objects(const struct frame *a, const struct frame *b)
     }
 }
 
-static void a_snapshot_is_drawn_by_its_number_alone(void **state)
+TEST(a_snapshot_is_drawn_by_its_number_alone)
 {
     void *other;
     make_bench(&other);
@@ -226,7 +227,7 @@ static void a_snapshot_is_drawn_by_its_number_alone(void **state)
     remove_bench(&other);
 }
 
-static void seed_number_and_density_each_make_another_snapshot(void **state)
+TEST(seed_number_and_density_each_make_another_snapshot)
 {
     const double x_m = snapshot(*state, TRAFFIC_DENSE, 5, 13)->objects.items[0].x_m;
     assert_true(fabs(snapshot(*state, TRAFFIC_DENSE, 6, 13)->objects.items[0].x_m - x_m) > 0);
@@ -258,7 +259,7 @@ static void check_interferers(const struct frame *frame)
         assert_string_not_equal(interferers[0].object, interferers[1].object);
 }
 
-static void roads_and_interferers_come_in_their_shares(void **state)
+TEST(roads_and_interferers_come_in_their_shares)
 {
     enum { FRAMES = 20000, ASPHALT, CONCRETE, ONE, TWO, KINDS };
     static const double shares[KINDS] = {
@@ -280,7 +281,7 @@ static void roads_and_interferers_come_in_their_shares(void **state)
 
 /* The share of scenes that have a condition, and its law: the middle of its range, evenly or in the
  * logarithm, is in the middle of what is drawn. */
-static void every_number_is_drawn_as_its_effect_says(void **state)
+TEST(every_number_is_drawn_as_its_effect_says)
 {
     enum { FRAMES = 20000 };
     double share = 0;
@@ -307,7 +308,7 @@ static void every_number_is_drawn_as_its_effect_says(void **state)
     }
 }
 
-static void conditions_of_few_objects_have_few_interferers(void **state)
+TEST(conditions_of_few_objects_have_few_interferers)
 {
     int64_t alone = 0, single = 0;
     for (int64_t number = 0; number < 3000; number++) {
@@ -319,7 +320,7 @@ static void conditions_of_few_objects_have_few_interferers(void **state)
     assert_true(alone > 0 && single > 0);
 }
 
-static void conditions_are_drawn_by_number_and_change_no_object(void **state)
+TEST(conditions_are_drawn_by_number_and_change_no_object)
 {
     for (int64_t number = 0; number < 50; number++) {
         double x_m = snapshot(*state, TRAFFIC_DENSE, 1, number)->objects.items[1].x_m;
@@ -346,7 +347,7 @@ static void check_strip(const struct roadside_strip *strip, const struct object 
     assert_int_equal(strip->kind == ROADSIDE_VEGETATION, strip->width_m > 0);
 }
 
-static void strips_run_along_the_road_on_both_sides_and_change_no_object(void **state)
+TEST(strips_run_along_the_road_on_both_sides_and_change_no_object)
 {
     struct bench *bench = *state;
     int kinds[ROADSIDE_VEGETATION + 1] = {0};
@@ -364,24 +365,4 @@ static void strips_run_along_the_road_on_both_sides_and_change_no_object(void **
     assert_near(kinds[ROADSIDE_KERB], 2 * SNAPSHOTS * 0.15, 0.15);
     assert_near(kinds[ROADSIDE_POLES], 2 * SNAPSHOTS * 0.3, 0.1);
     assert_near(kinds[ROADSIDE_VEGETATION], 2 * SNAPSHOTS * 0.5, 0.1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_ego_stands_within_500_m_of_the_origin),
-        cmocka_unit_test(every_vehicle_document_has_a_share),
-        cmocka_unit_test(classes_come_in_their_shares),
-        cmocka_unit_test(densities_keep_to_their_numbers_and_radii),
-        cmocka_unit_test(no_object_overlaps_the_ego),
-        cmocka_unit_test(objects_overlap_each_other_but_rarely),
-        cmocka_unit_test(a_snapshot_is_drawn_by_its_number_alone),
-        cmocka_unit_test(seed_number_and_density_each_make_another_snapshot),
-        cmocka_unit_test(roads_and_interferers_come_in_their_shares),
-        cmocka_unit_test(every_number_is_drawn_as_its_effect_says),
-        cmocka_unit_test(conditions_of_few_objects_have_few_interferers),
-        cmocka_unit_test(conditions_are_drawn_by_number_and_change_no_object),
-        cmocka_unit_test(strips_run_along_the_road_on_both_sides_and_change_no_object),
-    };
-    return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }

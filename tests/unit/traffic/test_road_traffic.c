@@ -105,8 +105,10 @@ static struct road_path path_of(struct bench *bench, const char *points, double 
 static const char CORNER[] =
     "{\"x_m\":0,\"y_m\":0},{\"x_m\":100,\"y_m\":0},{\"x_m\":100,\"y_m\":80}";
 
+FIXTURE(make_bench, remove_bench);
+
 /* A quarter circle around (80, 20) between straight pieces of 80 m and 60 m. */
-static void a_right_angle_is_rounded_by_a_quarter_circle(void **state)
+TEST(a_right_angle_is_rounded_by_a_quarter_circle)
 {
     static const double offsets_m[] = {0, 3.5, -3.5};
     for (size_t i = 0; i < COUNT(offsets_m); i++) {
@@ -133,7 +135,7 @@ static void a_right_angle_is_rounded_by_a_quarter_circle(void **state)
 }
 
 /* Half of the shorter leg is left to the arc: radius 40 m for a right angle. */
-static void without_a_radius_an_arc_takes_half_the_shorter_leg(void **state)
+TEST(without_a_radius_an_arc_takes_half_the_shorter_leg)
 {
     struct road_path path = path_of(*state, CORNER, 1e6, 0, false);
     assert_close(path.radius_m, 40, 1e-13);
@@ -143,7 +145,7 @@ static const char WINDING[] =
     "{\"x_m\":-50,\"y_m\":10},{\"x_m\":60,\"y_m\":0},{\"x_m\":120,\"y_m\":"
     "70},{\"x_m\":220,\"y_m\":20},{\"x_m\":150,\"y_m\":-90}";
 
-static void velocity_and_yaw_rate_are_derivatives_of_the_pose(void **state)
+TEST(velocity_and_yaw_rate_are_derivatives_of_the_pose)
 {
     struct road_path path = path_of(*state, WINDING, 1e6, 1.5, false);
     double speed_mps = 12, step_s = 1e-4;
@@ -162,7 +164,7 @@ static void velocity_and_yaw_rate_are_derivatives_of_the_pose(void **state)
     }
 }
 
-static void poses_are_continuous_along_the_lane(void **state)
+TEST(poses_are_continuous_along_the_lane)
 {
     struct road_path path = path_of(*state, WINDING, 1e6, -2, false);
     for (size_t i = 1; i < path.pieces.count; i++) {
@@ -174,7 +176,7 @@ static void poses_are_continuous_along_the_lane(void **state)
     }
 }
 
-static void an_oncoming_lane_is_the_same_way_back(void **state)
+TEST(an_oncoming_lane_is_the_same_way_back)
 {
     struct road_path there = path_of(*state, WINDING, 1e6, 1.5, false);
     struct arena kept = ((struct bench *)*state)->arena;
@@ -194,7 +196,7 @@ static void an_oncoming_lane_is_the_same_way_back(void **state)
 
 /* On a road of 600 s at its speed nobody has left it after that time. The tolerances are five
  * standard errors. */
-static void arrivals_are_a_poisson_process_of_the_classes_flows(void **state)
+TEST(arrivals_are_a_poisson_process_of_the_classes_flows)
 {
     struct bench *bench = *state;
     static const char text[] =
@@ -218,7 +220,7 @@ static void arrivals_are_a_poisson_process_of_the_classes_flows(void **state)
     assert_close(trucks / sum, 0.25, 5 * sqrt(0.1875 / sum));
 }
 
-static void who_finds_no_gap_waits_outside(void **state)
+TEST(who_finds_no_gap_waits_outside)
 {
     struct bench *bench = *state;
     static const char text[] =
@@ -237,7 +239,7 @@ static void who_finds_no_gap_waits_outside(void **state)
     assert_true(frame->objects.items[13].x_m >= 2.5);
 }
 
-static void frames_do_not_depend_on_how_time_was_cut(void **state)
+TEST(frames_do_not_depend_on_how_time_was_cut)
 {
     struct bench *bench = *state;
     begin_well(bench, CROWDED, 30, NULL, 5);
@@ -259,7 +261,7 @@ static void frames_do_not_depend_on_how_time_was_cut(void **state)
 }
 
 /* Behind a truck that nobody can overtake all end at its speed and the gap of that speed. */
-static void a_platoon_keeps_the_published_gaps(void **state)
+TEST(a_platoon_keeps_the_published_gaps)
 {
     struct bench *bench = *state;
     static const char text[] =
@@ -338,12 +340,11 @@ static void require_comfort(const struct road_traffic *traffic)
     }
 }
 
-/* How long all vehicles together drive; an argument of the program says another time. */
-static double wanted_s = 1e5;
-
-static void nobody_collides_or_drives_backwards(void **state)
+/* All vehicles together drive so many seconds, or what CASES says. */
+TEST(nobody_collides_or_drives_backwards)
 {
     struct bench *bench = *state;
+    const double wanted_s = check_cases(1e5);
     double driven_s = 0;
     for (int64_t scene = 0; driven_s < wanted_s; scene++) {
         begin_well(bench, CROWDED, 0, NULL, scene);
@@ -364,7 +365,7 @@ static void nobody_collides_or_drives_backwards(void **state)
 
 /* ---- the ego, mirrors, refusals ---- */
 
-static void the_ego_comes_by_its_place_at_time_zero(void **state)
+TEST(the_ego_comes_by_its_place_at_time_zero)
 {
     struct bench *bench = *state;
     static const char text[] =
@@ -385,7 +386,7 @@ static void the_ego_comes_by_its_place_at_time_zero(void **state)
 }
 
 /* Every y of the road with the other sign, and every offset. */
-static void a_mirrored_road_has_mirrored_traffic(void **state)
+TEST(a_mirrored_road_has_mirrored_traffic)
 {
     struct bench *bench = *state;
     begin_well(bench, CROWDED, 60, NULL, 2);
@@ -422,7 +423,7 @@ static void a_mirrored_road_has_mirrored_traffic(void **state)
     free(kept);
 }
 
-static void what_cannot_be_driven_is_refused(void **state)
+TEST(what_cannot_be_driven_is_refused)
 {
     struct bench *bench = *state;
     static const struct {
@@ -453,25 +454,4 @@ static void what_cannot_be_driven_is_refused(void **state)
         if (strncmp(bench->diag.text, cases[i].message, strlen(cases[i].message)) != 0)
             fail_msg("%s", bench->diag.text);
     }
-}
-
-int main(int count, char **words)
-{
-    wanted_s = count > 1 ? atof(words[1]) : wanted_s;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_right_angle_is_rounded_by_a_quarter_circle),
-        cmocka_unit_test(without_a_radius_an_arc_takes_half_the_shorter_leg),
-        cmocka_unit_test(velocity_and_yaw_rate_are_derivatives_of_the_pose),
-        cmocka_unit_test(poses_are_continuous_along_the_lane),
-        cmocka_unit_test(an_oncoming_lane_is_the_same_way_back),
-        cmocka_unit_test(arrivals_are_a_poisson_process_of_the_classes_flows),
-        cmocka_unit_test(who_finds_no_gap_waits_outside),
-        cmocka_unit_test(frames_do_not_depend_on_how_time_was_cut),
-        cmocka_unit_test(a_platoon_keeps_the_published_gaps),
-        cmocka_unit_test(nobody_collides_or_drives_backwards),
-        cmocka_unit_test(the_ego_comes_by_its_place_at_time_zero),
-        cmocka_unit_test(a_mirrored_road_has_mirrored_traffic),
-        cmocka_unit_test(what_cannot_be_driven_is_refused),
-    };
-    return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }

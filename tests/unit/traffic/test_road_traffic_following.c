@@ -21,9 +21,8 @@ static double equilibrium_gap_m(const struct road_driver *driver, double speed_m
            sqrt(1 - pow(speed_mps / driver->speed_mps, 4));
 }
 
-static void behind_a_leader_of_the_same_speed_the_published_gap_is_kept(void **state)
+TEST(behind_a_leader_of_the_same_speed_the_published_gap_is_kept)
 {
-    (void)state;
     assert_close(equilibrium_gap_m(&PUBLISHED, 0), 2, 0);
     for (double speed_mps = 0; speed_mps < 33.3; speed_mps += 0.1) {
         double gap_m = equilibrium_gap_m(&PUBLISHED, speed_mps);
@@ -37,9 +36,8 @@ static void behind_a_leader_of_the_same_speed_the_published_gap_is_kept(void **s
 }
 
 /* The terms of the model one by one, with figures put in by hand. */
-static void acceleration_is_that_of_the_published_formula(void **state)
+TEST(acceleration_is_that_of_the_published_formula)
 {
-    (void)state;
     struct road_driver driver = {20, 1.5, 2, 1, 4};
     assert_close(road_traffic_acceleration_mps2(&driver, 0, (double)INFINITY, 0), 1, 0);
     assert_close(road_traffic_acceleration_mps2(&driver, 10, (double)INFINITY, 0), 1 - 1.0 / 16, 0);
@@ -51,9 +49,8 @@ static void acceleration_is_that_of_the_published_formula(void **state)
 }
 
 /* dv/dt = a (1 - (v/v0)^4) integrates to t = v0 / (2 a) (artanh x + arctan x), x = v / v0. */
-static void speed_on_a_free_road_grows_as_the_closed_form(void **state)
+TEST(speed_on_a_free_road_grows_as_the_closed_form)
 {
-    (void)state;
     double place_m = 0, speed_mps = 0, step_s = 1.0 / 1024;
     for (int i = 1; i <= 60 * 1024; i++) {
         double acceleration =
@@ -67,9 +64,8 @@ static void speed_on_a_free_road_grows_as_the_closed_form(void **state)
     }
 }
 
-static void stops_are_exact_wherever_a_step_is_cut(void **state)
+TEST(stops_are_exact_wherever_a_step_is_cut)
 {
-    (void)state;
     static const double cuts_s[] = {0.1, 1.9, 2, 2.1, 5};
     for (size_t i = 0; i < COUNT(cuts_s); i++) {
         double place_m = 7, speed_mps = 6;
@@ -87,9 +83,8 @@ static void stops_are_exact_wherever_a_step_is_cut(void **state)
 
 /* Who drives up to something that stands ends gap_m before it, without braking much harder than is
  * comfortable. */
-static void an_obstacle_is_approached_comfortably_to_the_gap(void **state)
+TEST(an_obstacle_is_approached_comfortably_to_the_gap)
 {
-    (void)state;
     double place_m = 0, speed_mps = 30, hardest = 0, obstacle_m = 800;
     for (int i = 0; i < 300 * 16; i++) {
         double acceleration =
@@ -134,9 +129,8 @@ static double ring_flow_per_s(struct road_driver driver, double density_per_m)
 
 /* The fundamental diagram: at speed v a vehicle takes its length and the published gap, so density
  * is 1 / (l + s(v)) and flow is v times that. */
-static void the_fundamental_diagram_is_that_of_the_published_gaps(void **state)
+TEST(the_fundamental_diagram_is_that_of_the_published_gaps)
 {
-    (void)state;
     struct road_driver driver = PUBLISHED;
     driver.acceleration_mps2 = 3;
     double most_per_h = 0;
@@ -148,17 +142,4 @@ static void the_fundamental_diagram_is_that_of_the_published_gaps(void **state)
     }
     /* The capacity is below 1 / T, which it would be without lengths and gaps. */
     assert_true(most_per_h > 1600 && most_per_h < 3600 / 1.6);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(behind_a_leader_of_the_same_speed_the_published_gap_is_kept),
-        cmocka_unit_test(acceleration_is_that_of_the_published_formula),
-        cmocka_unit_test(speed_on_a_free_road_grows_as_the_closed_form),
-        cmocka_unit_test(stops_are_exact_wherever_a_step_is_cut),
-        cmocka_unit_test(an_obstacle_is_approached_comfortably_to_the_gap),
-        cmocka_unit_test(the_fundamental_diagram_is_that_of_the_published_gaps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

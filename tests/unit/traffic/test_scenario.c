@@ -43,9 +43,8 @@ static void check_place(struct vec2 place, double x_m, double y_m, double tolera
     assert_close(place.y, y_m, tolerance_m);
 }
 
-static void an_object_without_segments_keeps_its_start(void **state)
+TEST(an_object_without_segments_keeps_its_start)
 {
-    (void)state;
     struct actor actor = driver(NULL, 0);
     actor.x_m = 3;
     actor.y_m = -4;
@@ -62,9 +61,8 @@ static void an_object_without_segments_keeps_its_start(void **state)
     assert_close(travelled_at(&actor, 2), 60, 0);
 }
 
-static void a_constant_turn_is_a_circle(void **state)
+TEST(a_constant_turn_is_a_circle)
 {
-    (void)state;
     double radius_m = 50, speed_mps = 15, rate_radps = speed_mps / radius_m;
     struct segment turn = {.duration_s = 1000, .yaw_rate_radps = rate_radps};
     struct actor actor = driver(&turn, 1);
@@ -83,9 +81,8 @@ static void a_constant_turn_is_a_circle(void **state)
     }
 }
 
-static void straight_braking_is_a_parabola_and_then_a_line(void **state)
+TEST(straight_braking_is_a_parabola_and_then_a_line)
 {
-    (void)state;
     struct segment brake = {.duration_s = 3, .acceleration_mps2 = -4};
     struct actor actor = driver(&brake, 1);
     actor.speed_mps = 20;
@@ -99,9 +96,8 @@ static void straight_braking_is_a_parabola_and_then_a_line(void **state)
     }
 }
 
-static void braking_beyond_standstill_reverses(void **state)
+TEST(braking_beyond_standstill_reverses)
 {
-    (void)state;
     struct segment brake = {.duration_s = 5, .acceleration_mps2 = -1};
     struct actor actor = driver(&brake, 1);
     actor.speed_mps = 2;
@@ -120,9 +116,8 @@ static void braking_beyond_standstill_reverses(void **state)
     }
 }
 
-static void segments_follow_one_another(void **state)
+TEST(segments_follow_one_another)
 {
-    (void)state;
     struct segment segments[] = {
         {.duration_s = 2, .acceleration_mps2 = 5},
         {.duration_s = 0, .acceleration_mps2 = 1},
@@ -150,9 +145,8 @@ static void segments_follow_one_another(void **state)
     }
 }
 
-static void a_line_of_waypoints_is_driven_evenly(void **state)
+TEST(a_line_of_waypoints_is_driven_evenly)
 {
-    (void)state;
     struct waypoint waypoints[] = {
         {1, 5, 1}, {1.5, 6.5, 3}, {4, 14, 13}, {4.25, 14.75, 14}, {9, 29, 33}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
@@ -169,9 +163,8 @@ static void a_line_of_waypoints_is_driven_evenly(void **state)
 
 /* The three-point formula is exact for parabolas, and so is the cubic between two waypoints with
  * exact velocities. */
-static void inner_waypoints_of_a_parabola_lie_on_the_parabola(void **state)
+TEST(inner_waypoints_of_a_parabola_lie_on_the_parabola)
 {
-    (void)state;
     static const double times_s[] = {0, 1, 1.5, 4, 4.75, 6, 7};
     struct waypoint waypoints[COUNT(times_s)];
     for (size_t i = 0; i < COUNT(times_s); i++)
@@ -189,9 +182,8 @@ static void inner_waypoints_of_a_parabola_lie_on_the_parabola(void **state)
 static const struct waypoint WINDING[] = {{0.5, 0, 0}, {2, 12, 3},  {2.6, 18, 1},
                                           {5, 25, 22}, {6, 20, 30}, {8.5, -3, 18}};
 
-static void a_curve_goes_through_its_waypoints(void **state)
+TEST(a_curve_goes_through_its_waypoints)
 {
-    (void)state;
     struct waypoint waypoints[COUNT(WINDING)];
     memcpy(waypoints, WINDING, sizeof waypoints);
     struct actor actor = follower(waypoints, COUNT(waypoints));
@@ -200,9 +192,8 @@ static void a_curve_goes_through_its_waypoints(void **state)
                     1e-14);
 }
 
-static void a_curve_is_smooth_at_its_waypoints(void **state)
+TEST(a_curve_is_smooth_at_its_waypoints)
 {
-    (void)state;
     struct waypoint waypoints[COUNT(WINDING)];
     memcpy(waypoints, WINDING, sizeof waypoints);
     struct actor actor = follower(waypoints, COUNT(waypoints));
@@ -218,9 +209,8 @@ static void a_curve_is_smooth_at_its_waypoints(void **state)
     }
 }
 
-static void velocity_yaw_rate_and_way_are_derivatives_of_the_curve(void **state)
+TEST(velocity_yaw_rate_and_way_are_derivatives_of_the_curve)
 {
-    (void)state;
     struct waypoint waypoints[COUNT(WINDING)];
     memcpy(waypoints, WINDING, sizeof waypoints);
     struct actor actor = follower(waypoints, COUNT(waypoints));
@@ -237,9 +227,8 @@ static void velocity_yaw_rate_and_way_are_derivatives_of_the_curve(void **state)
     }
 }
 
-static void the_way_along_a_curve_is_that_of_its_chords(void **state)
+TEST(the_way_along_a_curve_is_that_of_its_chords)
 {
-    (void)state;
     struct waypoint waypoints[COUNT(WINDING)];
     memcpy(waypoints, WINDING, sizeof waypoints);
     struct actor actor = follower(waypoints, COUNT(waypoints));
@@ -258,9 +247,8 @@ static void the_way_along_a_curve_is_that_of_its_chords(void **state)
     assert_close(travelled_at(&actor, 0.25), 0, 0);
 }
 
-static void outside_its_waypoints_an_object_stands(void **state)
+TEST(outside_its_waypoints_an_object_stands)
 {
-    (void)state;
     struct waypoint waypoints[] = {{2, 1, 1}, {3, 1, 5}, {4, -3, 5}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
     struct motion before = motion_at(&actor, 0);
@@ -276,9 +264,8 @@ static void outside_its_waypoints_an_object_stands(void **state)
 }
 
 /* East, a stop, then north: while the object stands it points to where it goes next. */
-static void between_equal_waypoints_an_object_stands(void **state)
+TEST(between_equal_waypoints_an_object_stands)
 {
-    (void)state;
     struct waypoint waypoints[] = {{0, 0, 0},  {2, 10, 0}, {3, 10, 0},
                                    {5, 10, 0}, {7, 10, 8}, {9, 10, 8}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
@@ -304,9 +291,8 @@ static void between_equal_waypoints_an_object_stands(void **state)
 }
 
 /* There and back on a line: the object passes the waypoint in the middle at speed 0. */
-static void at_a_turning_point_an_object_points_where_it_goes_next(void **state)
+TEST(at_a_turning_point_an_object_points_where_it_goes_next)
 {
-    (void)state;
     struct waypoint waypoints[] = {{0, 0, 0}, {2, 10, 0}, {4, 0, 0}, {5, 0, 0}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
     assert_close(motion_at(&actor, 1.9).yaw_rad, 0, 1e-15);
@@ -317,9 +303,8 @@ static void at_a_turning_point_an_object_points_where_it_goes_next(void **state)
     assert_close(travelled_at(&actor, 4.5), 20, 1e-12);
 }
 
-static void an_object_that_never_moves_keeps_its_yaw(void **state)
+TEST(an_object_that_never_moves_keeps_its_yaw)
 {
-    (void)state;
     struct waypoint waypoints[] = {{0, 4, 2}, {1, 4, 2}, {5, 4, 2}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
     actor.yaw_rad = -1.25;
@@ -341,9 +326,8 @@ static struct scenario scenario_of(struct actor *actors, size_t count)
 }
 
 /* The tolerance is the rounding of the document's own numbers: half a step of 9.3e-10 m. */
-static void a_shifted_scenario_moves_like_a_local_one(void **state)
+TEST(a_shifted_scenario_moves_like_a_local_one)
 {
-    (void)state;
     struct vec2 origin_m = {500000, 5300000};
     struct waypoint near[COUNT(WINDING)], far[COUNT(WINDING)];
     memcpy(near, WINDING, sizeof near);
@@ -378,9 +362,8 @@ static void a_shifted_scenario_moves_like_a_local_one(void **state)
 }
 
 /* No error accumulates over 1e6 frames. */
-static void a_million_frames_do_not_drift(void **state)
+TEST(a_million_frames_do_not_drift)
 {
-    (void)state;
     double rate_hz = 17, speed_mps = 33.3;
     struct segment ahead = {.duration_s = 1e6};
     struct actor actor = driver(&ahead, 1);
@@ -393,9 +376,8 @@ static void a_million_frames_do_not_drift(void **state)
     }
 }
 
-static void frames_are_counted_despite_rounding(void **state)
+TEST(frames_are_counted_despite_rounding)
 {
-    (void)state;
     static const struct {
         double rate_hz, duration_s;
         int64_t frames;
@@ -430,9 +412,8 @@ static void frames_are_counted_despite_rounding(void **state)
         }
 }
 
-static void contradictory_scenarios_are_refused(void **state)
+TEST(contradictory_scenarios_are_refused)
 {
-    (void)state;
     struct waypoint good[] = {{0, 0, 0}, {1, 1, 0}}, bad[] = {{0, 0, 0}, {2, 1, 0}, {2, 2, 0}};
     struct segment segment = {.duration_s = 1};
     struct actor plain = driver(NULL, 0), following = follower(good, 2);
@@ -469,9 +450,8 @@ static void contradictory_scenarios_are_refused(void **state)
     }
 }
 
-static void a_scenario_knows_its_interferers(void **state)
+TEST(a_scenario_knows_its_interferers)
 {
-    (void)state;
     struct actor actors[] = {driver(NULL, 0)};
     struct interferer interferers[] = {{.object = "a"}, {.object = "nobody"}};
     struct scenario scenario = scenario_of(actors, 1);
@@ -485,9 +465,8 @@ static void a_scenario_knows_its_interferers(void **state)
                         "conditions.interferers[1].object: \"nobody\" is not the id of an object");
 }
 
-static void values_outside_their_bounds_are_refused(void **state)
+TEST(values_outside_their_bounds_are_refused)
 {
-    (void)state;
     struct waypoint waypoints[] = {{0, 1e9, -1e9}, {1, 0, 1.5e9}};
     struct actor actors[] = {driver(NULL, 0), follower(waypoints, 2)};
     struct scenario scenario = scenario_of(actors, 2);
@@ -500,32 +479,4 @@ static void values_outside_their_bounds_are_refused(void **state)
     scenario.rate_hz = 0.05;
     assert_int_equal(record_write_check(&scenario_record, &scenario, ~0U, &diag), -1);
     assert_string_equal(diag.text, "rate_hz: 0.05 is outside [0.1, 10000] Hz");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_object_without_segments_keeps_its_start),
-        cmocka_unit_test(a_constant_turn_is_a_circle),
-        cmocka_unit_test(straight_braking_is_a_parabola_and_then_a_line),
-        cmocka_unit_test(braking_beyond_standstill_reverses),
-        cmocka_unit_test(segments_follow_one_another),
-        cmocka_unit_test(a_line_of_waypoints_is_driven_evenly),
-        cmocka_unit_test(inner_waypoints_of_a_parabola_lie_on_the_parabola),
-        cmocka_unit_test(a_curve_goes_through_its_waypoints),
-        cmocka_unit_test(a_curve_is_smooth_at_its_waypoints),
-        cmocka_unit_test(velocity_yaw_rate_and_way_are_derivatives_of_the_curve),
-        cmocka_unit_test(the_way_along_a_curve_is_that_of_its_chords),
-        cmocka_unit_test(outside_its_waypoints_an_object_stands),
-        cmocka_unit_test(between_equal_waypoints_an_object_stands),
-        cmocka_unit_test(at_a_turning_point_an_object_points_where_it_goes_next),
-        cmocka_unit_test(an_object_that_never_moves_keeps_its_yaw),
-        cmocka_unit_test(a_shifted_scenario_moves_like_a_local_one),
-        cmocka_unit_test(a_million_frames_do_not_drift),
-        cmocka_unit_test(frames_are_counted_despite_rounding),
-        cmocka_unit_test(contradictory_scenarios_are_refused),
-        cmocka_unit_test(a_scenario_knows_its_interferers),
-        cmocka_unit_test(values_outside_their_bounds_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

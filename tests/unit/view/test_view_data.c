@@ -150,9 +150,8 @@ static void begin(struct packed *packed)
     view_data_begin(&packed->data, &packed->arena);
 }
 
-static void the_columns_hold_what_the_frames_held(void **state)
+TEST(the_columns_hold_what_the_frames_held)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed, FRAME("x", "100", "4", "false", RICH));
@@ -196,9 +195,8 @@ static void the_columns_hold_what_the_frames_held(void **state)
     release(&packed);
 }
 
-static void a_sensor_that_stays_the_same_is_listed_once(void **state)
+TEST(a_sensor_that_stays_the_same_is_listed_once)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed, FRAME("x", "100", "4", "false", RICH));
@@ -208,9 +206,8 @@ static void a_sensor_that_stays_the_same_is_listed_once(void **state)
     release(&packed);
 }
 
-static void a_sensor_stands_and_moves_with_its_mount(void **state)
+TEST(a_sensor_stands_and_moves_with_its_mount)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed, FRAME("x", "0", "4", "false", RICH));
@@ -225,9 +222,8 @@ static void a_sensor_stands_and_moves_with_its_mount(void **state)
     release(&packed);
 }
 
-static void a_sensor_stands_where_it_was_when_it_measured(void **state)
+TEST(a_sensor_stands_where_it_was_when_it_measured)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed, AGED("0.02", "x", "0", "4.02", "false",
@@ -240,9 +236,8 @@ static void a_sensor_stands_where_it_was_when_it_measured(void **state)
     release(&packed);
 }
 
-static void no_name_can_end_the_script_element(void **state)
+TEST(no_name_can_end_the_script_element)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed, FRAME("<!--<script>", "0", "4", "false", RICH));
@@ -253,9 +248,8 @@ static void no_name_can_end_the_script_element(void **state)
     release(&packed);
 }
 
-static void scenes_may_interleave_and_those_cut_short_are_marked(void **state)
+TEST(scenes_may_interleave_and_those_cut_short_are_marked)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed, FRAME("x", "7", "4", "false", RICH));
@@ -277,9 +271,8 @@ static void scenes_may_interleave_and_those_cut_short_are_marked(void **state)
 }
 
 /* Two ghosts of one reflector, one in a target, one lost, and its direct echo, lost too. */
-static void echoes_keep_their_mirror_and_number(void **state)
+TEST(echoes_keep_their_mirror_and_number)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed,
@@ -315,9 +308,8 @@ static void echoes_keep_their_mirror_and_number(void **state)
     release(&packed);
 }
 
-static void a_stages_own_reason_is_shown_with_the_stage(void **state)
+TEST(a_stages_own_reason_is_shown_with_the_stage)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed,
@@ -333,9 +325,8 @@ static void a_stages_own_reason_is_shown_with_the_stage(void **state)
     release(&packed);
 }
 
-static void every_reason_and_path_has_its_name(void **state)
+TEST(every_reason_and_path_has_its_name)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     finish(&packed);
@@ -347,9 +338,8 @@ static void every_reason_and_path_has_its_name(void **state)
     release(&packed);
 }
 
-static void the_same_losses_share_a_pattern(void **state)
+TEST(the_same_losses_share_a_pattern)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     for (int i = 0; i < 1000; i++)
@@ -364,9 +354,8 @@ static void the_same_losses_share_a_pattern(void **state)
 /* The sensor at (9, 22) looks north and 0.25 rad to the left of it: the other car's centre, at (10,
  * 30), is hypot(1, 8) m away, at -atan(1/8) - 0.25 rad. Then the car is seen 0.02 s before the
  * frame's time, 0.02 m less far ahead; then another place of it is. */
-static void a_loss_is_at_its_spot_or_has_its_place(void **state)
+TEST(a_loss_is_at_its_spot_or_has_its_place)
 {
-    (void)state;
 #define LOST_AT(range, azimuth)                                                                    \
     "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"facing_away\",\"echoes\":["      \
     "{\"object\":\"</script>\",\"reflector\":\"c\",\"path\":\"direct\",\"range_m\":" range         \
@@ -387,9 +376,8 @@ static void a_loss_is_at_its_spot_or_has_its_place(void **state)
     release(&packed);
 }
 
-static void a_ghost_is_not_at_the_spot_of_its_reflector(void **state)
+TEST(a_ghost_is_not_at_the_spot_of_its_reflector)
 {
-    (void)state;
 #define LOST_BY(path, range)                                                                       \
     "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"out_of_view\",\"echoes\":["      \
     "{\"object\":\"</script>\",\"reflector\":\"c\",\"path\":\"" path "\",\"range_m\":" range       \
@@ -427,9 +415,8 @@ static struct sensor_view sensor_told(const char *part)
     return sensor;
 }
 
-static void the_resolution_is_the_frames_and_no_suites(void **state)
+TEST(the_resolution_is_the_frames_and_no_suites)
 {
-    (void)state;
     struct sensor_view sensor =
         sensor_told("\"resolution_range_m\":3.175,\"resolution_range_rate_mps\":0.25,");
     assert_close(sensor.resolution_range_m, 3.175, 0);
@@ -437,9 +424,8 @@ static void the_resolution_is_the_frames_and_no_suites(void **state)
     assert_close(sensor_told("").resolution_range_m, 0, 0);
 }
 
-static void a_column_is_as_wide_as_its_largest_number(void **state)
+TEST(a_column_is_as_wide_as_its_largest_number)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     add_line(&packed, FRAME("x", "10", "4", "false", RICH));
@@ -451,9 +437,8 @@ static void a_column_is_as_wide_as_its_largest_number(void **state)
     release(&packed);
 }
 
-static void an_empty_stream_has_a_head(void **state)
+TEST(an_empty_stream_has_a_head)
 {
-    (void)state;
     struct packed packed;
     begin(&packed);
     finish(&packed);
@@ -462,9 +447,8 @@ static void an_empty_stream_has_a_head(void **state)
     release(&packed);
 }
 
-static void columns_of_the_quality_are_those_of_its_table(void **state)
+TEST(columns_of_the_quality_are_those_of_its_table)
 {
-    (void)state;
     const struct view_columns columns = {0};
     struct view_column_place places[COLUMN_COUNT];
     view_page_places(&columns, places);
@@ -476,27 +460,4 @@ static void columns_of_the_quality_are_those_of_its_table(void **state)
         assert_string_equal(places[column].name + strlen(prefix), field->name);
     }
     assert_int_equal(column, COLUMN_COUNT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_of_the_quality_are_those_of_its_table),
-        cmocka_unit_test(the_columns_hold_what_the_frames_held),
-        cmocka_unit_test(a_sensor_that_stays_the_same_is_listed_once),
-        cmocka_unit_test(a_sensor_stands_and_moves_with_its_mount),
-        cmocka_unit_test(a_sensor_stands_where_it_was_when_it_measured),
-        cmocka_unit_test(no_name_can_end_the_script_element),
-        cmocka_unit_test(scenes_may_interleave_and_those_cut_short_are_marked),
-        cmocka_unit_test(echoes_keep_their_mirror_and_number),
-        cmocka_unit_test(a_stages_own_reason_is_shown_with_the_stage),
-        cmocka_unit_test(every_reason_and_path_has_its_name),
-        cmocka_unit_test(the_same_losses_share_a_pattern),
-        cmocka_unit_test(a_loss_is_at_its_spot_or_has_its_place),
-        cmocka_unit_test(a_ghost_is_not_at_the_spot_of_its_reflector),
-        cmocka_unit_test(the_resolution_is_the_frames_and_no_suites),
-        cmocka_unit_test(a_column_is_as_wide_as_its_largest_number),
-        cmocka_unit_test(an_empty_stream_has_a_head),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,9 +21,8 @@ static const struct frame *frame_of(struct scene *scene)
     return &scene->frame;
 }
 
-static void a_sensor_stands_where_it_was_when_it_measured(void **state)
+TEST(a_sensor_stands_where_it_was_when_it_measured)
 {
-    (void)state;
     struct scene scene;
     const struct frame *frame = frame_of(&scene);
     scene.sensor.age_s = 0.1;
@@ -34,9 +33,8 @@ static void a_sensor_stands_where_it_was_when_it_measured(void **state)
     assert_close(view_frame_place(&scan, 5, acos(-1) / 2).y, 5, 1e-12);
 }
 
-static void a_sensor_that_has_not_measured_stands_where_the_ego_is_now(void **state)
+TEST(a_sensor_that_has_not_measured_stands_where_the_ego_is_now)
 {
-    (void)state;
     struct scene scene;
     const struct frame *frame = frame_of(&scene);
     scene.sensor.measured = false;
@@ -45,9 +43,8 @@ static void a_sensor_that_has_not_measured_stands_where_the_ego_is_now(void **st
     assert_close(scan.pose.position_m.x, 102, 1e-12);
 }
 
-static void without_objects_the_ego_is_at_the_origin_and_its_velocity_unknown(void **state)
+TEST(without_objects_the_ego_is_at_the_origin_and_its_velocity_unknown)
 {
-    (void)state;
     struct frame frame = {.ego = "ego", .time_s = 4};
     const struct sensor_view sensor = {.name = "front", .mount_x_m = 2, .age_s = 0.1};
     struct view_scan scan = view_frame_scan(&frame, &sensor);
@@ -56,24 +53,12 @@ static void without_objects_the_ego_is_at_the_origin_and_its_velocity_unknown(vo
     assert_true(isnan(scan.pose.velocity_mps.x));
 }
 
-static void a_box_without_a_size_has_that_of_its_class(void **state)
+TEST(a_box_without_a_size_has_that_of_its_class)
 {
-    (void)state;
     const struct vehicle car = {.length_m = 4.5, .width_m = 1.8};
     struct object object = {.length_m = 3};
     struct box box = view_frame_box(&object, &car);
     assert_close(box.length_m, 3, 0);
     assert_close(box.width_m, 1.8, 0);
     assert_close(view_frame_box(&object, NULL).width_m, 0, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sensor_stands_where_it_was_when_it_measured),
-        cmocka_unit_test(a_sensor_that_has_not_measured_stands_where_the_ego_is_now),
-        cmocka_unit_test(without_objects_the_ego_is_at_the_origin_and_its_velocity_unknown),
-        cmocka_unit_test(a_box_without_a_size_has_that_of_its_class),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -105,9 +105,8 @@ static void assert_well_formed(const char *xml)
     assert_true(elements > 3);
 }
 
-static void drawings_are_well_formed_xml(void **state)
+TEST(drawings_are_well_formed_xml)
 {
-    (void)state;
     static const char *const lines[] = {
         FRAME("x", "", ""),
         FRAME("x", "," OBJECT("o", "12"), ""),
@@ -128,9 +127,8 @@ static void drawings_are_well_formed_xml(void **state)
     text_free(&empty);
 }
 
-static void names_are_escaped(void **state)
+TEST(names_are_escaped)
 {
-    (void)state;
     char *xml = draw(FRAME("<b>&\\\"", "," OBJECT("</text><script>", "12"), SENSORS("f")));
     assert_non_null(strstr(xml, "&lt;b&gt;&amp;&quot;"));
     assert_non_null(strstr(xml, "&lt;/text&gt;&lt;script&gt;"));
@@ -153,9 +151,8 @@ static void corner_of(const char *xml, const char *class, int nth, double *x, do
     fail_msg("no %s", wanted);
 }
 
-static void drawings_have_the_scale_of_their_bar(void **state)
+TEST(drawings_have_the_scale_of_their_bar)
 {
-    (void)state;
     char *xml = draw(FRAME("x", "," OBJECT("o", "12"),
                            SENSORS("f") ",\"targets\":[" TARGET("8") "," TARGET("13") "]"));
     double near_x, far_x, y, bar, metres;
@@ -176,9 +173,8 @@ static int count_of(const char *xml, const char *word)
 }
 
 /* From 80 to 200 pixels, whatever the size of the scene. */
-static void the_bar_is_a_round_length(void **state)
+TEST(the_bar_is_a_round_length)
 {
-    (void)state;
     static const char *const lines[] = {
         FRAME("x", "", ""),
         FRAME("x", "," OBJECT("o", "30"), ""),
@@ -199,9 +195,8 @@ static void the_bar_is_a_round_length(void **state)
     }
 }
 
-static void every_kind_of_target_has_its_mark(void **state)
+TEST(every_kind_of_target_has_its_mark)
 {
-    (void)state;
     static const char *const lines[] = {
         FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("wheel", "8") "]"),
         FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("wall_object", "8") "]"),
@@ -219,9 +214,8 @@ static void every_kind_of_target_has_its_mark(void **state)
     }
 }
 
-static void every_echo_of_a_target_is_lit_and_tied_to_it(void **state)
+TEST(every_echo_of_a_target_is_lit_and_tied_to_it)
 {
-    (void)state;
     char *xml = draw(FRAME("x", "," OBJECT("o", "12"),
                            SENSORS("f") ",\"targets\":[" TARGET_OF("8", ECHOES) "]"));
     /* One more stands in the legend. */
@@ -230,9 +224,8 @@ static void every_echo_of_a_target_is_lit_and_tied_to_it(void **state)
     free(xml);
 }
 
-static void targets_of_the_first_sensor_are_stars_of_five_points(void **state)
+TEST(targets_of_the_first_sensor_are_stars_of_five_points)
 {
-    (void)state;
     char *xml = draw(FRAME("x", "", SENSORS("f")));
     const char *star = strstr(xml, "<path class=\"target f0\"");
     assert_non_null(star);
@@ -242,9 +235,8 @@ static void targets_of_the_first_sensor_are_stars_of_five_points(void **state)
 }
 
 /* Two echoes are hidden, and one whose place is not known; a reflector faces away. */
-static void losses_are_marked_where_they_were(void **state)
+TEST(losses_are_marked_where_they_were)
 {
-    (void)state;
     char *xml = draw(
         FRAME("x", "," OBJECT("o", "12"), SENSORS("f") ",\"lost\":[" BLOCKED "," FACING_AWAY "]"));
     assert_int_equal(count_of(xml, "<circle class=\"centre\""), 1);
@@ -258,9 +250,8 @@ static void losses_are_marked_where_they_were(void **state)
     free(xml);
 }
 
-static void a_name_lies_over_targets_and_not_over_the_edge(void **state)
+TEST(a_name_lies_over_targets_and_not_over_the_edge)
 {
-    (void)state;
     char *xml = draw(FRAME("x", "," OBJECT("near", "12") "," OBJECT("far", "40"),
                            SENSORS("f") ",\"targets\":[" TARGET("8") "," TARGET("13") "]"));
     const char *name = strstr(xml, ">near<");
@@ -268,20 +259,4 @@ static void a_name_lies_over_targets_and_not_over_the_edge(void **state)
     assert_true(name > strstr(xml, "class=\"target f0\""));
     assert_null(strstr(xml, ">far<"));
     free(xml);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(drawings_are_well_formed_xml),
-        cmocka_unit_test(names_are_escaped),
-        cmocka_unit_test(drawings_have_the_scale_of_their_bar),
-        cmocka_unit_test(the_bar_is_a_round_length),
-        cmocka_unit_test(every_echo_of_a_target_is_lit_and_tied_to_it),
-        cmocka_unit_test(targets_of_the_first_sensor_are_stars_of_five_points),
-        cmocka_unit_test(losses_are_marked_where_they_were),
-        cmocka_unit_test(every_kind_of_target_has_its_mark),
-        cmocka_unit_test(a_name_lies_over_targets_and_not_over_the_edge),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
