@@ -27,9 +27,8 @@ static struct root root_of(struct asked *asked, double low, double high, double 
     return root_between(low, high, width, is_below, &asked);
 }
 
-static void without_a_width_the_bounds_become_neighbours(void **state)
+TEST(without_a_width_the_bounds_become_neighbours)
 {
-    (void)state;
     static const double bounds[] = {1e-9, 0.1, 2. / 3, 1, 1.5, 1.9999999};
     for (size_t i = 0; i < sizeof bounds / sizeof bounds[0]; i++) {
         struct asked asked = {.bound = bounds[i]};
@@ -39,9 +38,8 @@ static void without_a_width_the_bounds_become_neighbours(void **state)
     }
 }
 
-static void bounds_may_be_negative(void **state)
+TEST(bounds_may_be_negative)
 {
-    (void)state;
     struct asked asked = {.bound = -0.3};
     struct root root = root_of(&asked, -5, 7, 0);
     assert_true(root.high == -0.3);
@@ -49,9 +47,8 @@ static void bounds_may_be_negative(void **state)
 }
 
 /* 8 is halved ten times to 2^-7. */
-static void a_width_ends_the_search(void **state)
+TEST(a_width_ends_the_search)
 {
-    (void)state;
     struct asked asked = {.bound = 3.3};
     struct root root = root_of(&asked, 0, 8, 0x1p-7);
     assert_int_equal(asked.count, 10);
@@ -59,9 +56,8 @@ static void a_width_ends_the_search(void **state)
     assert_true(root.low < 3.3 && root.high >= 3.3);
 }
 
-static void the_bounds_themselves_are_not_asked_about(void **state)
+TEST(the_bounds_themselves_are_not_asked_about)
 {
-    (void)state;
     struct asked asked = {.bound = 1e-300};
     root_of(&asked, 0, 1, 0);
     assert_true(asked.least > 0 && asked.most < 1);
@@ -78,20 +74,7 @@ static bool cosine_is_above(const void *of, double x)
     return cos(x) > x;
 }
 
-static void the_root_of_a_function_is_where_its_sign_changes(void **state)
+TEST(the_root_of_a_function_is_where_its_sign_changes)
 {
-    (void)state;
     assert_close(root_between(0, 1, 0, cosine_is_above, NULL).low, 0.7390851332151607, 1e-15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_a_width_the_bounds_become_neighbours),
-        cmocka_unit_test(bounds_may_be_negative),
-        cmocka_unit_test(a_width_ends_the_search),
-        cmocka_unit_test(the_bounds_themselves_are_not_asked_about),
-        cmocka_unit_test(the_root_of_a_function_is_where_its_sign_changes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,9 +26,8 @@ static size_t plain_row_of(const struct row *rows, size_t count, double at)
     return last;
 }
 
-static void the_last_row_at_or_before_a_number_is_found(void **state)
+TEST(the_last_row_at_or_before_a_number_is_found)
 {
-    (void)state;
     const struct row rows[] = {{.at = -3}, {.at = -1}, {.at = 0}, {.at = 0.5}, {.at = 70}};
     assert_int_equal(row_of(rows, 5, -3), 0);
     assert_int_equal(row_of(rows, 5, nextafter(-1, -2)), 0);
@@ -38,9 +37,8 @@ static void the_last_row_at_or_before_a_number_is_found(void **state)
     assert_int_equal(row_of(rows, 5, 70), 4);
 }
 
-static void beyond_its_ends_the_first_or_the_last_row_is_found(void **state)
+TEST(beyond_its_ends_the_first_or_the_last_row_is_found)
 {
-    (void)state;
     const struct row rows[] = {{.at = -3}, {.at = 2}};
     assert_int_equal(row_of(rows, 2, -1e9), 0);
     assert_int_equal(row_of(rows, 2, -(double)INFINITY), 0);
@@ -51,9 +49,8 @@ static void beyond_its_ends_the_first_or_the_last_row_is_found(void **state)
     assert_int_equal(row_of(rows, 0, 5), 0);
 }
 
-static void of_equal_rows_the_last_is_found(void **state)
+TEST(of_equal_rows_the_last_is_found)
 {
-    (void)state;
     const struct row rows[] = {{.at = 1}, {.at = 1}, {.at = 2}, {.at = 2}, {.at = 2}, {.at = 3}};
     assert_int_equal(row_of(rows, 2, 1), 1);
     assert_int_equal(row_of(rows, 6, 1), 1);
@@ -62,9 +59,8 @@ static void of_equal_rows_the_last_is_found(void **state)
 }
 
 /* Steps are even, grow, or are drawn; each number is that of a row, or just beside it. */
-static void every_table_is_searched_as_by_looking_at_every_row(void **state)
+TEST(every_table_is_searched_as_by_looking_at_every_row)
 {
-    (void)state;
     struct row rows[40] = {{.at = 0}};
     uint64_t sample = 1;
     for (int kind = 0; kind < 3; kind++)
@@ -88,9 +84,8 @@ static bool is_at_most(const void *of, size_t row)
     return row <= *(const size_t *)of;
 }
 
-static void the_last_row_that_is_reached_is_found(void **state)
+TEST(the_last_row_that_is_reached_is_found)
 {
-    (void)state;
     for (size_t count = 1; count < 20; count++)
         for (size_t last = 0; last < count; last++)
             assert_int_equal(search_last(count, is_at_most, &last), last);
@@ -103,22 +98,8 @@ static bool is_never(const void *of, size_t row)
     return false;
 }
 
-static void where_no_row_is_reached_the_first_one_is_found(void **state)
+TEST(where_no_row_is_reached_the_first_one_is_found)
 {
-    (void)state;
     assert_int_equal(search_last(9, is_never, NULL), 0);
     assert_int_equal(search_last(0, is_never, NULL), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_last_row_at_or_before_a_number_is_found),
-        cmocka_unit_test(beyond_its_ends_the_first_or_the_last_row_is_found),
-        cmocka_unit_test(of_equal_rows_the_last_is_found),
-        cmocka_unit_test(every_table_is_searched_as_by_looking_at_every_row),
-        cmocka_unit_test(the_last_row_that_is_reached_is_found),
-        cmocka_unit_test(where_no_row_is_reached_the_first_one_is_found),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
