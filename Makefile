@@ -1,16 +1,14 @@
-#glint : one executable per file in stages /, each of a stage or of a tool, those of plug - ins,   \
-    which
-#are folders there, and `glint`, which runs them all fused.
+# glint: one executable per file in stages/, each of a stage or of a tool, those of plug-ins, which
+# are folders there, and `glint`, which runs them all fused.
 #
-#make everything, into build / bin
-#make test unit tests; make check also the rules of the house; scripts / test runs all tests
-#make SAN = 1 ... the same under address and undefined - behaviour sanitizers, in build - san /
-#make CC = clang BUILD = build - clang
-#make install PREFIX = / usr / local LIBDIR = / usr / local / lib DESTDIR =                        \
-                                                  make uninstall with the same
-#make CPPFLAGS = -DPLAIN_POSIX without the calls that Linux alone has; LDFLAGS = -static also works
+#   make            everything, into build/bin
+#   make test       unit tests; make check also the rules of the house; scripts/test runs all tests
+#   make SAN=1 ...  the same under address and undefined-behaviour sanitizers, in build-san/
+#   make CC=clang BUILD=build-clang
+#   make install    PREFIX=/usr/local LIBDIR=/usr/local/lib DESTDIR=   make uninstall   with the same
+#   make CPPFLAGS=-DPLAIN_POSIX   without the calls that Linux alone has; LDFLAGS=-static also works
 
-#No built - in rules : one of them would try to make a.d from a.d.o.
+# No built-in rules: one of them would try to make a.d from a.d.o.
 MAKEFLAGS += -r
 
 PREFIX ?= /usr/local
@@ -18,7 +16,7 @@ LIBDIR ?= $(PREFIX)/lib
 BUILD ?= build
 CFLAGS ?= -O2 -g
 
-#make V = 1 shows the commands.
+# make V=1 shows the commands.
 Q = $(if $(V),,@)
 
 ifdef SAN
@@ -27,7 +25,7 @@ comma = ,
 SANITIZE = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 endif
 
-#tests / tools / fuzz : what libFuzzer needs, which is clang's. An empty list may be NULL, and clang calls NULL + 0 an overflow.
+# tests/tools/fuzz: what libFuzzer needs, which is clang's. An empty list may be NULL, and clang calls NULL + 0 an overflow.
 ifdef FUZZ
 BUILD = build-fuzz
 CC = clang
@@ -38,18 +36,16 @@ endif
 
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
     -Werror=implicit-function-declaration -Wmissing-prototypes -Wvla -Wundef -Wwrite-strings -Wcast-align -Wdouble-promotion -Wformat=2
-#Contraction would let a compiler round a *b + c once instead of twice, and so change results.
-#gcc 12's vectorizer does it all the same where a subtraction and an addition stand side by side.
+# Contraction would let a compiler round a*b+c once instead of twice, and so change results.
+# gcc 12's vectorizer does it all the same where a subtraction and an addition stand side by side.
 EXACT = -ffp-contract=off -fno-fast-math -fno-tree-vectorize -fno-tree-slp-vectorize
 HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib -MMD -MP $(SANITIZE) $(CPPFLAGS)
 LINK = $(CC) $(SANITIZE) $(LDFLAGS)
 LIBS = -ljansson -lcsv -lz -lm
 
-#Plug - ins : folders of stages / with what needs a library of its own or                          \
-    speaks a foreign format.The Makefile of each
-#says what it needs and which stages it has,                                                       \
-    and builds them(stages / plugin.mk).A plug - in is left out where what
-#it needs is missing, as protoc - c for an interface of protobuf.
+# Plug-ins: folders of stages/ with what needs a library of its own or speaks a foreign format. The Makefile of each
+# says what it needs and which stages it has, and builds them (stages/plugin.mk). A plug-in is left out where what
+# it needs is missing, as protoc-c for an interface of protobuf.
 said = $(shell sed -n 's/^$(2) = //p' stages/$(1)/Makefile)
 missing = $(foreach library,$(call said,$(1),needs),$(shell pkg-config --exists $(library) || echo $(library))) \
     $(if $(wildcard stages/$(1)/*.proto),$(shell command -v protoc-c >/dev/null || echo protoc-c))
@@ -62,26 +58,28 @@ plugin_archives := $(plugins:%=$(BUILD)/stages/%/plugin.a)
 plugin_needs := $(sort $(foreach p,$(plugins),$(call said,$(p),needs)))
 plugin_libs := $(if $(plugin_needs),$(shell pkg-config --libs $(plugin_needs)))
 
-#The programs by the files of stages /, and those of plug - ins.
+# The programs by the files of stages/, and those of plug-ins.
 file_names := $(filter-out main,$(patsubst stages/%.c,%,$(wildcard stages/*.c)))
 names := $(sort $(file_names) $(plugin_names))
 lib_objects := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c)) $(BUILD)/lib/view_page.o
 stage_objects := $(file_names:%=$(BUILD)/stages/%.o)
-#The registry stands before these, for it names the stages that archives have.
+# The registry stands before these, for it names the stages that archives have.
 archives := $(plugin_archives) $(BUILD)/libglint.a
 programs_of = $(foreach n,$(1),$(BUILD)/bin/glint-$(subst _,-,$(n)))
-#glint - plan and glint - cost try stages of all kinds, so they lie in the file that has all.
+# glint-plan and glint-cost try stages of all kinds, so they lie in the file that has all.
 plain_names := $(sort $(filter-out plan cost,$(file_names)))
 plain_programs := $(call programs_of,$(plain_names))
 full_programs := $(BUILD)/bin/glint $(call programs_of,$(filter-out $(plain_names),$(names)))
 programs := $(plain_programs) $(full_programs)
-#Without a plug - in there are no unit tests of it.
-tests := $(filter-out $(left_out:%=$(BUILD)/tests/unit/%/%), \
-    $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c tests/*/test_*.c tests/unit/*/test_*.c)))
-#A stage of the tests, and glint with it : build / tests / glint.
+# A folder of tests makes one program: build/unit/text has tests/unit/text/test_*.c. Without a plug-in there are no unit
+# tests of it.
+test_files := $(filter-out $(left_out:%=tests/unit/%/%),$(wildcard tests/*/test_*.c tests/unit/*/test_*.c))
+hard_files := $(wildcard tests/hard/*.c)
+test_folders := $(sort $(dir $(test_files)))
+unit_programs := $(foreach f,$(test_folders),$(BUILD)/unit/$(notdir $(f:%/=%)))
+# A stage of the tests, and glint with it: build/tests/glint.
 test_stage_objects := $(addprefix $(BUILD)/tests/soundness/,traffic_adversarial.o adversarial_traffic.o)
 test_programs := $(BUILD)/tests/glint $(BUILD)/tests/glint-traffic-adversarial
-hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
 soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
 
 # Programs of an older tree go.
@@ -120,14 +118,12 @@ $(plugin_archives): $(BUILD)/stages/%/plugin.a: FORCE
 	$(Q)$(MAKE) -s -f stages/$*/Makefile PLUGIN=stages/plugin.mk folder=stages/$* out=$(@D) \
 	    CC='$(CC)' AR='$(AR)' CFLAGS='$(CFLAGS)' GLINT_CFLAGS='$(HOUSE_C)' $@
 
-#The folder is the registry; the file is rewritten only when the list has changed.
+# The folder is the registry; the file is rewritten only when the list has changed.
 registry = for n in $(1); do echo "extern const struct stage stage_$$n;"; done; \
     echo "const struct stage *const stages[] = {"; \
     for n in $(1); do echo "    &stage_$$n,"; done; echo "    NULL,"; echo "};"
-#Several make may run at a time.
-write_registry = mkdir -p $(@D); {
-    echo '\#include "run/stage.h"';
-    $(call registry, $(1)); } >$@.$$$$; \
+# Several make may run at a time.
+write_registry = mkdir -p $(@D); { echo '\#include "run/stage.h"'; $(call registry,$(1)); } >$@.$$$$; \
     cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@
 $(BUILD)/registry.c: FORCE
 	@$(call write_registry,$(names))
@@ -144,8 +140,8 @@ $(BUILD)/main.o: stages/main.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
-#Two files under many names, which say what they do : glint with all stages, and those that need no
-#library beyond the four packages.
+# Two files under many names, which say what they do: glint with all stages, and those that need no
+# library beyond the four packages.
 $(BUILD)/bin/glint: $(BUILD)/main.o $(BUILD)/registry.o $(stage_objects) $(archives)
 	@mkdir -p $(@D)
 	$(Q)$(LINK) -o $@ $^ $(plugin_libs) $(LIBS)
@@ -164,8 +160,18 @@ $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) -iquote stages -iquote tests -iquote tests/support $(CFLAGS) -c -o $@ $<
 
-$(tests): %: %.o $(stage_objects) $(BUILD)/registry.o $(archives)
-	$(Q)$(LINK) -o $@ $^ $(plugin_libs) $(LIBS) -lcmocka
+# The files of a folder list their tests (tests/support/check.h); functions __wrap_NAME of theirs replace NAME.
+test_main := $(BUILD)/tests/support/check_main.o
+wraps = $(shell grep -oh '__wrap_[a-z_]*' $(1) | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
+define unit_program
+$(BUILD)/unit/$(notdir $(1)): $(patsubst %.c,$(BUILD)/%.o,$(filter $(1)/%,$(test_files))) $(test_main) \
+    $(stage_objects) $(BUILD)/registry.o $(archives)
+	@mkdir -p $$(@D)
+	$$(Q)$$(LINK) $$(call wraps,$(1)/test_*.c) -o $$@ $$^ $$(plugin_libs) $$(LIBS) -lcmocka
+$(patsubst %.c,$(BUILD)/%.ran,$(filter $(1)/%,$(test_files))): $(BUILD)/unit/$(notdir $(1)) FORCE
+	@tests/support/run_test $$< $$(@:.ran=)
+endef
+$(foreach f,$(test_folders),$(eval $(call unit_program,$(f:%/=%))))
 
 $(BUILD)/tests/glint: $(BUILD)/main.o $(BUILD)/tests/registry.o $(test_stage_objects) $(stage_objects) $(archives)
 	$(Q)$(LINK) -o $@ $^ $(plugin_libs) $(LIBS)
@@ -173,28 +179,30 @@ $(BUILD)/tests/glint: $(BUILD)/main.o $(BUILD)/tests/registry.o $(test_stage_obj
 $(BUILD)/tests/glint-traffic-adversarial: $(BUILD)/tests/glint
 	$(Q)ln -f $< $@
 
-$(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(test_stage_objects) $(stage_objects) $(BUILD)/tests/registry.o $(archives)
+$(BUILD)/unit/hard: $(hard_files:%.c=$(BUILD)/%.o) $(test_main) $(test_stage_objects) $(stage_objects) \
+    $(BUILD)/tests/registry.o $(archives)
+	@mkdir -p $(@D)
 	$(Q)$(LINK) -o $@ $^ $(plugin_libs) $(LIBS) -lcmocka -lmpfr -lgmp
+$(hard_files:%.c=$(BUILD)/%.ran): $(BUILD)/unit/hard FORCE
+	@tests/support/run_test $< $(@:.ran=)
 
-#scripts / soundness : the planner as it is, and with faults planted in place of functions of lib /.
+# scripts/soundness: the planner as it is, and with faults planted in place of functions of lib/.
 soundness_objects := $(addprefix $(BUILD)/tests/soundness/,soundness.o compare.o)
-wraps = $(shell grep -o '__wrap_[a-z_]*' $(1) | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
 $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(soundness_objects) \
     $(test_stage_objects) $(stage_objects) $(BUILD)/tests/registry.o $(archives)
 	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(plugin_libs) $(LIBS)
 
-#Harnesses of libFuzzer, each with the mutator of numbers : make FUZZ = 1 fuzz.
+# Harnesses of libFuzzer, each with the mutator of numbers: make FUZZ=1 fuzz.
 harnesses := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/fuzz/fuzz_*.c))
 $(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) \
     $(stage_objects) $(BUILD)/registry.o $(archives)
 	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ $(plugin_libs) $(LIBS)
 
-#For scripts / bench : our functions beside libm 's, the machine' s floors,                        \
-    what a command spends.For
-#tests / tools / accuracy - cost : angles by table.
+# For scripts/bench: our functions beside libm's, the machine's floors, what a command spends. For
+# tests/tools/accuracy-cost: angles by table.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(SPEED_LIBS) -lz -lm
-#glint with clocks around what its chain calls.
+# glint with clocks around what its chain calls.
 $(BUILD)/tests/speed/timed: $(BUILD)/tests/speed/timed.o $(stage_objects) $(BUILD)/registry.o $(archives)
 	$(Q)$(LINK) $(call wraps,tests/speed/timed.c) -o $@ $^ $(plugin_libs) $(LIBS)
 $(BUILD)/tests/speed/parse_xml: SPEED_LIBS = -lexpat
@@ -202,7 +210,7 @@ $(BUILD)/tests/speed/read_table: SPEED_LIBS = -ljansson -lcsv -lstdc++
 $(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o $(BUILD)/tests/speed/digits.o
 $(BUILD)/tests/speed/read_table: $(BUILD)/tests/speed/digits.o
 $(BUILD)/tests/speed/floors: SPEED_LIBS = -lstdc++
-#Shortest digits by the C++ library, which only tests use, where there is a C++ compiler.
+# Shortest digits by the C++ library, which only tests use, where there is a C++ compiler.
 digits := $(if $(shell command -v $(CXX)),$(BUILD)/tests/speed/digits.o)
 $(BUILD)/tests/speed/digits.o: tests/speed/digits.cc
 	@mkdir -p $(@D)
@@ -211,28 +219,21 @@ $(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -shared -fPIC -o $@ $< -ljansson
 
-$(filter %/test_compare,$(tests)): $(BUILD)/tests/soundness/compare.o
-$(filter %/test_adversarial_traffic,$(tests)): $(BUILD)/tests/soundness/adversarial_traffic.o
+$(BUILD)/unit/soundness: $(BUILD)/tests/soundness/compare.o
+$(BUILD)/unit/traffic: $(BUILD)/tests/soundness/adversarial_traffic.o
 
-#Its test sees file systems of other kinds.
-$(filter %/test_output,$(tests)): LDFLAGS += -Wl,--wrap=open,--wrap=flock,--wrap=rename
+# The references of elementary functions and of numbers as text.
+$(BUILD)/unit/base: $(digits)
+$(BUILD)/unit/base: LIBS += -lmpfr -lgmp $(if $(digits),-lstdc++)
 
-#The references of these two tests alone.
-$(filter %/test_elementary,$(tests)): LIBS += -lmpfr -lgmp
-$(filter %/test_number_oracle,$(tests)): $(digits)
-$(filter %/test_number_oracle,$(tests)): LIBS += $(if $(digits),-lstdc++)
+# A file whose tests fail shows which and how the program ended, and one that skips a test which and why; with -k all
+# others run on.
+unit: $(test_files:%.c=$(BUILD)/%.ran)
+	@echo "unit tests: $(words $(test_files)) files of $(words $(unit_programs)) programs passed"
 
-#A program that fails shows what failed and how it ended, and one that skips a test which and why; \
-    with - k all others run on.
-%.ran: % FORCE
-	@tests/support/run_test $<
-
-unit: $(addsuffix .ran,$(tests))
-	@echo "unit tests: $(words $(tests)) programs passed"
-
-#The numerical hard cases against MPFR; HARD_TENTH = 1 takes a tenth of the points.
-hard: $(addsuffix .ran,$(hard_tests))
-	@echo "hard cases: $$(cat $(addsuffix .log,$(hard_tests)) | grep -c '^hard') held"
+# The numerical hard cases against MPFR; HARD_TENTH=1 takes a tenth of the points.
+hard: $(hard_files:%.c=$(BUILD)/%.ran)
+	@echo "hard cases: $$(cat $(hard_files:%.c=$(BUILD)/%.log) | grep -c '^hard') held"
 
 soundness: $(soundness_tests)
 
@@ -246,7 +247,7 @@ check: test
 bench: all
 	$(Q)scripts/bench
 
-#What accuracy costs, into data / accuracy : half an hour at most.
+# What accuracy costs, into data/accuracy: half an hour at most.
 accuracy: all
 	$(Q)tests/tools/accuracy-cost
 
@@ -255,11 +256,11 @@ schemas: all
 	$(Q)tests/tools/tables-sql schemas/tables.json >schemas/tables.sql
 	$(Q)python3 scripts/sets/schema.py >schemas/dataset.json
 
-#The table of sections, from the pages of the model.
+# The table of sections, from the pages of the model.
 MODEL.md: FORCE
 	$(Q)tests/tools/model-sections >$@.new && mv $@.new $@
 
-#One line a module, from the headers.
+# One line a module, from the headers.
 lib/README.md: FORCE
 	$(Q)tests/tools/lib-readme >$@.new && mv $@.new $@
 
@@ -287,18 +288,16 @@ doc = $(DESTDIR)$(PREFIX)/share/doc/glint
 scripts = dataset check-set export make-radar tracker
 doc_pages = README.md OTHERS.md CHANGES.md MODEL.md LICENSE scripts/README.md \
     $(wildcard lib/*/MODEL.md stages/*/MODEL.md stages/README.md tests/*/README.md)
-#One file under the names of several programs, without what only a debugger reads.
+# One file under the names of several programs, without what only a debugger reads.
 bin = $(DESTDIR)$(PREFIX)/bin
 install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
     for name in $(notdir $(filter-out $(firstword $(1)),$(1))); do \
         ln -f $(bin)/$(notdir $(firstword $(1))) $(bin)/$$name || exit 1; done
-#What a stage outside this tree is built from : headers, the library, the rules of plug - ins,     \
-    and how to ask for them.
-#Sources of plug - ins lie beside the pages as examples.
+# What a stage outside this tree is built from: headers, the library, the rules of plug-ins, and how to ask for them.
+# Sources of plug-ins lie beside the pages as examples.
 plugin_sources = $(foreach p,$(all_plugins),$(wildcard $(addprefix stages/$(p)/,Makefile *.[ch] *.def *.proto *.json)))
 headers = $(wildcard lib/*/*.h lib/*/*.def)
-#The prefix from the folder of glint.pc, so that an installation can be moved;                     \
-    absolute if LIBDIR lies elsewhere.
+# The prefix from the folder of glint.pc, so that an installation can be moved; absolute if LIBDIR lies elsewhere.
 pc_prefix = $(if $(filter $(PREFIX)/%,$(LIBDIR)),$${pcfiledir}/../$(shell echo $(LIBDIR:$(PREFIX)/%=%) | sed 's:[^/]\{1,\}:..:g'),$(PREFIX))
 version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
 install: all man
@@ -348,6 +347,6 @@ clean:
 
 FORCE:
 .PHONY: all printed unit hard soundness fuzz test check bench accuracy schemas format lint man install uninstall clean FORCE
-.PRECIOUS: $(BUILD)/tests/%.o $(tests) $(BUILD)/tests/hard/%
+.PRECIOUS: $(BUILD)/tests/%.o
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)
