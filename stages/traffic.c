@@ -1,9 +1,6 @@
 /* Traffic: plays a scenario document or a recorded table, frame by frame. */
-#include "recorded/recording.h"
-#include "run/stage.h"
+#include "run/recording_source.h"
 #include "text/document.h"
-#include "text/input.h"
-#include "text/path.h"
 #include "traffic/scenario_scenes.h"
 
 struct traffic {
@@ -20,12 +17,11 @@ static int start_scenario(struct traffic *traffic, struct runner *runner)
     struct arena *arena = runner_arena(runner);
     struct diag *diag = runner_diag(runner);
     if (options->rate_hz > 0 || options->from_s > -9e9 || options->to_s < 9e9 ||
-        options->class_map != NULL || options->class_default != NULL || options->types.count > 0)
-        return diag_fail(
-            diag, DIAG_USAGE,
-            "%s: a scenario has rate, times and classes of its own; --rate-hz, "
-            "--from-s, --to-s, --class-map, --class-default and --types are for recordings",
-            traffic->recording.source);
+        options->class_map != NULL || options->class_default != NULL)
+        return diag_fail(diag, DIAG_USAGE,
+                         "%s: a scenario has rate, times and classes of its own; --rate-hz, "
+                         "--from-s, --to-s, --class-map and --class-default are for recordings",
+                         traffic->recording.source);
     struct scenario_scenes *scenes = &traffic->scenario;
     scenes->ego = options->ego;
     scenes->title = options->scene;
@@ -53,23 +49,7 @@ static int start_table(struct traffic *traffic, const char *path, struct runner 
     return recording_open(&traffic->recording, reader, runner_arena(runner), diag);
 }
 
-/* A table, unless it begins as JSON. Pipes, which cannot be opened twice, are scenarios. */
-static int is_table(const char *source, struct runner *runner)
-{
-    enum { ENOUGH = 4096 };
-    struct diag *diag = runner_diag(runner);
-    if (strcmp(source, "-") == 0 || path_is_special(source))
-        return 0;
-    struct input *input = runner_input(runner, source);
-    char *bytes = arena_get(runner_arena(runner), ENOUGH + 1);
-    long length = input != NULL ? input_read(input, bytes, ENOUGH, diag) : -1;
-    input_close(input);
-    if (length < 0)
-        return diag_prefix(diag, "%s: ", source);
-    return bytes[strspn(bytes, " \t\r\n\xef\xbb\xbf")] != '{';
-}
-
-/* A bare name is a scenario's, or else a table's. */
+/* A bare name is a scenario's, or else a table's. A file is a table unless it begins as JSON. */
 static int traffic_start(void *state, struct runner *runner)
 {
     struct traffic *traffic = state;
@@ -77,14 +57,14 @@ static int traffic_start(void *state, struct runner *runner)
     const char *path = traffic->recording.source;
     struct diag unknown = {0};
     bool bare = strpbrk(path, "./") == NULL;
-    int table = bare ? document_find(NULL, "scenarios", path, ".json", arena, &unknown) == NULL
-                     : is_table(path, runner);
-    if (bare && table)
+    int scenario = bare ? document_find(NULL, "scenarios", path, ".json", arena, &unknown) != NULL
+                        : recording_source_begins(path, '{', runner);
+    if (bare && !scenario)
         path = document_find(NULL, "trajectories", path, ".csv", arena, &unknown);
-    if (table < 0)
+    if (scenario < 0)
         return -1;
-    return table && path != NULL ? start_table(traffic, path, runner)
-                                 : start_scenario(traffic, runner);
+    return scenario || path == NULL ? start_scenario(traffic, runner)
+                                    : start_table(traffic, path, runner);
 }
 
 static int traffic_next(void *state, struct frame *frame, struct runner *runner)
@@ -124,7 +104,6 @@ static const struct field traffic_options[] = {
                    "play scenes A to B - 1 of a scenario, each with draws of its own; absent: 0:1"),
      .word = "A:B"},
     {OPTIONAL_RECORD(struct recording, options, &recording_options_record, "")},
-    RECORDING_TYPES,
     {0},
 };
 
@@ -154,7 +133,8 @@ const struct stage stage_traffic = {
         "states this origin.\n"
         "\n"
         "Velocities and yaw rates that a table lacks are centred differences, which wait for\n"
-        "the next step. --rate-hz interpolates between steps by cubic curves.\n"
+        "the next step. --rate-hz interpolates between steps by cubic curves. Tables of SUMO\n"
+        "whose vehicles have types of their own are for glint-traffic-sumo --types.\n"
         "\n"
         "Classes by format, each with the words, or sizes, that are read as it:"
 #include "recorded/recorded_classes.def"

@@ -125,7 +125,8 @@ const struct recorded_word *recorded_classes_find(struct recorded_classes *class
     return answer->class != NULL ? answer : NULL;
 }
 
-bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word type)
+/* False if there is another added type of this name. */
+static bool add_type(struct recorded_classes *classes, struct recorded_word type)
 {
     const struct recorded_word *own = classes->format->words;
     const struct recorded_word *before = known(classes, type.word, strlen(type.word));
@@ -147,6 +148,20 @@ bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word
                before->height_m == type.height_m;
     add(classes, &type);
     return true;
+}
+
+int recorded_classes_add(struct recorded_classes *classes, const struct recorded_types *types,
+                         struct diag *diag)
+{
+    for (size_t i = 0; i < types->list.count; i++) {
+        const struct recorded_type *type = &types->list.items[i];
+        if (!add_type(classes, type->word))
+            return diag_fail(diag, DIAG_DATA,
+                             "--types: %s: line %zu: id is \"%.80s\", as that of a type above with "
+                             "another class or size; expected one type of an id",
+                             type->file, type->line, type->word.word);
+    }
+    return 0;
 }
 
 /* The added type of this name, or of the part before "@", whose class is no word; NULL: none. */
@@ -174,7 +189,7 @@ static int refuse_unknown(const struct recorded_classes *classes, const char *wo
     if (classes->format->of_sumo && classes->has_types)
         sizes = ", but not its size, which is that of its vType, and no file of --types has it";
     else if (classes->format->of_sumo)
-        sizes = ", but not its size, which is that of its vType: --types FILE";
+        sizes = ", but not its size, which is that of its vType: glint-traffic-sumo --types FILE";
     return diag_fail(
         diag, DIAG_DATA,
         "unknown class \"%.80s\"%s; expected a word that --help lists, or a name that glint --list "

@@ -25,11 +25,11 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
                            const char *map, const char *otherwise, struct arena *arena,
                            struct diag *diag);
 
-/* Adds a type; its class is another word of the format, whose class and sizes it takes, but for its
- * own sizes that are not 0. It replaces a word of the same name; false if that is an added type
- * with another class or size. A type whose class is
- * no such word has none, and is refused where it is used. */
-bool recorded_classes_add(struct recorded_classes *classes, struct recorded_word type);
+/* Adds types. Each takes class and sizes of the word that its class is, but for its own sizes that
+ * are not 0, and replaces a word of the same name. Refuses (DIAG_DATA) an added type with another
+ * class or size. A type whose class is no such word has none, and is refused where it is used. */
+int recorded_classes_add(struct recorded_classes *classes, const struct recorded_types *types,
+                         struct diag *diag);
 
 /* The class of a word: by the map, else by the format's words, else the class of this name in
  * data/vehicles/, else otherwise; NULL if there is none. Of an unknown word the part before "@" is

@@ -2,7 +2,6 @@
 
 #include "base/units.h"
 #include "base/vec2.h"
-#include "recorded/sumo_types.h"
 
 #define COLUMN(name, kind, need, member, low, high, scale, shift)                                  \
     {                                                                                              \
@@ -44,9 +43,15 @@ SUMO_COLUMNS(sumo_persons, "person_", "timestep_time");
 SUMO_COLUMNS(sumo_containers, "container_", "timestep_time");
 SUMO_COLUMNS(sumo_plain, "", "time");
 
+static const struct recorded_word sumo_words[] = {
+#define SUMO(word, class, length_m, width_m, height_m) {word, class, length_m, width_m, height_m},
+#include "recorded/recorded_classes.def"
+    {0},
+};
+
 #define SUMO_FORMAT                                                                                \
     {                                                                                              \
-        .name = "a table of SUMO", .id_name = "id", .by_time = true, .words = sumo_types_words,    \
+        .name = "a table of SUMO", .id_name = "id", .by_time = true, .words = sumo_words,          \
         .of_sumo = true                                                                            \
     }
 

@@ -55,6 +55,17 @@ struct recorded_word {
     double length_m, width_m, height_m;
 };
 
+/* A type of road users that a file tells beside the recording. */
+struct recorded_type {
+    struct recorded_word word; /* its class is another word of the format */
+    const char *file;
+    size_t line;
+};
+
+struct recorded_types {
+    LIST_OF(struct recorded_type) list;
+};
+
 /* A row of recorded_classes.def as such a word. */
 #define RECORDED_WORD(word, class) {word, class, 0, 0, 0},
 
@@ -64,7 +75,7 @@ struct recorded_format {
     const char *place;   /* unit of recorded_row.place: "row", "byte" */
     double slow_mps;     /* no yaw follows from a slower velocity */
     bool by_time;        /* rows ascend in time; if not, all are stored, without their heights */
-    /* SUMO's: sizes are those of types (sumo_types.h), and vehicles may jump to another lane or
+    /* SUMO's: sizes are those of types, and vehicles may jump to another lane or
      * angle (recorded_jumps.c). */
     bool of_sumo;
     bool marks_steps; /* gives RECORDED_STEP; if not, a step ends where the time changes */

@@ -3,7 +3,6 @@
 #include "frame/frame_check.h"
 #include "recorded/recorded_store.h"
 #include "recorded/recording_notes.h"
-#include "recorded/sumo_types.h"
 #include "traffic/scenario.h"
 
 /* ---- opening ---- */
@@ -74,9 +73,6 @@ static int check_options(const struct recording *recording, struct diag *diag)
     if (steps->live && !steps->reader.format->marks_steps)
         return diag_fail(diag, DIAG_USAGE, "--live: %s does not say where a step ends",
                          steps->reader.format->name);
-    if (options->types.count > 0 && !steps->reader.format->of_sumo)
-        return diag_fail(diag, DIAG_USAGE, "--types: only SUMO has types, not %s",
-                         steps->reader.format->name);
     if (steps->live && options->rate_hz > 0)
         return diag_fail(diag, DIAG_USAGE, "--live: --rate-hz would wait for the next step");
     return options->from_s <= options->to_s
@@ -99,11 +95,9 @@ static int prepare(struct recording *recording, struct diag *diag)
                                             recording->arena, diag);
     if (steps->reader.format == NULL ||
         recorded_classes_begin(&steps->classes, steps->reader.format, options->class_map,
-                               options->class_default, recording->arena, diag) != 0)
+                               options->class_default, recording->arena, diag) != 0 ||
+        recorded_classes_add(&steps->classes, &recording->types, diag) != 0)
         return -1;
-    for (size_t i = 0; i < options->types.count; i++)
-        if (sumo_types_read(&steps->classes, options->types.items[i], diag) != 0)
-            return -1;
     if (!stored)
         return 0;
     if (recorded_steps_judge(steps, diag) != 0)

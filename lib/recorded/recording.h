@@ -13,25 +13,16 @@ struct recording_options {
     double radius_m, rate_hz; /* -1: not given */
     double from_s, to_s;      /* -9e9 and 9e9: not given */
     const char *class_map, *class_default, *conditions;
-    LIST_OF(const char *) types; /* files; RECORDING_TYPES */
 };
 
 extern const struct record recording_options_record;
 
-/* Fields of a stage whose state begins with a struct recording: the source with the shared options,
- * and --types for SUMO. */
+/* Fields of a stage whose state begins with a struct recording: the source with the shared options.
+ */
 #define RECORDING_SOURCE(help)                                                                     \
     {FIELD_NAME_OF(struct recording, source, help)},                                               \
     {                                                                                              \
         OPTIONAL_RECORD(struct recording, options, &recording_options_record, "")                  \
-    }
-#define RECORDING_TYPES                                                                            \
-    {                                                                                              \
-        .name = "types", .kind = FIELD_NAMES, .offset = offsetof(struct recording, options.types), \
-        .help =                                                                                    \
-            "a file of SUMO with vTypes; may be given several times; absent: SUMO's default size " \
-            "of each class",                                                                       \
-        .word = "FILE", FIELD_OPTIONAL                                                             \
     }
 
 /* An ego and its present visit. */
@@ -50,8 +41,9 @@ struct recording {
     /* Set by the caller. source is the path, for messages and names of scenes. */
     const char *source;
     struct recording_options options;
-    bool live;        /* no step waits for the next one (recorded_steps.h) */
-    const char *host; /* id of the ego without --ego; NULL: the source names none */
+    bool live;                   /* no step waits for the next one (recorded_steps.h) */
+    const char *host;            /* id of the ego without --ego; NULL: the source names none */
+    struct recorded_types types; /* of SUMO */
     /* Set by the recording. */
     const char *name; /* of scenes, before the ego's name */
     bool all;         /* every vehicle is an ego */

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "recorded/sumo_types.h"
 #include "xml_rows.h"
 
 /* Floating car data that are being read. */
@@ -146,6 +145,12 @@ static void fail_at_end(struct xml_rows *xml)
               document->in_step ? "inside a step" : "before </fcd-export>", last);
 }
 
+static const struct recorded_word words[] = {
+#define SUMO(word, class, length_m, width_m, height_m) {word, class, length_m, width_m, height_m},
+#include "recorded/recorded_classes.def"
+    {0},
+};
+
 static const struct recorded_format format = {
     .name = "floating car data",
     .id_name = "id",
@@ -153,7 +158,7 @@ static const struct recorded_format format = {
     .by_time = true,
     .of_sumo = true,
     .marks_steps = true,
-    .words = sumo_types_words,
+    .words = words,
     .next = xml_rows_next,
     .close = xml_rows_close,
 };

@@ -585,15 +585,15 @@ def a_class_that_is_none_of_glint_is_named(folder):
                            "</fcd-export>")
             with open(table, "w", encoding="ascii") as file:
                 file.write(f"time;id;x;y;angle;type\n0;a;0;0;90;{word}\n")
-            for program, source in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
+            for source in (xml, table):
                 words = (source, "--ego", "a", "--types", types)
-                said, _ = run(program, *words, fails=65)
+                said, _ = run("glint-traffic-sumo", *words, fails=65)
                 check(f'type "{word.split("@")[0]}" has vClass "{kind}"; expected one that --help lists; '
                       f"--class-map {kind}=CLASS or --class-default CLASS names one" in said, said)
                 for more in (("--class-map", kind + "=car"), ("--class-default", "car")):
-                    part = run(program, *words, *more)[0]["objects"][0]
+                    part = run("glint-traffic-sumo", *words, *more)[0]["objects"][0]
                     check((part["class"], part["length_m"], part["width_m"]) == ("car", length, 1.8), f"{more}: {part}")
-                part = run(program, *words, "--class-map", word + "=car")[0]["objects"][0]
+                part = run("glint-traffic-sumo", *words, "--class-map", word + "=car")[0]["objects"][0]
                 check((part["class"], part["width_m"]) == ("car", 1.8), f"{word}=car: {part}")
 
 
@@ -615,35 +615,35 @@ def types_come_from_several_files(folder):
     for words, sizes in (((one, two), {"a": ("truck", 14, 2.6, 2.4), "b": ("bus", 11.5, 2.5, 3)}),
                          ((two, one, one), {"a": ("truck", 14, 2.6, 2.4), "b": ("bus", 11.5, 2.5, 3)})):
         options = [word for path in words for word in ("--types", path)]
-        for program, source in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
-            for part in run(program, source, "--ego", "a", *options)[0]["objects"]:
+        for source in (xml, table):
+            for part in run("glint-traffic-sumo", source, "--ego", "a", *options)[0]["objects"]:
                 got = (part["class"], *(part[f"{size}_m"] for size in ("length", "width", "height")))
-                check(got == sizes[part["id"]] and part["x_m"] == -got[1] / 2, f"{program} {words}: {part}")
+                check(got == sizes[part["id"]] and part["x_m"] == -got[1] / 2, f"{source} {words}: {part}")
     for program, source in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
-        said, _ = run(program, source, "--ego", "a", "--types", two, fails=65)
+        said, _ = run(program, source, "--ego", "a", fails=65)
+        check("but not its size, which is that of its vType: glint-traffic-sumo --types FILE" in said, said)
+    for source in (xml, table):
+        said, _ = run("glint-traffic-sumo", source, "--ego", "a", "--types", two, fails=65)
         check("--class-map a=CLASS or --class-default CLASS names one, but not its size, which is that of its vType, and no "
               "file of --types has it" in said, said)
-        said, _ = run(program, source, "--ego", "a", fails=65)
-        check("but not its size, which is that of its vType: --types FILE" in said, said)
         for old, new, message in (
-                ('id="b"', "", 'line 1: id is ""; expected 1 to 1024 ASCII characters'),
+                ('id="b"', "", 'line 1: id is missing; expected a name of 1 to 1024 bytes'),
                 ('id="b"', 'id="a"', 'line 1: id is "a", as that of a type above with another class or size; expected one'),
                 ('"11.5"', '"wide"', 'line 1: length is "wide"; expected a number in [0, 1e+06]'),
                 ('"11.5"', '"-1"', 'line 1: length is "-1"; expected a number in [0, 1e+06]'),
-                ('"11.5"', "11.5", "line 1: a tag or comment is not well-formed or has no end"),
-                ("<additional>", "<!--\n<additional>", "line 1: a tag or comment is not well-formed or has no end"),
-                ("</additional>", "", "the file ends before </routes>"),
+                ('"11.5"', "11.5", "line 1: not well-formed (invalid token)"),
+                ("</vType>", "</type>", "line 1: mismatched tag"),
+                ("<additional>", "<!--\n<additional>", "line 1: unclosed token"),
+                ("</additional>", "", "line 1: the file ends before </routes> or </additional>"),
                 ("<additional>", "\n<net>", "line 2: <routes> is missing; expected routes, or additional elements, of SUMO"),
-                (texts[1], "", "the file ends before </routes>")):
+                (texts[1], "", "line 1: no element found")):
             path = os.path.join(folder, "bad.add.xml")
             with open(path, "w", encoding="ascii") as file:
                 file.write(texts[1].replace(old, new, 1))
-            said, _ = run(program, source, "--ego", "a", "--types", one, "--types", path, fails=65)
+            said, _ = run("glint-traffic-sumo", source, "--ego", "a", "--types", one, "--types", path, fails=65)
             check(f"--types: {path}: {message}" in said, f"{old} -> {new}: {said}")
-    for words, message in ((("data/trajectories/highway.csv", "--ego", "1"), "--types: only SUMO has types, not a table of INTERACTION"),
-                           (("cut-in",), "--class-default and --types are for recordings")):
-        said, _ = run("glint-traffic", *words, "--types", one, fails=64)
-        check(message in said, said)
+    said, _ = run("glint-traffic-sumo", "data/trajectories/highway.csv", "--ego", "1", "--types", one, fails=65)
+    check("data/trajectories/highway.csv: a table of INTERACTION; glint-traffic plays it" in said, said)
 
 
 def files_of_other_programs_are_named():
