@@ -1,7 +1,7 @@
 /* Checks that a stream is whole and that its labels agree with its truth. */
 #include <inttypes.h>
 
-#include "frame/frame_labels.h"
+#include "frame/frame_remade.h"
 #include "frame/frame_sequence.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
@@ -14,7 +14,7 @@ struct check {
     const char *key;                   /* of ideal's suite and effects */
     struct diag unknown;               /* why echoes of a frame could not be made again */
     struct frame_sequence sequence;
-    struct frame_labels labels; /* numbers of checked labels */
+    struct frame_remade counts; /* numbers of checked labels */
     int64_t frames, targets, every;
 };
 
@@ -58,7 +58,7 @@ static int check_labels(struct check *own, const struct frame *frame, struct dia
     struct frame again;
     bool due = own->every > 0 && (own->frames - 1) % own->every == 0;
     bool known = due && frame->objects.count > 0 && remake(own, frame, &again);
-    return frame_labels_check(frame, known ? &again : NULL, &own->labels, diag);
+    return frame_remade_check(frame, known ? &again : NULL, &own->counts, diag);
 }
 
 static int check_all(struct check *own, struct diag *diag)
@@ -82,7 +82,7 @@ static int print(const struct check *own, struct output *output)
     text_format(text,
                 "%" PRId64 " frames, %" PRId64 " targets; %" PRId64 " of %" PRId64
                 " contributors recomputed\n",
-                own->frames, own->targets, own->labels.recomputed, own->labels.contributors);
+                own->frames, own->targets, own->counts.recomputed, own->counts.contributors);
     if (own->unknown.code != DIAG_OK)
         text_format(text, "not all could be recomputed: %s\n", own->unknown.text);
     return output_send(output, runner_diag(own->runner));

@@ -1,4 +1,4 @@
-/* Consistency of a frame's parts, and its account.
+/* Checks a frame by itself: its parts, and its account.
  *
  * The tables of fields check each member; this module checks members against each other. */
 #pragma once

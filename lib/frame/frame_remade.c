@@ -1,4 +1,4 @@
-#include "frame/frame_labels.h"
+#include "frame/frame_remade.h"
 
 #include "frame/frame_order.h"
 
@@ -64,7 +64,7 @@ static int check_counts(const struct frame *frame, struct frame *again, struct d
 }
 
 static int check_contributor(const struct contributor *told, const char *sensor,
-                             const struct frame *again, struct frame_labels *labels,
+                             const struct frame *again, struct frame_remade *counts,
                              struct diag *diag)
 {
     struct echo_span echoes = frame_echoes_of(again, sensor);
@@ -72,7 +72,7 @@ static int check_contributor(const struct contributor *told, const char *sensor,
         if (frame_order_echo_ids(&echoes.items[i].id, told) == 0) {
             struct contributor truth = frame_contributor(&echoes.items[i]);
             truth.weight = told->weight;
-            labels->recomputed++;
+            counts->recomputed++;
             return check_numbers(&contributor_record, told, &truth, diag);
         }
     bool made_later = told->id.path >= PATH_WHEEL; /* than by ideal: of a body, or of none */
@@ -84,14 +84,14 @@ static int check_contributor(const struct contributor *told, const char *sensor,
 }
 
 static int check_target(const struct target *target, const struct frame *again,
-                        struct frame_labels *labels, struct diag *diag)
+                        struct frame_remade *counts, struct diag *diag)
 {
     double weights = 0;
-    labels->contributors += (int64_t)target->contributors.count;
+    counts->contributors += (int64_t)target->contributors.count;
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *told = &target->contributors.items[i];
         weights += told->weight;
-        if (again != NULL && check_contributor(told, target->sensor, again, labels, diag) != 0)
+        if (again != NULL && check_contributor(told, target->sensor, again, counts, diag) != 0)
             return diag_prefix(diag, "contributors[%zu].", i);
     }
     if (fabs(weights - 1) <= tolerance)
@@ -127,14 +127,14 @@ static int check_losses(const struct frame *frame, const struct frame *again, st
     return known == again->lost.count ? 0 : diag_fail(diag, DIAG_DATA, "lost: ideal loses more");
 }
 
-int frame_labels_check(const struct frame *frame, struct frame *again, struct frame_labels *labels,
+int frame_remade_check(const struct frame *frame, struct frame *again, struct frame_remade *counts,
                        struct diag *diag)
 {
     if (again != NULL &&
         (check_views(frame, again, diag) != 0 || check_losses(frame, again, diag) != 0))
         return -1;
     for (size_t i = 0; i < frame->targets.count; i++)
-        if (check_target(&frame->targets.items[i], again, labels, diag) != 0)
+        if (check_target(&frame->targets.items[i], again, counts, diag) != 0)
             return diag_prefix(diag, "targets[%zu].", i);
     return again != NULL ? check_counts(frame, again, diag) : 0;
 }

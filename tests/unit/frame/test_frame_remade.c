@@ -1,4 +1,4 @@
-#include "frame/frame_labels.h"
+#include "frame/frame_remade.h"
 
 #include "check.h"
 
@@ -25,12 +25,12 @@ static void begin(struct bench *bench)
 static void expect(struct bench *bench, struct frame *again, const char *message)
 {
     struct diag diag = {0};
-    struct frame_labels labels = {0};
-    int result = frame_labels_check(&bench->frame, again, &labels, &diag);
+    struct frame_remade counts = {0};
+    int result = frame_remade_check(&bench->frame, again, &counts, &diag);
     assert_string_equal(diag.text, message);
     assert_int_equal(result, message[0] == '\0' ? 0 : -1);
-    assert_int_equal(labels.contributors, 1);
-    assert_int_equal(labels.recomputed, again != NULL);
+    assert_int_equal(counts.contributors, 1);
+    assert_int_equal(counts.recomputed, again != NULL);
     arena_free(&bench->arena);
 }
 
