@@ -1,4 +1,4 @@
-/* Rows of a recording in memory.
+/* Rows of a recording, packed into 64 bytes each.
  *
  * Rows have numbers in the order in which they come, stamps in the order of time. A row is linked
  * to others: to those of its stamp, or to the next one of its road user, at the same time or later.

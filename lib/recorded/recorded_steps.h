@@ -1,4 +1,4 @@
-/* The road users of a recording, step by step.
+/* Decides class, place, velocity and yaw, whatever the format.
  *
  * A step is an instant at which the recording has states. Velocities and yaw rates that the source
  * lacks are the slopes of the parabola through three steps, at equal or unequal distances; in the

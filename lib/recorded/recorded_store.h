@@ -1,4 +1,4 @@
-/* Rows of a recording in memory, and their steps.
+/* Puts rows that do not ascend in time into steps.
  *
  * The usual step of a road user is the lower quartile of the times between its rows, as it may be
  * absent for longer; that of the recording is the median over its road users. Rows form a step if

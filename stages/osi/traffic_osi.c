@@ -1,5 +1,5 @@
 /* Traffic of OSI: the ground truth of a trace, message by message, also while it is written. */
-#include "recorded_osi.h"
+#include "osi_rows.h"
 #include "run/recording_source.h"
 
 struct traffic_osi {
@@ -26,7 +26,7 @@ static int traffic_osi_start(void *state, struct runner *runner)
     if (input == NULL)
         return -1;
     struct recorded_reader reader =
-        recorded_osi_open(input, own->rear_axle_velocity, &recording->host, arena, diag);
+        osi_rows_open(input, own->rear_axle_velocity, &recording->host, arena, diag);
     return recording_open(recording, reader, arena, diag);
 }
 

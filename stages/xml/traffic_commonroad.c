@@ -1,5 +1,5 @@
 /* Traffic of CommonRoad: the obstacles of a scenario in XML, 2018b or 2020a. */
-#include "recorded_commonroad.h"
+#include "commonroad_rows.h"
 #include "run/recording_source.h"
 
 static const struct field traffic_commonroad_fields[] = {
@@ -12,7 +12,7 @@ static int traffic_commonroad_start(void *state, struct runner *runner)
     struct arena *arena = runner_arena(runner);
     struct input *input = recording_source_input(state, runner);
     return input == NULL ? -1
-                         : recording_open(state, recorded_commonroad_open(input, arena), arena,
+                         : recording_open(state, commonroad_rows_open(input, arena), arena,
                                           runner_diag(runner));
 }
 

@@ -1,5 +1,5 @@
 /* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs, or as a table. */
-#include "recorded_sumo.h"
+#include "sumo_rows.h"
 #include "run/recording_source.h"
 #include "sumo_types.h"
 
@@ -50,7 +50,7 @@ static int traffic_sumo_start(void *state, struct runner *runner)
     if (input == NULL)
         return -1;
     struct recorded_reader reader =
-        xml ? recorded_sumo_open(input, arena) : open_table(input, recording->source, runner);
+        xml ? sumo_rows_open(input, arena) : open_table(input, recording->source, runner);
     return recording_open(recording, reader, arena, diag);
 }
 

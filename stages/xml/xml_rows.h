@@ -1,4 +1,4 @@
-/* Rows of a recording in XML (by expat).
+/* What readers of rows in XML share (by expat).
  *
  * A file is parsed piece by piece. The reader's handlers add events, which are given out before the
  * next piece is parsed. A fault ends the file after the events before it. */

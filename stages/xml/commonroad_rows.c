@@ -1,4 +1,4 @@
-#include "recorded_commonroad.h"
+#include "commonroad_rows.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -430,7 +430,7 @@ static const struct recorded_format format = {
     .close = xml_rows_close,
 };
 
-struct recorded_reader recorded_commonroad_open(struct input *input, struct arena *arena)
+struct recorded_reader commonroad_rows_open(struct input *input, struct arena *arena)
 {
     struct document *document = arena_get(arena, sizeof *document);
     struct xml_rows *xml = &document->xml;

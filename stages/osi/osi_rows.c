@@ -1,4 +1,4 @@
-#include "recorded_osi.h"
+#include "osi_rows.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -390,7 +390,7 @@ static const char *host_of(const struct osi_message *message, struct arena *aren
     return message->host != NULL ? name_of(message->host, NULL, 0, arena) : NULL;
 }
 
-struct recorded_reader recorded_osi_open(struct input *input, bool rear_axle, const char **host,
+struct recorded_reader osi_rows_open(struct input *input, bool rear_axle, const char **host,
                                          struct arena *arena, struct diag *diag)
 {
     struct trace *trace = arena_get(arena, sizeof *trace);

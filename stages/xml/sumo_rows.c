@@ -1,4 +1,4 @@
-#include "recorded_sumo.h"
+#include "sumo_rows.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -163,7 +163,7 @@ static const struct recorded_format format = {
     .close = xml_rows_close,
 };
 
-struct recorded_reader recorded_sumo_open(struct input *input, struct arena *arena)
+struct recorded_reader sumo_rows_open(struct input *input, struct arena *arena)
 {
     struct document *document = arena_get(arena, sizeof *document);
     struct xml_rows *xml = &document->xml;

@@ -1,7 +1,0 @@
-/* Reader of SUMO's floating car data in XML. */
-#pragma once
-
-#include "recorded/recorded_row.h"
-
-/* Takes over the input. */
-struct recorded_reader recorded_sumo_open(struct input *input, struct arena *arena);
