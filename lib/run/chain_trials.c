@@ -114,7 +114,7 @@ int chain_trials_begin(struct chain_trials *trials, struct tried_chain *referenc
             list[i] = &trials->reference[i].scans.items[at];
             targets += (double)list[i]->targets.count;
         }
-        energy_distance_add(list, 0, SEEDS, trials->scans.items[at].share, trials->among_reference);
+        energy_distance_add(list, SEEDS, trials->scans.items[at].share, trials->among_reference);
     }
     reference->row.targets_per_scan = targets / (double)(SEEDS * trials->scans.count);
     return 0;
@@ -129,39 +129,63 @@ static double *begin_distances(const struct chain_trials *trials)
     return distance;
 }
 
-/* Adds the distances of one scan: from the reference's lists, and of these lists from each other.
- */
-static void add_scan(const struct chain_trials *trials, size_t at,
-                     const struct embedded_list *const own[SEEDS], double *distance)
-{
+/* The lists of one scan, of the reference and behind them of a chain, and their distances. */
+struct compared_scan {
     const struct embedded_list *list[ALL];
-    for (size_t i = 0; i < SEEDS; i++) {
-        list[i] = &trials->reference[i].scans.items[at];
-        list[SEEDS + i] = own[i];
-    }
-    energy_distance_add(list, SEEDS, ALL, trials->scans.items[at].share, distance);
+    double distance[ALL * ALL];
+};
+
+/* Measures the distances of a chain's lists. Those of lists that another chain has as well are
+ * known; NULL: there is no other. */
+static void measure_scan(struct compared_scan *scan, const struct compared_scan *other)
+{
+    for (size_t i = SEEDS; i < ALL; i++)
+        for (size_t j = 0; j < i; j++) {
+            double *distance = &scan->distance[i * ALL + j];
+            if (other != NULL && scan->list[i] == other->list[i] && scan->list[j] == other->list[j])
+                *distance = other->distance[i * ALL + j];
+            else
+                *distance = energy_distance_of_lists(scan->list[i], scan->list[j]);
+        }
 }
 
-/* Adds the distances of a scan of the frame at hand to every chain. A chain that gave no lists has
- * those of the first one. */
+static void add_scan(const struct compared_scan *scan, double share, double *distance)
+{
+    for (size_t i = SEEDS; i < ALL; i++)
+        for (size_t j = 0; j < i; j++) {
+            distance[i * ALL + j] += share * scan->distance[i * ALL + j];
+            distance[j * ALL + i] += share * scan->distance[i * ALL + j];
+        }
+}
+
+/* The list of a chain in a scan of the frame at hand: that of the first chain if it is equal, or if
+ * the chain gave none. */
+static const struct embedded_list *list_of(const struct tried_chains *chains, size_t chain,
+                                           size_t seed, size_t scan)
+{
+    const struct trial_lists *first = &chains->list.items[0]->latest[seed];
+    const struct trial_lists *own = &chains->list.items[chain]->latest[seed];
+    const struct embedded_list *of_first = &first->scans.items[scan];
+    if (own->scans.count <= scan || energy_distance_equal(&own->scans.items[scan], of_first))
+        return of_first;
+    return &own->scans.items[scan];
+}
+
+/* Adds the distances of a scan of the frame at hand to every chain. */
 static void compare_scan(const struct chain_trials *trials, const struct tried_chains *chains,
                          double *const *distances, size_t at, size_t scan)
 {
-    struct tried_chain *const *chain = chains->list.items;
-    double of_first[ALL * ALL] = {0};
+    struct compared_scan first, other;
     for (size_t i = 0; i < chains->list.count; i++) {
-        const struct embedded_list *list[SEEDS];
-        bool shared = i > 0;
+        struct compared_scan *compared = i == 0 ? &first : &other;
         for (size_t k = 0; k < SEEDS; k++) {
-            bool given = chain[i]->latest[k].scans.count > scan;
-            list[k] = &chain[given ? i : 0]->latest[k].scans.items[scan];
-            shared = shared && !given;
-            chain[i]->row.targets_per_scan += (double)list[k]->targets.count;
+            const struct embedded_list *list = list_of(chains, i, k, scan);
+            compared->list[k] = &trials->reference[k].scans.items[at];
+            compared->list[SEEDS + k] = list;
+            chains->list.items[i]->row.targets_per_scan += (double)list->targets.count;
         }
-        if (!shared)
-            add_scan(trials, at, list, i == 0 ? of_first : distances[i]);
-        for (size_t k = 0; (shared || i == 0) && k < (size_t)ALL * ALL; k++)
-            distances[i][k] += of_first[k];
+        measure_scan(compared, i == 0 ? NULL : &first);
+        add_scan(compared, trials->scans.items[at].share, distances[i]);
     }
 }
 
@@ -219,10 +243,13 @@ double chain_trials_spoiled(const struct chain_trials *trials, double lost, doub
                 spoil(&trials->reference[i].scans.items[at], lost, off_cells, &draws, &kept);
     double *distance = begin_distances(trials), sum = 0;
     for (size_t at = 0; at < trials->scans.count; at++) {
-        const struct embedded_list *list[SEEDS];
-        for (size_t i = 0; i < SEEDS; i++)
-            list[i] = &lists[i].scans.items[at];
-        add_scan(trials, at, list, distance);
+        struct compared_scan scan;
+        for (size_t i = 0; i < SEEDS; i++) {
+            scan.list[i] = &trials->reference[i].scans.items[at];
+            scan.list[SEEDS + i] = &lists[i].scans.items[at];
+        }
+        measure_scan(&scan, NULL);
+        add_scan(&scan, trials->scans.items[at].share, distance);
     }
     for (size_t i = 0; i < SEEDS; i++)
         for (size_t k = 0; k < SEEDS; k++)

@@ -6,6 +6,8 @@
  * distance needs it. Differences of coordinates are not wrapped. */
 #pragma once
 
+#include <stdbool.h>
+
 #include "base/arena.h"
 
 enum { EMBEDDED_AXES = 4 };
@@ -23,6 +25,9 @@ struct embedded_list {
 /* Sorts the targets, so that their order in the list changes no bit, and computes the square. */
 void energy_distance_close(struct embedded_list *list, struct arena *arena);
 
+/* Have two closed lists the same targets? */
+bool energy_distance_equal(const struct embedded_list *one, const struct embedded_list *other);
+
 /* |m(X) - m(Y)| >= 0 of two closed lists; sqrt(3) between a list and the same with one target more.
  */
 double energy_distance_of_lists(const struct embedded_list *one, const struct embedded_list *other);
@@ -35,10 +40,9 @@ struct energy_sample {
     size_t ones, others; /* each at least 2 */
 };
 
-/* Adds the distances between count closed lists, times share, to such a matrix. Those between two
- * of the first `known` lists are left out. */
-void energy_distance_add(const struct embedded_list *const *lists, size_t known, size_t count,
-                         double share, double *distance);
+/* Adds the distances between count closed lists, times share, to such a matrix. */
+void energy_distance_add(const struct embedded_list *const *lists, size_t count, double share,
+                         double *distance);
 
 double energy_distance_of(const struct energy_sample *sample);
 

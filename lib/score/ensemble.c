@@ -299,7 +299,7 @@ static int score_scene(const struct ensemble_scene *truth, const struct ensemble
             embedded[i] = embed(&seed->lists.items[k], &unit, &scratch);
             list[i] = &embedded[i];
         }
-        energy_distance_add(list, 0, all, 1 / (double)score->lists, distance);
+        energy_distance_add(list, all, 1 / (double)score->lists, distance);
         arena_clear(&scratch);
     }
     arena_free(&scratch);

@@ -122,6 +122,36 @@ TEST(a_shifted_target_is_as_far_as_its_kernels_say)
         }
 }
 
+static double overlap_of(const struct embedded_target *one, size_t ones,
+                         const struct embedded_target *other, size_t others)
+{
+    double sum = 0;
+    for (size_t i = 0; i < ones; i++)
+        for (size_t j = 0; j < others; j++) {
+            double square = 0;
+            for (int k = 0; k < EMBEDDED_AXES; k++)
+                square += pow(one[i].axis[k] - other[j].axis[k], 2);
+            sum += exp(-square / 2) + exp(-square / 18) + exp(-square / 200);
+        }
+    return sum;
+}
+
+/* Some pairs overlap, others are too far apart in range or in rate. */
+TEST(lists_over_all_ranges_overlap_where_targets_are_near)
+{
+    uint64_t sample = 8;
+    for (int round = 0; round < 100; round++) {
+        struct embedded_target all[30] = {0};
+        for (int i = 0; i < 30; i++) {
+            all[i].axis[0] = sample_between(&sample, 0, 300);
+            all[i].axis[2] = sample_between(&sample, -60, 60);
+        }
+        double square = overlap_of(all, 10, all, 10) + overlap_of(all + 10, 20, all + 10, 20) -
+                        2 * overlap_of(all, 10, all + 10, 20);
+        assert_near(distance_of(all, 10, all + 10, 20), sqrt(square), 1e-13);
+    }
+}
+
 TEST(twice_the_same_target_is_twice_as_far_from_none)
 {
     const struct embedded_target twice[] = {{{1, 2, 3, 4}}, {{1, 2, 3, 4}}};
