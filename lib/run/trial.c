@@ -9,7 +9,6 @@
 #include "run/frame_stream.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
-#include "text/record_write.h"
 
 /* CPU time of this thread, in nanoseconds. */
 static int64_t cpu_ns(void)
@@ -132,7 +131,6 @@ void trial_begin_pass(struct trial_bench *bench, unsigned pass)
 void trial_end(struct trial_bench *bench)
 {
     text_free(&bench->line);
-    text_free(&bench->list);
     arena_free(&bench->arena);
     arena_free(&bench->made_arena);
     arena_free(&bench->cache.arena);
@@ -286,37 +284,53 @@ static void note_cause(struct trial_bench *bench, struct trial *trial, const str
         count_cause(bench, trial, strongest->id.object, strongest->id.mirror);
 }
 
-/* Writes the targets of a sensor, of which this is the first; returns where they end. */
-static size_t write_list(const struct frame *frame, size_t at, const char *sensor,
-                         struct text *text)
+/* Where the targets of a sensor end, of which this is the first. */
+static size_t end_of_list(const struct frame *frame, size_t at, const char *sensor)
 {
     const struct target *targets = frame->targets.items;
-    for (text->length = 0; at < frame->targets.count && frame_same_name(targets[at].sensor, sensor);
-         at++)
-        record_write(&target_record, &targets[at], NULL, text);
+    while (at < frame->targets.count && frame_same_name(targets[at].sensor, sensor))
+        at++;
     return at;
+}
+
+static bool same_targets(const struct target *targets, const struct target *others, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!field_same(&target_record, &targets[i], &others[i]))
+            return false;
+    return true;
+}
+
+/* Counts a list that changed: these targets of the whole chain, and those of the trial. */
+static void count_changed(struct trial_bench *bench, struct trial *trial,
+                          const struct target *targets, size_t count, const struct target *made,
+                          size_t made_count)
+{
+    trial->changed++;
+    if (trial->effect == EFFECT_NONE || effect_table[trial->effect]->scene == NULL)
+        return;
+    for (size_t i = 0; i < count; i++)
+        note_cause(bench, trial, &targets[i], true);
+    for (size_t i = 0; i < made_count; i++)
+        note_cause(bench, trial, &made[i], false);
 }
 
 /* Returns how many lists of the frame changed. */
 static int64_t compare(struct trial_bench *bench, struct trial *trial)
 {
     const struct frame *whole = &bench->frame, *made = &bench->made;
-    bool named = trial->effect != EFFECT_NONE && effect_table[trial->effect]->scene != NULL;
     int64_t before = trial->changed;
-    for (size_t i = 0, at = 0, made_at = 0; i < whole->sensors.list.count; i++) {
+    size_t at = 0, made_at = 0;
+    for (size_t i = 0; i < whole->sensors.list.count; i++) {
         const char *sensor = whole->sensors.list.items[i].name;
-        size_t end = write_list(whole, at, sensor, &bench->list);
-        size_t made_end = write_list(made, made_at, sensor, &bench->line);
-        bool same =
-            bench->list.length == bench->line.length &&
-            (end == at || memcmp(bench->list.bytes, bench->line.bytes, bench->line.length) == 0);
-        trial->changed += !same;
-        for (; at < end; at++)
-            if (!same && named)
-                note_cause(bench, trial, &whole->targets.items[at], true);
-        for (; made_at < made_end; made_at++)
-            if (!same && named)
-                note_cause(bench, trial, &made->targets.items[made_at], false);
+        const struct target *targets = &whole->targets.items[at];
+        const struct target *others = &made->targets.items[made_at];
+        size_t count = end_of_list(whole, at, sensor) - at;
+        size_t made_count = end_of_list(made, made_at, sensor) - made_at;
+        at += count;
+        made_at += made_count;
+        if (count != made_count || !same_targets(targets, others, count))
+            count_changed(bench, trial, targets, count, others, made_count);
     }
     return trial->changed - before;
 }

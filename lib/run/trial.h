@@ -4,9 +4,9 @@
  * from its first stage on, fed with what the whole chain's stage before it wrote. No stage asks for
  * an effect at home in a later one, so a trial without one effect begins at the effect's home.
  *
- * A list has the targets of one sensor in one frame. Lists are compared byte by byte, as the
- * frame's line has them, with their labels. Times are CPU times of the stages that a trial runs,
- * and of writing the line; a trial saves the whole chain's time from its first stage on less its
+ * A list has the targets of one sensor in one frame. Lists are the same if their text in the
+ * frame's line is, labels included. Times are CPU times of the stages that a trial runs, and of
+ * writing the line; a trial saves the whole chain's time from its first stage on less its
  * own. In every round all trials take turns on each frame, so that load on the machine slows them
  * alike. */
 #pragma once
@@ -74,7 +74,7 @@ struct trial_bench {
     struct frame kept[TRIAL_POSITIONS]; /* what each stage of the whole chain read */
     struct arena arena, made_arena;
     struct list_cache cache;
-    struct text line, list;
+    struct text line;
 };
 
 /* The --effects that decide as auto does among those that are allowed: "auto,-rows", or "none"; and

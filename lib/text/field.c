@@ -268,6 +268,74 @@ static bool any_present(const struct record *record, const void *base)
     return false;
 }
 
+static bool same_text(const char *one, const char *other)
+{
+    return one == other || (one != NULL && other != NULL && strcmp(one, other) == 0);
+}
+
+static bool same_names(struct field_list one, struct field_list other)
+{
+    const char *const *names = one.items, *const *others = other.items;
+    if (one.count != other.count)
+        return false;
+    for (size_t i = 0; i < one.count; i++)
+        if (!same_text(names[i], others[i]))
+            return false;
+    return true;
+}
+
+static bool same_lists(const struct record *record, struct field_list one, struct field_list other)
+{
+    const char *items = one.items, *others = other.items;
+    if (one.count != other.count)
+        return false;
+    for (size_t at = 0; at < one.count * record->size; at += record->size)
+        if (!field_same(record, items + at, others + at))
+            return false;
+    return true;
+}
+
+static bool same_member(const struct field *field, const void *one, const void *other)
+{
+    switch (field->kind) {
+    case FIELD_REAL: /* bit by bit, as minus zero has another text than zero */
+    case FIELD_INTEGER:
+    case FIELD_SEED:
+    case FIELD_SET:
+        return FIELD_LOAD(uint64_t, field, one) == FIELD_LOAD(uint64_t, field, other);
+    case FIELD_FLAG:
+        return FIELD_LOAD(bool, field, one) == FIELD_LOAD(bool, field, other);
+    case FIELD_CHOICE:
+        return FIELD_LOAD(int, field, one) == FIELD_LOAD(int, field, other);
+    case FIELD_NAME:
+    case FIELD_RAW:
+        return same_text(FIELD_LOAD(const char *, field, one),
+                         FIELD_LOAD(const char *, field, other));
+    case FIELD_RECORD:
+        return field_same(field->record, (const char *)one + field->offset,
+                          (const char *)other + field->offset);
+    case FIELD_NAMES:
+        return same_names(field_list(field, one), field_list(field, other));
+    case FIELD_LIST:
+        return same_lists(field->record, field_list(field, one), field_list(field, other));
+    case FIELD_NOTES:
+        break;
+    }
+    return true;
+}
+
+bool field_same(const struct record *record, const void *one, const void *other)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        bool present = field_present(record, field, one);
+        if (present != field_present(record, field, other))
+            return false;
+        if (present && !same_member(field, one, other))
+            return false;
+    }
+    return true;
+}
+
 void field_mark_present(const struct record *record, const struct field *field, void *base)
 {
     if (field->group == 0)

@@ -174,6 +174,10 @@ int field_read_number(const char *text, size_t length, double *value);
 
 /* True if the member is required, or differs from its value when absent. */
 bool field_present(const struct record *record, const struct field *field, const void *base);
+
+/* True if both structs have the same text (record_write.h). */
+bool field_same(const struct record *record, const void *one, const void *other);
+
 void field_mark_present(const struct record *record, const struct field *field, void *base);
 
 /* The values that the field takes, for messages: "a number in [0, 1e+06] m", "one of a, b, c",
