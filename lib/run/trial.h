@@ -6,9 +6,8 @@
  *
  * A list has the targets of one sensor in one frame. Lists are the same if their text in the
  * frame's line is, labels included. Times are CPU times of the stages that a trial runs, and of
- * writing the line; a trial saves the whole chain's time from its first stage on less its
- * own. In every round all trials take turns on each frame, so that load on the machine slows them
- * alike. */
+ * writing the line; a trial saves the whole chain's time from its first stage on less its own. In
+ * every round all trials take turns on each frame, so that load on the machine slows them alike. */
 #pragma once
 
 #include "run/frame_sample.h"

@@ -48,8 +48,7 @@ static struct smear_sample *find_or_add(struct smear *smear, int64_t range, int6
 {
     uint32_t *slot = slot_of(smear, range, rate);
     if (*slot == 0) {
-        smear->samples[smear->sample_count].range = range;
-        smear->samples[smear->sample_count].rate = rate;
+        smear->samples[smear->sample_count] = (struct smear_sample){.range = range, .rate = rate};
         *slot = (uint32_t)++smear->sample_count;
     }
     return &smear->samples[*slot - 1];
@@ -169,7 +168,7 @@ struct smear smear_make(const struct sensor *sensor, const struct received_echo 
 {
     struct smear smear = {.sensor = sensor, .echoes = echoes, .count = count};
     size_t most = most_samples(echoes, count);
-    smear.samples = arena_get(arena, most * sizeof *smear.samples);
+    smear.samples = arena_room(arena, most * sizeof *smear.samples);
     smear.numbers = hash_table_begin(most, arena);
     smear.cell = arena_get(arena, 2 * (count + 1) * sizeof *smear.cell);
     smear.peak = smear.cell + count + 1;
