@@ -398,7 +398,9 @@ static struct pair log_of(double x)
 
 static double log_outside(double x)
 {
-    return x == 0 ? -INFINITE : x > 0 ? x : NO_NUMBER;
+    if (x == 0)
+        return -INFINITE;
+    return x > 0 ? x : NO_NUMBER;
 }
 
 /* log m = 2 s + s^3 p, with f = m - 1, s = f / (2 + f) and 2 s = f - s f; p as in log_rest, but

@@ -40,17 +40,24 @@ void text_format(struct text *text, const char *format, ...)
     text->length += (size_t)length;
 }
 
+/* The length of a character of UTF-8 that begins with this byte; 0: none does. */
+static size_t utf8_length(unsigned char first)
+{
+    if (first < 0x80)
+        return 1;
+    if (first < 0xc2 || first >= 0xf5)
+        return 0;
+    if (first < 0xe0)
+        return 2;
+    return first < 0xf0 ? 3 : 4;
+}
+
 size_t text_utf8(const char *bytes, size_t room)
 {
     const unsigned char *text = (const unsigned char *)bytes;
     if (room == 0)
         return 0;
-    size_t length = text[0] < 0x80   ? 1
-                    : text[0] < 0xc2 ? 0
-                    : text[0] < 0xe0 ? 2
-                    : text[0] < 0xf0 ? 3
-                    : text[0] < 0xf5 ? 4
-                                     : 0;
+    size_t length = utf8_length(text[0]);
     if (length == 0 || length > room)
         return 0;
     for (size_t i = 1; i < length; i++)

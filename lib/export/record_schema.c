@@ -81,10 +81,11 @@ static json_t *member_schema(const struct field *field, bool drawn)
 {
     bool number = field->kind == FIELD_REAL || field->kind == FIELD_INTEGER;
     json_t *value = value_schema(field, drawn);
+    if (drawn)
+        value = or_drawn(value, number ? "drawn_number" : "drawn");
     json_t *schema =
         json_pack("{s:s}", field->kind == FIELD_RECORD ? "$comment" : "description", field->help);
-    json_object_update_new(schema,
-                           drawn ? or_drawn(value, number ? "drawn_number" : "drawn") : value);
+    json_object_update_new(schema, value);
     return schema;
 }
 

@@ -17,6 +17,16 @@ static struct name_count *count(struct name_counts *names, const char *name, int
     return item;
 }
 
+/* What a target without an object of the frame is counted as. */
+static const char *kind_of(enum path path)
+{
+    if (path == PATH_CLUTTER)
+        return "clutter";
+    if (path == PATH_FALSE_ALARM)
+        return "false alarm";
+    return "ghost";
+}
+
 static void count_kind(struct stream_counts *counts, const struct frame *frame,
                        const struct contributor *strongest, struct arena *arena)
 {
@@ -25,11 +35,7 @@ static void count_kind(struct stream_counts *counts, const struct frame *frame,
     if (frame_shows_object(path))
         count(&counts->classes, object != NULL ? object->class : strongest->id.object, 1, arena);
     else
-        count(&counts->others,
-              path == PATH_CLUTTER       ? "clutter"
-              : path == PATH_FALSE_ALARM ? "false alarm"
-                                         : "ghost",
-              1, arena);
+        count(&counts->others, kind_of(path), 1, arena);
 }
 
 static void count_target(struct stream_counts *counts, const struct frame *frame,
@@ -108,7 +114,9 @@ int stream_counts_add(struct stream_counts *counts, const struct frame *frame, s
 static int most_first(const void *left, const void *right)
 {
     const struct name_count *a = left, *b = right;
-    return a->count != b->count ? (a->count < b->count ? 1 : -1) : strcmp(a->name, b->name);
+    if (a->count != b->count)
+        return a->count < b->count ? 1 : -1;
+    return strcmp(a->name, b->name);
 }
 
 static double share(int64_t part, int64_t whole)
@@ -182,5 +190,8 @@ void stream_counts_write(struct stream_counts *counts, struct text *text)
 {
     text_format(text, "%" PRId64 " frames, %.2f s; scenes that reached their end: %" PRId64 "\n",
                 counts->frames, counts->seconds, counts->scenes);
-    (counts->traffic ? write_traffic : write_targets)(counts, text);
+    if (counts->traffic)
+        write_traffic(counts, text);
+    else
+        write_targets(counts, text);
 }

@@ -309,6 +309,14 @@ static struct vec2 row_vector(const struct box *box, const struct post_row *row)
                     motion_box_place(box, row->from_x, row->from_y));
 }
 
+/* The number of a post, within 0 and their count. */
+static int64_t post_number(double number, int64_t posts)
+{
+    if (!(number > 0))
+        return 0;
+    return number < (double)posts ? (int64_t)number : posts;
+}
+
 void reflectors_posts_within(const struct box *box, const struct post_row *row, struct vec2 sensor,
                              double range_m, int64_t *first, int64_t *end)
 {
@@ -327,10 +335,8 @@ void reflectors_posts_within(const struct box *box, const struct post_row *row, 
         return;
     }
     double half_chord = sqrt((range_m - aside) * (range_m + aside));
-    double low = floor((foot - half_chord) / row->spacing_m);
-    double high = ceil((foot + half_chord) / row->spacing_m) + 1;
-    *first = low > 0 ? (low < (double)posts ? (int64_t)low : posts) : 0;
-    *end = high > 0 ? (high < (double)posts ? (int64_t)high : posts) : 0;
+    *first = post_number(floor((foot - half_chord) / row->spacing_m), posts);
+    *end = post_number(ceil((foot + half_chord) / row->spacing_m) + 1, posts);
 }
 
 void reflectors_cut_posts(const struct post_row *row, double first_m, double end_m, int64_t *first,

@@ -24,7 +24,11 @@ static inline int predicates_orientation(struct vec2 a, struct vec2 b, struct ve
 {
     double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
     double error = PREDICATES_ROUNDING * (fabs(left) + fabs(right)), determinant = left - right;
-    return determinant > error ? 1 : determinant < -error ? -1 : predicates_exact_sign(a, b, c);
+    if (determinant > error)
+        return 1;
+    if (determinant < -error)
+        return -1;
+    return predicates_exact_sign(a, b, c);
 }
 
 /* The sign of (b - a) · direction: +1 if b is farther along the direction than a, -1 if a is, 0 if

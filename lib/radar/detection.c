@@ -85,6 +85,16 @@ static double passes(const struct detection_law *detection, double amplitude)
     return detection_in_noise(amplitude, detection->final_threshold, detection->noise);
 }
 
+/* The weight of a step of Simpson's rule: 4, 2, 4, ... 4, 1, without the first, at which nothing
+ * is.
+ */
+static double simpson_weight(int step, int steps)
+{
+    if (step == steps)
+        return 1;
+    return step % 2 == 1 ? 4 : 2;
+}
+
 /* Simpson's rule over the power in decibels, with steps that grow from 0: the final threshold
  * decides close to the first one. */
 static double integral(const struct detection_law *detection, const struct power_law *varying,
@@ -94,8 +104,7 @@ static double integral(const struct detection_law *detection, const struct power
     double sum = 0;
     for (int i = 1; i <= STEPS; i++) {
         double part = (double)i / STEPS, power_db = from + (to - from) * part * part;
-        double weight = i == STEPS ? 1 : i % 2 == 1 ? 4 : 2;
-        sum += weight * 2 * part * density(varying, power_db) *
+        sum += simpson_weight(i, STEPS) * 2 * part * density(varying, power_db) *
                passes(detection, amplitude * units_amplitude_from_db(power_db));
     }
     return (to - from) * sum / (3 * STEPS);

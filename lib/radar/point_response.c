@@ -80,7 +80,9 @@ double point_response_hann_offset(double before, double peak, double after)
 {
     double ratio = elementary_max(before, after) / peak;
     double bins = elementary_max((2 * ratio - 1) / (ratio + 1), 0);
-    return before > after ? -bins : before < after ? bins : 0;
+    if (before == after)
+        return 0;
+    return before > after ? -bins : bins;
 }
 
 double point_response_vertex(double before, double peak, double after)

@@ -188,7 +188,11 @@ static const char *word_of_box(const struct recorded_row *row)
         return esmini_words[0].word;
     if (row->width_m <= 1.2)
         return esmini_words[1].word;
-    return esmini_words[row->length_m <= 5.6 ? 2 : row->length_m <= 7 ? 3 : 4].word;
+    if (row->length_m <= 5.6)
+        return esmini_words[2].word;
+    if (row->length_m <= 7)
+        return esmini_words[3].word;
+    return esmini_words[4].word;
 }
 
 /* The velocity of a point of a body that turns differs from that of another. */

@@ -23,7 +23,11 @@ int64_t recorded_row_time_ns(double time, double unit_s)
 /* Divides whole milliseconds, microseconds or nanoseconds, so that the numerator is exact. */
 double recorded_row_seconds(int64_t time_ns)
 {
-    int64_t unit = time_ns % 1000000 == 0 ? 1000000 : time_ns % 1000 == 0 ? 1000 : 1;
+    int64_t unit = 1;
+    if (time_ns % 1000000 == 0)
+        unit = 1000000;
+    else if (time_ns % 1000 == 0)
+        unit = 1000;
     int64_t whole = time_ns / unit;
     return (double)whole / (1e9 / (double)unit);
 }

@@ -187,7 +187,10 @@ static void add_kinds(struct table *table, struct fit *fit)
 static struct fit fit_of(struct table *table, const struct recorded_layout *layout)
 {
     struct fit fit = {.layout = layout};
-    (layout->wide ? add_users : add_kinds)(table, &fit);
+    if (layout->wide)
+        add_users(table, &fit);
+    else
+        add_kinds(table, &fit);
     for (size_t i = 0; i < fit.parts.count; i++)
         count_values(&fit, &fit.parts.items[i], NULL);
     return fit;
@@ -279,9 +282,10 @@ static int take_track(struct table *table, const struct csv_table *row, struct d
     if (intern_word(&table->tracks, id, table->arena) < table->track_list.count)
         return diag_fail(diag, DIAG_DATA, "row %zu: %s %.80s is in a row above already",
                          row->numbers[0], id_name, id);
-    *list_add(&table->track_list, table->arena) = (struct track){class, way == NULL ? (double)NAN
-                                                                        : direction == 1 ? PI
-                                                                                         : 0};
+    double direction_rad = (double)NAN;
+    if (way != NULL)
+        direction_rad = direction == 1 ? PI : 0;
+    *list_add(&table->track_list, table->arena) = (struct track){class, direction_rad};
     return 0;
 }
 

@@ -334,6 +334,16 @@ static void add_entry(const char *name, const char *words, struct text *text)
     add_words(words, strlen(words), COLUMN, text);
 }
 
+/* The short form of an option, and blanks if it has none. */
+static const char *letter_of(const struct field *field)
+{
+    if (strcmp(field->name, "output") == 0)
+        return "-o, ";
+    if (strcmp(field->name, "help") == 0)
+        return "-h, ";
+    return "    ";
+}
+
 static void help_option(const struct field *field, struct text *text)
 {
     if (field->kind == FIELD_RECORD)
@@ -343,11 +353,8 @@ static void help_option(const struct field *field, struct text *text)
         return;
     char left[160], expected[512] = "", words[1024];
     bool flag = field->kind == FIELD_FLAG;
-    const char *letter = strcmp(field->name, "output") == 0 ? "-o, "
-                         : strcmp(field->name, "help") == 0 ? "-h, "
-                                                            : "    ";
-    snprintf(left, sizeof left, "%s--%s%s%s", letter, spell(field->name).text, flag ? "" : "=",
-             flag ? "" : value_word(field));
+    snprintf(left, sizeof left, "%s--%s%s%s", letter_of(field), spell(field->name).text,
+             flag ? "" : "=", flag ? "" : value_word(field));
     if (field->kind == FIELD_REAL || field->kind == FIELD_INTEGER || field->kind == FIELD_CHOICE)
         field_expectation(field, expected, sizeof expected);
     snprintf(words, sizeof words, "%s%s%s%s", field->help, *expected != '\0' ? "; " : "", expected,

@@ -131,11 +131,13 @@ void runner_free(struct runner *runner)
 /* The stage that writes a part of the frame, unless another one stands in its place. */
 static const char *writer_of(unsigned part)
 {
-    return part == PART_OBJECTS                         ? "traffic"
-           : part == PART_REFLECTORS                    ? "extract"
-           : (part & (PART_SENSORS | PART_ECHOES)) != 0 ? "ideal"
-           : part == PART_CELLS                         ? "sensor"
-                                                        : "noise";
+    if (part == PART_OBJECTS)
+        return "traffic";
+    if (part == PART_REFLECTORS)
+        return "extract";
+    if (part == PART_SENSORS || part == PART_ECHOES)
+        return "ideal";
+    return part == PART_CELLS ? "sensor" : "noise";
 }
 
 static int check_parts(struct runner *runner, const struct frame *frame)

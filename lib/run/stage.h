@@ -64,10 +64,11 @@ enum stage_kind { STAGE_SOURCE, STAGE_FILTER, STAGE_SINK, STAGE_TOOL };
 
 static inline enum stage_kind stage_kind(const struct stage *stage)
 {
-    return stage->run != NULL    ? STAGE_TOOL
-           : stage->next != NULL ? STAGE_SOURCE
-           : stage->sink         ? STAGE_SINK
-                                 : STAGE_FILTER;
+    if (stage->run != NULL)
+        return STAGE_TOOL;
+    if (stage->next != NULL)
+        return STAGE_SOURCE;
+    return stage->sink ? STAGE_SINK : STAGE_FILTER;
 }
 
 /* True if the stage takes files of frames, or else standard input. */

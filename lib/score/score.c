@@ -391,10 +391,9 @@ static void fill_row(const struct table *table, const struct record *record,
 {
     for (size_t i = 0; i < table->count; i++) {
         const char *base = (const char *)&table->scores[i] + offset;
-        double number = field_number(field, base);
-        table->row[i] = !field_present(record, field, base) ? (double)NAN
-                        : field->kind == FIELD_REAL         ? scale * number
-                                                            : number;
+        table->row[i] = (double)NAN;
+        if (field_present(record, field, base))
+            table->row[i] = field_number(field, base) * (field->kind == FIELD_REAL ? scale : 1);
     }
 }
 
@@ -425,6 +424,14 @@ static void write_rates(const struct table *table)
     write_row(table, "false", "% of listed", 1);
 }
 
+static const char *unit_of(const struct table *table, const struct field *field)
+{
+    if (field->offset >= offsetof(struct score, gospa_localisation) &&
+        field->offset <= offsetof(struct score, gospa_false))
+        return table->square;
+    return field->offset <= offsetof(struct score, ospa) ? table->distance : "";
+}
+
 static void write_table(const struct table *table)
 {
     text_format(table->text, "%-*s%-*s", NAME_WIDTH, "", UNIT_WIDTH, "unit");
@@ -432,19 +439,12 @@ static void write_table(const struct table *table)
         text_format(table->text, "%*s", width_of(table, i), table->heads[i]);
     text_add_word(table->text, "\n");
     for (const struct field *field = score_record.fields; field->name != NULL; field++) {
-        bool squared = field->offset >= offsetof(struct score, gospa_localisation) &&
-                       field->offset <= offsetof(struct score, gospa_false);
-        bool distance = !squared && field->offset <= offsetof(struct score, ospa);
         if (field->kind == FIELD_INTEGER || field->kind == FIELD_REAL)
             fill_row(table, &score_record, field, 0, 1);
         if (field->kind == FIELD_INTEGER)
             write_row(table, field->name, "", 0);
         else if (field->kind == FIELD_REAL)
-            write_row(table, field->name,
-                      squared    ? table->square
-                      : distance ? table->distance
-                                 : "",
-                      4);
+            write_row(table, field->name, unit_of(table, field), 4);
         else if (field->kind == FIELD_RECORD)
             write_component(table, field);
         if (field->offset == offsetof(struct score, false_count))

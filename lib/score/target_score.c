@@ -133,7 +133,10 @@ static void join(struct entry *one, struct entry *other)
 {
     one = first_of(one);
     other = first_of(other);
-    *(one < other ? &other->group : &one->group) = one < other ? one : other;
+    if (one < other)
+        other->group = one;
+    else
+        one->group = other;
 }
 
 static int compare_places(const void *left, const void *right)

@@ -100,11 +100,17 @@ struct object_list {
     LIST_OF(const struct object *) list;
 };
 
+/* The part of the frame that tells which objects are to be tracked; 0: none is needed. */
+static unsigned part_of_truth(enum track_truth truth)
+{
+    if (truth == TRACK_TRUTH_IN_VIEW)
+        return PART_SENSORS;
+    return truth == TRACK_TRUTH_DETECTED ? PART_TARGETS : 0;
+}
+
 int track_score_check(const struct frame *frame, enum track_truth truth, struct diag *diag)
 {
-    unsigned needed = truth == TRACK_TRUTH_IN_VIEW    ? PART_SENSORS
-                      : truth == TRACK_TRUTH_DETECTED ? PART_TARGETS
-                                                      : 0;
+    unsigned needed = part_of_truth(truth);
     if ((needed & ~frame->present) == 0)
         return 0;
     return diag_fail(diag, DIAG_DATA, "%s: missing; --objects=%s needs it", frame_part_name(needed),

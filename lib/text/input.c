@@ -107,11 +107,19 @@ static int fill(struct input *input, struct diag *diag)
     return got > 0;
 }
 
+/* Makes zlib ready for the member; Z_OK, or its reason not to be. */
+static int ready_stream(struct input *input)
+{
+    if (input->inside_member)
+        return Z_OK;
+    if (input->gzip)
+        return inflateReset(&input->stream);
+    return inflateInit2(&input->stream, 16 + MAX_WBITS);
+}
+
 static int start_member(struct input *input, struct diag *diag)
 {
-    int done = input->inside_member ? Z_OK
-               : input->gzip        ? inflateReset(&input->stream)
-                                    : inflateInit2(&input->stream, 16 + MAX_WBITS);
+    int done = ready_stream(input);
     if (done == Z_MEM_ERROR)
         memory_get((size_t)-1);
     if (done != Z_OK)

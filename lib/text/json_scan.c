@@ -21,7 +21,11 @@ static size_t utf8_write(uint32_t code, char *out)
         out[0] = (char)code;
         return 1;
     }
-    size_t length = code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    size_t length = 4;
+    if (code < 0x800)
+        length = 2;
+    else if (code < 0x10000)
+        length = 3;
     static const unsigned char lead[] = {0, 0, 0xc0, 0xe0, 0xf0};
     for (size_t i = length - 1; i > 0; i--, code >>= 6)
         out[i] = (char)(0x80 | (code & 0x3f));

@@ -134,8 +134,13 @@ static bool may_take(const struct whole_file *file, struct stat *there)
         return false;
     bool kept = (folder.st_mode & S_ISVTX) != 0 && geteuid() != 0 && there->st_uid != geteuid() &&
                 folder.st_uid != geteuid();
-    errno = S_ISDIR(there->st_mode) ? EISDIR : is_mounted(file->path) ? EBUSY : kept ? EPERM : 0;
-    return errno == 0;
+    int reason = kept ? EPERM : 0;
+    if (S_ISDIR(there->st_mode))
+        reason = EISDIR;
+    else if (is_mounted(file->path))
+        reason = EBUSY;
+    errno = reason;
+    return reason == 0;
 }
 
 /* Opens a file with the mode and the owner of the one that is there. Where the owner cannot be

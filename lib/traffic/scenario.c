@@ -323,7 +323,7 @@ static struct motion follow_waypoints(const struct actor *actor, double time_s, 
 {
     size_t span = span_of(actor, time_s);
     double fraction = (time_s - actor->waypoints.items[span].time_s) / span_duration_s(actor, span);
-    double s = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
+    double s = elementary_max(elementary_min(fraction, 1), 0);
     *travelled_m = span_length_m(actor, span, s);
     for (size_t i = 0; i < span; i++)
         *travelled_m += span_length_m(actor, i, 1);

@@ -49,9 +49,9 @@ static const char *word_of(enum object_kind kind, int32_t number, struct arena *
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (types[i].kind == kind && types[i].number == number)
             return types[i].word;
-    return kind == STATIONARY
-               ? NULL
-               : arena_format(arena, "%s_%d", kind == MOVING ? "moving" : "vehicle", (int)number);
+    if (kind == STATIONARY)
+        return NULL;
+    return arena_format(arena, "%s_%d", kind == MOVING ? "moving" : "vehicle", (int)number);
 }
 
 /* The reference of glint-osi among those of an object, or NULL: the id and the class of the object
