@@ -254,7 +254,7 @@ accuracy: all
 schemas: all
 	$(Q)$(BUILD)/bin/glint-schema schemas
 	$(Q)tests/tools/tables-sql schemas/tables.json >schemas/tables.sql
-	$(Q)python3 scripts/sets/schema.py >schemas/dataset.json
+	$(Q)python3 scripts/glint/sets/schema.py >schemas/dataset.json
 
 # The table of sections, from the pages of the model.
 MODEL.md: FORCE
@@ -286,6 +286,7 @@ man: all
 # layout of this tree, so that commands of pages run there. What tests and measures glint stays here.
 doc = $(DESTDIR)$(PREFIX)/share/doc/glint
 scripts = dataset check-set export make-radar tracker
+package = $(wildcard scripts/glint/*.py scripts/glint/*/*.py)
 doc_pages = README.md OTHERS.md CHANGES.md MODEL.md LICENSE scripts/README.md \
     $(wildcard lib/*/MODEL.md stages/*/MODEL.md stages/README.md tests/*/README.md)
 # One file under the names of several programs, without what only a debugger reads.
@@ -318,22 +319,19 @@ install: all man
 	ln -sfn ../../glint $(doc)/data
 	ln -sfn . $(DESTDIR)$(PREFIX)/share/glint/data
 	ln -sfn ../../glint/pipelines ../../glint/schemas $(doc)
-	install -d $(doc)/scripts/sets $(doc)/scripts/exports $(doc)/scripts/radars $(doc)/tests/support $(doc)/build
+	install -d $(doc)/build
 	ln -sfn ../../../../bin $(doc)/build/bin
 	install -m 755 $(addprefix scripts/,$(scripts)) $(doc)/scripts
-	install -m 644 scripts/glint.py $(doc)/scripts
-	install -m 644 scripts/sets/*.py $(doc)/scripts/sets
-	install -m 644 scripts/exports/*.py $(doc)/scripts/exports
+	$(Q)for module in $(package); do \
+	    install -D -m 644 $$module $(doc)/$$module || exit 1; done
 	ln -sfn ../doc/glint/scripts $(DESTDIR)$(PREFIX)/share/glint/scripts
-	install -m 644 scripts/radars/*.py $(doc)/scripts/radars
-	install -m 644 tests/support/progress.py tests/support/command_line.py $(doc)/tests/support
 	install -m 644 stages/noise_none.c $(doc)/stages
 	$(Q)for source in $(plugin_sources); do \
 	    install -D -m 644 $$source $(doc)/$$source || exit 1; done
 	install -d $(doc)/stages/spray
 	sed '/^```c$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray/spray.c
 	sed '/^```make$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray/Makefile
-	tests/tools/installed-pages "$(scripts) glint.py sets exports radars" $(doc) $(DESTDIR)$(PREFIX)/share/glint
+	tests/tools/installed-pages "$(scripts) glint" $(doc) $(DESTDIR)$(PREFIX)/share/glint
 
 # Takes away what `make install` puts there: programs and pages by name, and glint's own folders.
 uninstall:

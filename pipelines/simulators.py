@@ -1,4 +1,4 @@
-"""Objects of other simulators for glint.Loop (scripts/glint.py): import it beside glint.py, or copy what you need.
+"""Objects of other simulators for glint.Loop (scripts/glint): import it beside glint, or copy what you need.
 
     radar.step("7", [carla_object(actor) for actor in world.get_actors() if actor.type_id.startswith(("vehicle", "walker"))])
     radar.step("ego", [sumo_object(traci.vehicle, name) for name in traci.vehicle.getIDList()])

@@ -5,7 +5,7 @@ All axes are scaled here, so that the place of every point is known and labels c
 import math
 import os
 
-import gnuplot
+from glint.drawings import gnuplot
 import labels
 from labels import Box
 from written import RADARS, changes, measured, pick, spent_more

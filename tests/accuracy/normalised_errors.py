@@ -21,8 +21,8 @@ import sys
 
 sys.dont_write_bytecode = True
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
-from progress import Progress, say  # noqa: E402
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+from glint.progress import Progress, say  # noqa: E402
 
 GLINT = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin", "glint")
 SUITES = "srr24-pair,srr24-signal,corner77,lrr77,lrr77-full,lrr77-coherent,lrr77-signal-small,radarscenes77-full"

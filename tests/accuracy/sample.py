@@ -12,7 +12,7 @@ import knobs
 import scenes
 import tracking
 import written
-from progress import Progress
+from glint.progress import Progress
 from written import RADARS, pick
 
 

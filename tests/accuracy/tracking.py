@@ -46,7 +46,7 @@ def traffic_of(scene):
 def tracker_digest(command):
     """Of the command and of the files that it names."""
     files = [chains.content(word) for word in shlex.split(command) if os.path.isfile(word)]
-    return chains.digest(command, *files, chains.content(os.path.join(chains.ROOT, "scripts", "glint.py")))
+    return chains.digest(command, *files, chains.content(os.path.join(chains.ROOT, "scripts", "glint", "frames.py")))
 
 
 def scored(cache, lists, command):

@@ -158,7 +158,8 @@ def flips(bin_dir, text):
 
 
 def check_set():
-    """scripts/check-set as a module."""
+    """scripts/check-set as a module, beside its package."""
+    sys.path.insert(0, ROOT + "/scripts")
     loader = importlib.machinery.SourceFileLoader("check_set", ROOT + "/scripts/check-set")
     spec = importlib.util.spec_from_loader("check_set", loader)
     module = importlib.util.module_from_spec(spec)

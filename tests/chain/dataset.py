@@ -22,11 +22,12 @@ import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+SCRIPTS = os.path.join(ROOT, "scripts")
+sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 sys.dont_write_bytecode = True
-from progress import Progress  # noqa: E402
+from glint.progress import Progress  # noqa: E402
 
-DATASET, CHECK_SET = (os.path.join(ROOT, "scripts", name) for name in ("dataset", "check-set"))
+DATASET, CHECK_SET = (os.path.join(SCRIPTS, name) for name in ("dataset", "check-set"))
 CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections account | glint-sensor | glint-noise"
 SUITE = "corner77-every-frame"
 SHARES = {"train": 0.8, "validation": 0.1, "test": 0.1}
@@ -171,8 +172,7 @@ def tables_have_the_targets_of_their_lines(folder):
 
 def rows_are_counted_wherever_a_table_is_cut(_):
     """Ends of lines within quotes are no ends of rows."""
-    sys.path[:0] = [os.path.join(ROOT, "scripts", "sets"), os.path.join(ROOT, "scripts")]
-    import tables
+    from glint.sets import tables
     cells = ["plain", 'a "word"', "two\nlines", '"', "", "\n", ',"\n"']
     with io.StringIO(newline="") as table:
         csv.writer(table, lineterminator="\n").writerows([cells[i:], cells[:i]] for i in range(len(cells)))
@@ -792,7 +792,7 @@ def what_is_damaged_is_made_again(folder):
 HOLDER = """
 import sys
 sys.path.insert(0, sys.argv[1])
-import durable
+from glint.sets import durable
 with durable.whole_file("{place}/file", "{place}"), durable.temporary_folder("folder", "{place}"):
     print("begun", flush=True)
     sys.stdin.read()
@@ -801,14 +801,12 @@ with durable.whole_file("{place}/file", "{place}"), durable.temporary_folder("fo
 
 def temporaries_of_the_living_stay(folder):
     """Also those of another container with this host name; those of the killed go, whatever has their numbers now."""
-    sets = os.path.join(ROOT, "scripts", "sets")
-    sys.path.insert(0, sets)
-    import durable
+    from glint.sets import durable
     alone = ["unshare", "-rpf", "--mount-proc", "--kill-child", sys.executable]
     if run([*alone, "-c", ""]).returncode != 0:
         print("skipped  temporaries of another container: this machine lets nobody begin a namespace; tried without one")
         alone = [sys.executable]
-    with subprocess.Popen([*alone, "-c", HOLDER.format(place=folder), sets], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    with subprocess.Popen([*alone, "-c", HOLDER.format(place=folder), SCRIPTS], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                           text=True) as holder:
         assert holder.stdout.readline() == "begun\n"
         for of_all in (False, True):

@@ -3,7 +3,7 @@
 Usage: python3 tests/chain/live.py BIN_DIR
 
 Through pipes, FIFOs, sockets and terminals, plain and gzip, through processes and fused, the answers are the bytes
-of a run over a file. An answer that has not come after a minute counts as never coming. glint.Loop (scripts/glint.py) is
+of a run over a file. An answer that has not come after a minute counts as never coming. glint.Loop (scripts/glint) is
 tried hard: its chains are killed, stopped, fed and made to write garbage, and started again.
 """
 import json

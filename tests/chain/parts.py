@@ -14,9 +14,9 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SUPPORT = os.path.join(ROOT, "tests", "support")
-sys.path.insert(0, SUPPORT)
-import progress  # noqa: E402
+SCRIPTS = os.path.join(ROOT, "scripts")
+sys.path.insert(0, SCRIPTS)
+from glint import progress  # noqa: E402
 
 PATIENCE_S = 300
 IGNORED = "HUP,INT,QUIT,PIPE,ALRM,TERM,USR1,USR2,XCPU,XFSZ"
@@ -171,7 +171,7 @@ def a_part_tells_its_share_and_what_it_starts_does_not(folder):
     """The share of one that runs its own work in halves; a script inside it has another."""
     script = os.path.join(folder, "work.py")
     with open(script, "w", encoding="ascii") as file:
-        file.write(f"import subprocess, sys, time; sys.path.insert(0, '{SUPPORT}'); from progress import Progress\n"
+        file.write(f"import subprocess, sys, time; sys.path.insert(0, '{SCRIPTS}'); from glint.progress import Progress\n"
                    "if sys.argv[1:]: [time.sleep(1.5) for _ in Progress('x').over([0], cost=lambda _: 1)]\n"
                    "else:\n    for _ in Progress('halves').over([0, 1], cost=lambda _: 2): subprocess.run([sys.executable, __file__, 'inner'])\n")
     telling = f"( export GLINT_PROGRESS=\"$BASHPID {folder}/share\"; python3 {script}; true )"

@@ -177,8 +177,7 @@ def a_page_is_not_written_to_a_terminal(folder):
 
 def scripts_show_the_same_line(_):
     """The two helpers of scripts; a script that uses one is tried with work that takes over a second."""
-    support = os.path.join(ROOT, "tests", "support")
-    python = f"import sys, time; sys.path.insert(0, '{support}'); from progress import Progress\n" \
+    python = f"import sys, time; sys.path.insert(0, '{ROOT}/scripts'); from glint.progress import Progress\n" \
              f"for n in Progress('runs').over(range(4)): time.sleep({BLOCKED_S} if n < 2 else 0.3)"
     shell = f". {ROOT}/scripts/support/progress.sh; sleep {BLOCKED_S}; progress 1 4 runs; progress_end"
     for words in (f"python3 -c \"{python}\"", f"sh -c '{shell}'", f"bash -c '{shell}'"):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/glint.py and scripts/tracker do what they say: python3 tests/chain/python.py BIN_DIR"""
+"""scripts/glint and scripts/tracker do what they say: python3 tests/chain/python.py BIN_DIR"""
 import gzip
 import json
 import math

@@ -18,19 +18,11 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.dont_write_bytecode = True
-sys.path[:0] = [os.path.join(ROOT, "scripts", "recordings"), os.path.join(ROOT, "tests", "support")]
-import beside  # noqa: E402
-import chains  # noqa: E402
-import fitted  # noqa: E402
-import geometry  # noqa: E402
-import marginals  # noqa: E402
-import readers  # noqa: E402
-import roadside  # noqa: E402
-import score  # noqa: E402
-import statics  # noqa: E402
-from progress import Progress  # noqa: E402
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+from glint.progress import Progress  # noqa: E402
+from glint.recordings import beside, chains, fitted, geometry, marginals, readers, roadside, score, statics  # noqa: E402
 
-chains.GLINT = os.path.join(os.path.abspath(sys.argv[1]), "glint")
+beside.GLINT = chains.GLINT = os.path.join(os.path.abspath(sys.argv[1]), "glint")
 EGO_MPS, INTERVAL_S = 30.0, 0.06
 RADAR = readers.Radar(3.8, 0.0, 0.0, 77e9)
 LAW = fitted.Curve([(1, 68.0), (10, 44.0), (1000, -4.0)], [(math.radians(one), -0.06 * one * one) for one in range(-18, 19)])

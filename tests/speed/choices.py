@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 
 import timing
-from progress import say
+from glint.progress import say
 
 CHOICES = ("none", "objects", "quality", "visibility", "account:every=10", "account", "margins",
            "reflectors,echoes,cells", "all")

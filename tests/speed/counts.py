@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 import scenes
-from progress import Progress
+from glint.progress import Progress
 
 SAME_HEAP = os.path.join("build", "tests", "speed", "same_heap.so")
 ENVIRONMENT = {

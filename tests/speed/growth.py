@@ -13,7 +13,7 @@ import sys
 
 import counts
 import scenes
-from progress import Progress, say
+from glint.progress import Progress, say
 
 MOST = 2.3
 SUITE = "srr24-pair-every-frame"

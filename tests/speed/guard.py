@@ -16,7 +16,7 @@ import subprocess
 import counts
 import effects
 import scenes
-from progress import say
+from glint.progress import say
 
 RECORD = os.path.join("tests", "speed", "instructions.json")
 FIXED = os.path.join("tests", "speed", "fixed.json")

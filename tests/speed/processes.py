@@ -3,14 +3,12 @@ of a single frame take, and whether the end of a long stream costs as much as it
 import os
 import statistics
 import subprocess
-import sys
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 import glint
 import scenes
 import timing
-from progress import Progress
+from glint.progress import Progress
 
 SUITE = "--sensors lrr77-every-frame"
 # What each executable gets to do with one frame: options, and the stage whose output it reads.

@@ -10,7 +10,7 @@ import statistics
 import subprocess
 
 import timing
-from progress import Progress
+from glint.progress import Progress
 
 VEHICLES, STEPS, RUNS = 40, 10000, 5
 PARSE_XML = os.path.join(timing.TOOLS, "parse_xml")

@@ -21,7 +21,7 @@ import sys
 import time
 
 import timing
-from progress import say
+from glint.progress import say
 
 SCENES, SECONDS, RATE_HZ, SUITE = 240, 20, 20, "corner77-four"
 CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections quality | glint-sensor | glint-noise"

@@ -11,7 +11,7 @@ import statistics
 import subprocess
 
 import timing
-from progress import say
+from glint.progress import say
 
 RATE_HZ = 25
 ROADS_M = 40

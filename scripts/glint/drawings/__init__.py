@@ -1,0 +1,1 @@
+"""Pictures of the pages, from glint's own frames."""

@@ -1,0 +1,1 @@
+"""Layouts of other data sets, which scripts/export writes."""

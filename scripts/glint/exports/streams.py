@@ -1,0 +1,253 @@
+"""Reads what is exported, with all that formats need: frames of lines, of the tables of glint-tables, or of a set."""
+import csv
+import glob
+import gzip
+import itertools
+import json
+import math
+import os
+import pickle
+import sys
+import tempfile
+import zlib
+
+import glint
+from glint.places import DATA, SCHEMAS
+from glint.progress import Progress
+from glint.sets import schema
+from glint.sets.plan import BAD_DATA, NO_INPUT, Fault, read_json
+
+HEIGHT_M = 0.5  # of a sensor that has none: usual for radars
+LEVELS = "v0-40", "v40-60", "v60-80", "v80-100"
+COUNTED = "objects", "scans", "detections", "contributors", "sightings", "lost"  # tables of which frames have numbers of rows
+CELLS = {"frame_key", "detection_key", "seed", "time_s", "sensor", "measured_s", "detection", "contributor", *COUNTED}  # no row lacks them
+LOST = "a row was lost, doubled or moved, here or before"
+# What formats need beyond glint.FRAME, and what gives it.
+LENGTH, VALUE = glint.number(1e-3, 1e6), glint.number(-1e9, 1e9)
+QUALITY = ("rcs_dbsm", "range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad", "existence", "range_rate_over_ground_mps", "x_centre_m",
+           "x_rear_axle_m")
+NEEDED = {**dict.fromkeys(("scene", "seed", "frame", "time_s", "ego"), (lambda value: value is not None, "a value")),
+          "objects": [{"class": glint.NAME, "length_m": LENGTH, "width_m": LENGTH, "height_m": LENGTH}],
+          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau), "mount_z_m": glint.number(0, 100)}]},
+          "targets": [{"quality": dict.fromkeys(QUALITY, VALUE), "contributors": [{"path": glint.NAME}]}],
+          "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
+GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave out --sections -objects",
+            "targets:": "expected lists, as glint-noise writes them", "_m:": "glint-extract gives objects the sizes of their class"}
+
+
+def rows(folder, name):
+    """The rows of a table, without empty cells; each knows its place."""
+    of, path = {"integer": int, "number": float, "boolean": "true".__eq__, "string": str}, os.path.join(folder, name + ".csv")
+    types = {one["name"]: of[one["type"]] for one in read_json(os.path.join(SCHEMAS, "tables.json"))[name]["fields"]}
+    place = path = path + ".gz" * (not os.path.exists(path))
+    try:
+        with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="utf-8", newline="") as file:
+            table = csv.DictReader(file, strict=True)
+            if not table.fieldnames:
+                raise ValueError("no heading")
+            for cells in table:
+                place = f"{path}:{table.line_num}"
+                row = glint.Frame((key, types[key](cell)) for key, cell in cells.items() if cell)
+                if None in cells.values():
+                    raise ValueError("cells are missing")
+                if lacking := CELLS & types.keys() - row.keys():
+                    raise ValueError(f"no {', '.join(sorted(lacking))}")
+                row.place = place
+                yield row
+    except FileNotFoundError as error:
+        raise Fault(NO_INPUT, f"{path}: no such table; expected all those of glint-tables: run it again if it was killed") from error
+    except (AttributeError, EOFError, KeyError, TypeError, ValueError, csv.Error, gzip.BadGzipFile, zlib.error) as error:
+        raise Fault(BAD_DATA, f"{place}: {error!r}; expected a table of glint-tables") from error
+
+
+class Table:
+    """The rows of a table in their order, without gaps. A row that was lost, doubled or moved is refused with its place."""
+
+    def __init__(self, folder, name, numbers=None, first=None):
+        """numbers: a column that goes up by 1 from row to row, from first on, or from what the first row has."""
+        self.name, self.rows, self.numbers, self.first, self.next = name, rows(folder, name), numbers, first, first
+
+    def take(self, above, **keys):
+        """The next rows, as many as the row above says. They have these keys."""
+        count, self.next = above[self.name], self.next if self.first is None else self.first
+        found = [self.checked(row, keys) for _, row in zip(range(count), self.rows)]
+        if len(found) < count:
+            raise Fault(BAD_DATA, f"{above.place}: {self.name} {count}; the table {self.name} ends after {len(found)} of them")
+        return found
+
+    def checked(self, row, keys):
+        if self.numbers:
+            keys = keys | {self.numbers: row.get(self.numbers, 0) if self.next is None else self.next}
+            self.next = keys[self.numbers] + 1
+        if wrong := next((key for key, value in keys.items() if row.get(key) != value), None):
+            raise Fault(BAD_DATA, f"{row.place}: {wrong} {row.get(wrong)}; expected {keys[wrong]}: {LOST}")
+        return row
+
+    def end(self):
+        if row := next(self.rows, None):
+            raise Fault(BAD_DATA, f"{row.place}: a row of {self.name} that belongs to no row of another table")
+
+
+def of_scans(table, frame, scans, once=()):
+    """The rows of a frame that belong to its scans, or to a sensor without one. No two have the same values in the columns `once`."""
+    keys, known = {None, *(one["scan_key"] for one in scans)}, set()
+    found = table.take(frame)
+    for row in found:
+        what = tuple(map(row.get, once))
+        if row.get("scan_key") not in keys:
+            raise Fault(BAD_DATA, f"{row.place}: scan_key {row['scan_key']}; expected a scan of {frame.place}: {LOST}")
+        if once and what in known:
+            raise Fault(BAD_DATA, f"{row.place}: {' '.join(map(str, what))} for the second time in {frame.place}: {LOST}")
+        known.add(what)
+    return found
+
+
+def frames_of_tables(folder):
+    tables = frames, objects, scans, targets, parts, sightings, lost = [Table(folder, *words) for words in (
+        ("frames", "frame_key"), ("objects", "object_key"), ("scans", "scan_key"), ("detections", "detection_key"),
+        ("contributors", "contributor", 0), ("sightings",), ("lost",))]
+    for row in frames.rows:
+        key = {"frame_key": frames.checked(row, {})["frame_key"]}
+        bodies, of_sensors = objects.take(row, **key), scans.take(row, **key)
+        found = [one for scan in of_sensors for one in targets.take(scan, **key, scan_key=scan["scan_key"], sensor=scan["sensor"])]
+        for one in found:
+            one["quality"] = {name[8:]: value for name, value in one.items() if name.startswith("quality_")}
+            one["contributors"] = parts.take(one, detection_key=one["detection_key"])
+        for name, count in ("detections", len(found)), ("contributors", sum(len(one["contributors"]) for one in found)):
+            if row[name] != count:
+                raise Fault(BAD_DATA, f"{row.place}: {name} {row[name]}; expected {count}, the rows of that table")
+        seen = of_scans(sightings, row, of_sensors, once=("sensor", "object"))
+        of_scans(lost, row, of_sensors)
+        sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in of_sensors]
+        frame = glint.Frame(row, seed=str(row["seed"]), objects=bodies, sensors={"suite": row.get("suite"), "list": sensors}, targets=found, visibility=seen)
+        frame.place = row.place
+        if fault := glint.fault(frame, glint.FRAME) or glint.unjoined(frame):
+            raise Fault(BAD_DATA, f"{row.place}: {fault.lstrip('.')}")
+        yield frame
+    for table in tables:
+        table.end()
+
+
+def streams_of(path):
+    """The streams of an input: split of a set, or None, and frames. Shards of a set are read by their tables, or by their lines if
+    they have none."""
+    manifest, shards = os.path.join(path, "datapackage.json"), {(None, path)}
+    if os.path.exists(manifest):
+        shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3]))
+                  for one in document(manifest, "set")["resources"]}
+    for split, place in sorted(shards, key=str):
+        place += ".jsonl.gz" * (split is not None and not glob.glob(os.path.join(glob.escape(place), "frames.csv*")))
+        yield split, frames_of_tables(place) if os.path.isdir(place) else glint.frames(place)
+
+
+def document(path, kind):
+    """A document of a kind of data/exports/schema.json."""
+    found = read_json(path)
+    if fault := schema.fault_of(found, read_json(os.path.join(DATA, "exports", "schema.json"))[kind]):
+        raise Fault(BAD_DATA, f"{path}: {fault}")
+    return found
+
+
+def complete(frame):
+    """Refuses a frame that lacks what formats need; gives a height to sensors that have none."""
+    if fault := glint.fault(frame, NEEDED, ("visibility", "mount_z_m")):
+        raise Fault(BAD_DATA, "; ".join([f"{frame.place}: {fault[1:]}", *(hint for name, hint in GIVEN_BY.items() if name in fault)]))
+    for one in frame["sensors"]["list"]:
+        one.setdefault("mount_z_m", HEIGHT_M)
+    words = [word(one["name"]) for one in frame["sensors"]["list"]]
+    if len({*words}) < len(words):
+        raise Fault(BAD_DATA, f"{frame.place}: sensors: two would be {max(words, key=words.count)}; expected names that differ in ASCII letters or digits")
+
+
+def identity(frame):
+    """Frames of one name and one seed are a scene."""
+    return frame["scene"], frame["seed"]
+
+
+def scene_by_scene(found):
+    """Pairs of a split and a frame, with the frames of a scene together, and the scenes in the order in which they begin. The frames
+    of scenes that begin before another one has ended, as those of several egos do, wait in a file for their turn."""
+    with tempfile.TemporaryFile() as file:
+        now, waiting = None, {}  # the scene whose turn it is, and where the frames of the others lie
+        for pair in found:
+            now = now or identity(pair[1])
+            if identity(pair[1]) != now:
+                waiting.setdefault(identity(pair[1]), []).append(file.seek(0, os.SEEK_END))
+                pickle.dump(pair, file)
+                continue
+            yield pair
+            while pair[1].get("last") and (now := next(iter(waiting), None)):
+                for place in waiting.pop(now):
+                    file.seek(place)
+                    pair = pickle.load(file)
+                    yield pair
+            now = None if pair[1].get("last") else now
+        for place in itertools.chain.from_iterable(waiting.values()):
+            file.seek(place)
+            yield pickle.load(file)
+
+
+def complete_frames(streams):
+    for split, frames in Progress("streams").over(streams):
+        for frame in frames:
+            complete(frame)
+            yield {"validation": "val"}.get(split, split), frame
+
+
+def frames_of(streams):
+    """The frames of streams with their splits, scene by scene, those of a scene in their order. Says on stderr which scenes have no scan."""
+    seen, before = {}, (None, 0, 0)  # of each scene: its first frame's place, or None as soon as a sensor has measured
+    for split, frame in scene_by_scene(complete_frames(streams)):
+        now = identity(frame), frame["frame"], frame["time_s"]
+        if now[0] in seen if now[0] != before[0] else now[1] <= before[1] or now[2] <= before[2]:
+            raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0][0]} at {now[2]} s; expected each scene once, with all of its "
+                                  "frames in their order")
+        place = seen.setdefault(now[0], frame.place)
+        if place and any(scans_of(frame)):
+            seen[now[0]] = None
+        before = now
+        yield split, frame
+    without = [(name, seed, place) for (name, seed), place in seen.items() if place]
+    if len(without) == len(seen):
+        raise Fault(BAD_DATA, "the inputs have no frame in which a sensor has measured")
+    if without:
+        print("export: {} of {} scenes have no scan and are left out; the first is {} with seed {}, at {}".format(
+            len(without), len(seen), *without[0]), file=sys.stderr)
+
+
+def scans_of(frame):
+    """Each sensor that has a scan in the frame, with its targets in the order of their points."""
+    for one in frame["sensors"]["list"]:
+        if one.get("measured", True):
+            yield one, [target for target in frame["targets"] if target["sensor"] == one["name"]]
+
+
+def boxes(frame, age_s):
+    """The objects but the ego, so long before the frame's time, in the world."""
+    for one in frame["objects"]:
+        if one["id"] != frame["ego"]:
+            one = glint.earlier(one, age_s)
+            yield one | {"x_m": one["x_m"] + frame.get("origin_x_m", 0), "y_m": one["y_m"] + frame.get("origin_y_m", 0)}
+
+
+def visibility(frame, sensors):
+    """The best level at which one of the sensors has each object in view."""
+    levels = {}
+    for one in frame.get("visibility", ()):
+        if one["sensor"] in sensors and one.get("visibility") in LEVELS:
+            levels[one["object"]] = max(levels.get(one["object"], 0), LEVELS.index(one["visibility"]))
+    return levels
+
+
+def number(value, digits=9):
+    """Rounded, so that lines and tables give the same text; never -0."""
+    return round(float(value), digits) + 0.0
+
+
+def word(name):
+    """FRONT_LEFT for front-left."""
+    return "".join(c if c.isascii() and c.isalnum() else "_" for c in name).upper()
+
+
+def line(value):
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":")) + "\n"

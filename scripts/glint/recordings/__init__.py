@@ -1,0 +1,1 @@
+"""Recordings of real radars beside simulated ones, for scripts/realism."""

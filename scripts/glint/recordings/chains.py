@@ -1,0 +1,67 @@
+"""Chains of glint on the traffic of a recording."""
+import json
+import math
+import os
+import resource
+import shlex
+import subprocess
+import tempfile
+from collections import namedtuple
+
+from glint.places import GLINT, ROOT
+from glint.recordings.readers import Box, Detection, refuse
+
+# With so many lists, one more of their law lies between their least and their largest statistic 38 times in 40.
+SEEDS = 39
+PAPER = ("visibility,plane_reflection,rows,occlusion,ambiguity,merging,superposition,threshold,angle_noise,range_noise,"
+         "final_threshold,list_limit")
+
+# data: the folder that vehicle documents come from; road: between the strips beside the road that were found
+Chain = namedtuple("Chain", "name effects stages data road", defaults=("glint-sensor | glint-noise", "data", False))
+IDEAL = Chain("ideal echoes", PAPER, "glint-sensor-perfect | glint-noise-none")
+ALL = Chain("all effects", "auto")
+CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("without levels", "auto,-level"), ALL,
+          Chain("smear", "auto", "glint-sensor-smear | glint-noise"),
+          Chain("with data/detailed", "auto", data="data/detailed"), Chain("with a roadside", "auto", road=True)]
+
+
+def frames(scans, speeds, seed, strips):
+    """Frames of traffic, one a scan: the ego drives straight ahead at these speeds, between strips of a roadside."""
+    ways, ahead_m = {}, 0
+    for i, (scan, speed) in enumerate(zip(scans, speeds)):
+        interval_s = scans[max(i, 1)].time_s - scans[max(i, 1) - 1].time_s
+        bodies, ahead_m = [Box("ego", "car", *[0] * 8), *scan.boxes], ahead_m + speed * interval_s * (i > 0)
+        for box in bodies:
+            driven_m = math.hypot(speed + box.vx_mps, box.vy_mps) * interval_s
+            ways[box.id] = ways[box.id] + driven_m if box.id in ways else 0
+        yield {"version": 0, "scene": f"seed{seed}", "frame": i, "time_s": scan.time_s - scans[0].time_s,
+               "interval_s": interval_s, "seed": str(seed), "ego": "ego", "last": i + 1 == len(scans),
+               "roadside": strips, "objects": [
+                   {"id": box.id, "class": box.kind, "x_m": ahead_m + box.x_m, "y_m": box.y_m, "yaw_rad": box.yaw_rad,
+                    "vx_mps": speed + box.vx_mps, "vy_mps": box.vy_mps, "yaw_rate_radps": 0, "length_m": box.length_m,
+                    "width_m": box.width_m, "height_m": box.height_m, "travelled_m": ways[box.id]} for box in bodies]}
+
+
+def run(chain, suite, fit, part, seeds=SEEDS, first=1):
+    """Lists of detections, [seed][scan], with seeds from the first one on, and the CPU time of a frame in microseconds."""
+    with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as traffic:
+        for seed in range(first, first + seeds):
+            for frame in frames(part.scans, part.speeds, seed, fit.roadside if chain.road else []):
+                traffic.write(json.dumps(frame) + "\n")
+        traffic.flush()
+        text = (f"glint-extract {traffic.name} | glint-ideal --sensors {shlex.quote(suite)} --effects {chain.effects} --sections none"
+                f" | {chain.stages}")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=os.path.join(ROOT, chain.data)),
+                              check=False, stdout=subprocess.PIPE)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode:
+        refuse(f"{text}: exit status {done.returncode}", done.returncode)
+    spent_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    lists = [[detection(target, fit.curve) for target in json.loads(line)["targets"]] for line in done.stdout.splitlines()]
+    return ([lists[i:i + len(part.scans)] for i in range(0, len(lists), len(part.scans))], 1e6 * spent_s / len(lists))
+
+
+def detection(target, law):
+    place, snr_db = (target["range_m"], target["azimuth_rad"]), target["amplitude_db"]
+    return Detection(*place, target["range_rate_mps"], snr_db, snr_db - law.snr_db(*place))

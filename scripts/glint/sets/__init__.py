@@ -1,0 +1,1 @@
+"""Labelled data sets, for scripts/dataset and scripts/check-set."""
