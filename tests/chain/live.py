@@ -194,7 +194,7 @@ def simulator():
             suite.write("{}")
         done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "GLINT_DATA": folder}, timeout=PATIENCE_S, check=False)
         said = done.stderr.splitlines()[-1]
-        yield "pipelines/live.py, a bad suite", None if said.startswith(f"glint.ChainError: exit status 78: glint-ideal: {folder}/") else said
+        yield "pipelines/live.py, a bad suite", None if said.startswith(f"glint.frames.ChainError: exit status 78: glint-ideal: {folder}/") else said
 
 
 def fails(loop, kind, message, within_s=1.0, objects=OBJECTS, steps=50):
