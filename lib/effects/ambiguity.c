@@ -6,7 +6,8 @@
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
 {
     const struct sensor *sensor = scan->sensor;
-    double range_m = reception->range_m, rate_mps = reception->range_rate_mps;
+    double range_m = reception->range_m;
+    double rate_mps = reception->range_rate_mps;
     if (sensor->unambiguous_range_m > 0)
         reception->range_m = folding_range_m(range_m, sensor->unambiguous_range_m);
     if (sensor->unambiguous_rate_mps > 0)

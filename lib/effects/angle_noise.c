@@ -14,8 +14,9 @@ static bool add_noise_to_pointers(const struct effect_scan *scan,
     const double _Complex i = (double _Complex)I;
     if (measurement->cell->beam != NULL)
         return true; /* beam_cells_of added the noise */
-    double draw[4], sigma = scan->sensor->pointer_sigma * sqrt(0.5) *
-                            interferer_noise_factor(measurement->cell->interference);
+    double sigma = scan->sensor->pointer_sigma * sqrt(0.5) *
+                   interferer_noise_factor(measurement->cell->interference);
+    double draw[4];
     random_gaussian(&measurement->address, RANDOM_POINTERS, 0, draw);
     measurement->pointers.sum += sigma * draw[0] + i * (sigma * draw[1]);
     measurement->pointers.delta += sigma * draw[2] + i * (sigma * draw[3]);
@@ -40,10 +41,10 @@ static bool add_noise_to_azimuth(const struct effect_scan *scan,
                                  struct effect_measurement *measurement)
 {
     const struct sensor *sensor = scan->sensor;
-    double draw[2];
     bool single = sensor->beams.count > 0 && measurement->cell->beam == NULL;
     if (!single && sensor->azimuth_floor_rad == 0)
         return false;
+    double draw[2];
     random_gaussian_pair(&measurement->address, RANDOM_AZIMUTH, 0, draw);
     if (single && sensor->pointer_sigma > 0)
         add_array_noise(scan, measurement, draw[1]);

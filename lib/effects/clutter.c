@@ -103,7 +103,8 @@ static double density_per_m2(const struct effect_scan *scan)
 static void add_echoes(const struct effect_scan *scan, struct effect_echoes *echoes)
 {
     struct sensor_pose pose = effect_sensor_pose(scan);
-    double per_m2 = density_per_m2(scan), least_m = scan->sensor->range_min_m;
+    double per_m2 = density_per_m2(scan);
+    double least_m = scan->sensor->range_min_m;
     double far_m = scan->sensor->range_max_m;
     for (int64_t number = 1; number <= RINGS && far_m > least_m; number++) {
         double near_m = number < RINGS ? elementary_max(least_m, RING_PART * far_m) : least_m;

@@ -23,8 +23,8 @@ static double noise_ratio_of(const struct effect_scan *scan, const struct interf
     const struct object *carrier = frame_object(frame, other->object);
     if (carrier == NULL || carrier == ego)
         return 0;
-    struct motion ego_motion = frame_motion(ego, age_s),
-                  other_motion = frame_motion(carrier, age_s);
+    struct motion ego_motion = frame_motion(ego, age_s);
+    struct motion other_motion = frame_motion(carrier, age_s);
     struct vec2 offset_m = vec2_sub(other_motion.position_m, ego_motion.position_m);
     ego_motion.position_m = (struct vec2){0, 0}; /* offset_m is from the ego: least rounding */
     struct sensor_pose pose = kinematics_sensor_pose(&ego_motion, sensor->mount_x_m,
@@ -40,13 +40,13 @@ static double noise_ratio_of(const struct effect_scan *scan, const struct interf
         return 0;
     double sides = sensor->if_sampling == IF_REAL ? 2 : 1;
     double gain_db = sensor->antenna_gain_dbi + units_amplitude_db(pattern) / 2;
-    return interferer_ratio(
-        interferer_power_dbm(other->eirp_dbm, gain_db, units_wavelength_m(sensor->carrier_hz),
-                             range_m),
-        interferer_noise_dbm(sensor->receiver_bandwidth_hz, sensor->noise_figure_db),
+    double power_dbm = interferer_power_dbm(other->eirp_dbm, gain_db,
+                                            units_wavelength_m(sensor->carrier_hz), range_m);
+    double noise_dbm = interferer_noise_dbm(sensor->receiver_bandwidth_hz, sensor->noise_figure_db);
+    double overlap =
         interferer_overlap(sides * sensor->receiver_bandwidth_hz,
-                           sensor->chirp_slope_hzps - other->slope_hzps, sensor->chirp_s),
-        other->hit_share);
+                           sensor->chirp_slope_hzps - other->slope_hzps, sensor->chirp_s);
+    return interferer_ratio(power_dbm, noise_dbm, overlap, other->hit_share);
 }
 
 static double interference(const struct effect_scan *scan)

@@ -18,11 +18,17 @@
 /* The purposes of its draws: the part itself, or the knots of one that changes. */
 enum { CONSTANT, SLOW, FAST };
 
+/* Standard deviations of the three parts. */
+static struct class_level widths_of_sensor(const struct sensor *sensor)
+{
+    return (struct class_level){sensor->level_constant_db, sensor->level_slow_db,
+                                sensor->level_fast_db};
+}
+
+/* Those that the document of the class states, and the sensor's. */
 static struct class_level widths_of(const struct effect_scan *scan, const char *class)
 {
-    const struct sensor *sensor = scan->sensor;
-    struct class_level width = {sensor->level_constant_db, sensor->level_slow_db,
-                                sensor->level_fast_db};
+    struct class_level width = widths_of_sensor(scan->sensor);
     for (size_t i = 0; i < scan->frame->vehicles.count; i++) {
         const struct class_document *document = &scan->frame->vehicles.items[i];
         if (!frame_same_name(document->class, class))
@@ -37,16 +43,22 @@ static struct class_level widths_of(const struct effect_scan *scan, const char *
     return width;
 }
 
+static bool has_width(const struct class_level *level)
+{
+    return level->constant_db > 0 || level->slow_db > 0 || level->fast_db > 0;
+}
+
 static bool described(const struct effect_scan *scan)
 {
-    const struct sensor *sensor = scan->sensor;
-    bool any =
-        sensor->level_constant_db > 0 || sensor->level_slow_db > 0 || sensor->level_fast_db > 0;
-    for (size_t i = 0; i < scan->frame->vehicles.count && !any; i++) {
-        const struct class_level *level = &scan->frame->vehicles.items[i].level;
-        any = level->constant_db > 0 || level->slow_db > 0 || level->fast_db > 0;
-    }
-    return any && frame_object(scan->frame, scan->frame->ego) != NULL;
+    struct class_level width = widths_of_sensor(scan->sensor);
+    if (frame_object(scan->frame, scan->frame->ego) == NULL)
+        return false;
+    if (has_width(&width))
+        return true;
+    for (size_t i = 0; i < scan->frame->vehicles.count; i++)
+        if (has_width(&scan->frame->vehicles.items[i].level))
+            return true;
+    return false;
 }
 
 static double driven_m(const struct effect_scan *scan, const struct object *object)
@@ -59,8 +71,9 @@ static double slow_part(const struct effect_scan *scan, const struct object *bod
                         const struct random_address *address)
 {
     const struct object *ego = frame_object(scan->frame, scan->frame->ego);
+    double together_m = driven_m(scan, body) + driven_m(scan, ego);
     return level_on_line(address, effect_level.purposes[SLOW],
-                         (driven_m(scan, body) + driven_m(scan, ego)) / scan->sensor->level_slow_m);
+                         together_m / scan->sensor->level_slow_m);
 }
 
 /* from_m is the sensor's place. */
@@ -71,11 +84,12 @@ static double fast_part(const struct effect_scan *scan, const struct object *bod
     struct vec2 sensor_m =
         vec2_turn_back(vec2_sub(from_m, motion.position_m), vec2_heading(motion.yaw_rad));
     double turns = elementary_atan2(sensor_m.y, sensor_m.x) / (2 * PI);
+    if (turns < 0)
+        turns += 1;
     double knots_a_turn = 4 * PI * elementary_min(body->length_m, LONGEST_M) /
                           (KNOT_FRINGE * units_wavelength_m(scan->sensor->carrier_hz));
     double knots = elementary_max(2, floor(knots_a_turn + 0.5));
-    return level_on_turn(address, effect_level.purposes[FAST],
-                         knots * (turns < 0 ? turns + 1 : turns),
+    return level_on_turn(address, effect_level.purposes[FAST], knots * turns,
                          vec2_length(sensor_m) / KNOT_RANGE_M, (int64_t)knots);
 }
 
@@ -107,8 +121,10 @@ static const double *begin(const struct effect_scan *scan)
     double *factors = arena_get(frame->arena, frame->objects.count * sizeof *factors);
     for (size_t i = 0; i < scan->echoes.count; i++) {
         const struct object *body = frame_object_of(frame, &scan->echoes.items[i].id);
-        double *factor = body != NULL ? &factors[body - frame->objects.items] : NULL;
-        if (factor != NULL && *factor == 0)
+        if (body == NULL)
+            continue;
+        double *factor = &factors[body - frame->objects.items];
+        if (*factor == 0)
             *factor = units_amplitude_from_db(level_db(scan, body, from_m));
     }
     return factors;
@@ -118,8 +134,9 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 {
     const struct frame *frame = scan->frame;
     const struct object *body = frame_object_of(frame, &reception->echo->id);
-    return body != NULL &&
-           effect_scale(reception, reception->constants[body - frame->objects.items]);
+    if (body == NULL)
+        return false;
+    return effect_scale(reception, reception->constants[body - frame->objects.items]);
 }
 
 const struct effect effect_level = {

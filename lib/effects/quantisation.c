@@ -6,8 +6,9 @@
 static bool round_values(const struct effect_scan *scan, struct effect_measurement *measurement)
 {
     const struct sensor *sensor = scan->sensor;
-    double range_m = measurement->range_m, azimuth_rad = measurement->azimuth_rad,
-           rate_mps = measurement->range_rate_mps;
+    double range_m = measurement->range_m;
+    double azimuth_rad = measurement->azimuth_rad;
+    double rate_mps = measurement->range_rate_mps;
     measurement->range_m = units_rounded(range_m, sensor->range_step_m);
     measurement->azimuth_rad = units_wrap_rad(units_rounded(azimuth_rad, sensor->azimuth_step_rad));
     measurement->range_rate_mps = units_rounded(rate_mps, sensor->range_rate_step_mps);

@@ -29,21 +29,26 @@ static int add_effect(const char *text, size_t length, struct selection *selecti
     return 0;
 }
 
+/* What follows the first comma; NULL: there is none. */
+static const char *after_comma(const char *text)
+{
+    const char *comma = strchr(text, ',');
+    return comma != NULL ? comma + 1 : NULL;
+}
+
 int effects_read(const char *text, struct selection *selection, struct diag *diag)
 {
     static const char *const first_words[] = {"auto", "all", "none", NULL};
+    enum { AUTO, ALL };
     int word = suggestion_find(first_words, text, strcspn(text, ","), NULL);
-    bool every = word == 0 || word == 1 || text[0] == '-';
-    *selection =
-        (struct selection){.allowed = every ? EVERY_EFFECT : 0, .automatic = every && word != 1};
-    for (;; word = -1) {
-        size_t length = strcspn(text, ",");
-        if (word < 0 && add_effect(text, length, selection, diag) != 0)
+    bool automatic = word == AUTO || text[0] == '-';
+    uint64_t allowed = automatic || word == ALL ? EVERY_EFFECT : 0;
+    *selection = (struct selection){.allowed = allowed, .automatic = automatic};
+    const char *name = word < 0 ? text : after_comma(text);
+    for (; name != NULL; name = after_comma(name))
+        if (add_effect(name, strcspn(name, ","), selection, diag) != 0)
             return -1;
-        if (text[length] == '\0')
-            return 0;
-        text += length + 1;
-    }
+    return 0;
 }
 
 void effects_count_scan(const struct selection *selection)
@@ -53,9 +58,11 @@ void effects_count_scan(const struct selection *selection)
         return;
     log->scans++;
     for (int i = 0; i < EFFECT_COUNT; i++) {
-        bool simulated = (log->simulated & EFFECT_BIT(i)) != 0;
-        log->scans_simulated[i] += simulated;
-        log->scans_left_out[i] += !simulated && (log->left_out & EFFECT_BIT(i)) != 0;
+        if ((log->simulated & EFFECT_BIT(i)) != 0)
+            log->scans_simulated[i]++;
+        else if ((log->left_out & EFFECT_BIT(i)) != 0)
+            log->scans_left_out[i]++;
     }
-    log->simulated = log->left_out = 0;
+    log->simulated = 0;
+    log->left_out = 0;
 }

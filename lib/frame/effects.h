@@ -67,9 +67,12 @@ static inline bool effects_forced(const struct selection *selection, enum effect
 static inline void effects_note(const struct selection *selection, enum effect_id effect,
                                 bool simulated)
 {
-    simulated = simulated && effects_enabled(selection, effect);
-    if (selection->log != NULL)
-        *(simulated ? &selection->log->simulated : &selection->log->left_out) |= EFFECT_BIT(effect);
+    if (selection->log == NULL)
+        return;
+    if (simulated && effects_enabled(selection, effect))
+        selection->log->simulated |= EFFECT_BIT(effect);
+    else
+        selection->log->left_out |= EFFECT_BIT(effect);
 }
 
 /* Counts the scan in the log. An effect that was simulated in a part of the scan counts as
