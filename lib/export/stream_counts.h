@@ -1,4 +1,4 @@
-/* Counts of a stream's targets, losses or objects, for people. */
+/* What glint-summary counts: a stream's targets, losses or objects. */
 #pragma once
 
 #include "base/intern.h"

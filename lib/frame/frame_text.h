@@ -1,4 +1,4 @@
-/* A frame as a line of JSON: tables, reading, writing (record_write.h). */
+/* Fields of a frame, for its line of JSON and for columns (record_write.h). */
 #pragma once
 
 #include "base/text.h"

@@ -1,4 +1,4 @@
-// What is switched off in the legend: sensors, paths and classes. Their targets are neither drawn nor
+// The legend's lines that switch sensors, paths and classes off. Their targets are then neither drawn nor
 // listed, and objects of such a class are not drawn.
 
 const switchedOff = {sensor: new Set(), path: new Set(), class: new Set()};
