@@ -1,4 +1,4 @@
-/* Fields of a frame, for its line of JSON and for columns (record_write.h). */
+/* Fields of frames: in JSON, read and written (record_write.h); as columns. */
 #pragma once
 
 #include "base/text.h"
