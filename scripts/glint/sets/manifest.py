@@ -1,16 +1,16 @@
-"""Finishes a data set: its page, its schema of frames, and last its manifest, datapackage.json."""
+"""Finishes a data set: its README, its schema of frames, and last its manifest, datapackage.json."""
 import json
 import os
 
 from glint.places import SCHEMAS
-from glint.sets import pace, page
+from glint.sets import pace, readme
 from glint.sets.documents import DOCUMENTS, described
 from glint.sets.durable import alone, digest_of, make_folder, remove_temporaries, sync_folder, write_whole
 from glint.sets.layout import WORK
 from glint.sets.plan import kind_of, read_json
 from glint.sets.shard import MANIFEST, record_path
 
-PAGE, FRAME, OWN_SCHEMAS = "README.md", "frame", f"{DOCUMENTS}/schemas"
+README, FRAME, OWN_SCHEMAS = "README.md", "frame", f"{DOCUMENTS}/schemas"
 MEDIA = {"jsonl": "application/jsonl", "csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
 
 
@@ -86,19 +86,19 @@ def manifest_of(package):
 
 
 def documents_of(layout, folder):
-    names = [document["path"] for document in layout["documents"]] + [*schemas_of(layout), PAGE]
+    names = [document["path"] for document in layout["documents"]] + [*schemas_of(layout), README]
     return described({name: name for name in names}, folder)
 
 
 def finish(layout, folder):
-    """Writes page and manifest of a set whose shards are all there."""
+    """Writes README and manifest of a set whose shards are all there."""
     work = os.path.join(folder, WORK)
     with alone(work):
         records = [read_json(record_path(folder, part)) for part in range(len(layout["shards"]))]
         for path, fields in schemas_of(layout).items():
             make_folder(os.path.dirname(os.path.join(folder, path)))
             write_whole(os.path.join(folder, path), work, json.dumps(fields, indent=1, ensure_ascii=False) + "\n")
-        write_whole(os.path.join(folder, PAGE), work, page.page_of(layout, records))
+        write_whole(os.path.join(folder, README), work, readme.readme_of(layout, records))
         package = package_of(layout, records, documents_of(layout, folder))
         if os.path.exists(os.path.join(folder, pace.PATH)):
             os.remove(os.path.join(folder, pace.PATH))

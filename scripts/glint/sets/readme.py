@@ -42,13 +42,13 @@ def traffic_of(source):
     return f"- `{scene_of(source)}`: {made.get(kind, 'a scenario, played by glint')}"
 
 
-def page_of(layout, records):
+def readme_of(layout, records):
     plan, counts = layout["plan"], classes_by_split(layout, records)
-    splits, texts = plan.get("splits", {}), json.loads(text_of("page.json"))
+    splits, texts = plan.get("splits", {}), json.loads(text_of("readme.json"))
     first, parquet = layout["shards"][0], plan.get("tables") == "parquet"
     form = plan.get("compression", "gzip") if first["lines"] else "tables"
     loading = texts["loading"].get(form) or text_of("loading.txt")
-    return text_of("page.txt").format(
+    return text_of("readme.txt").format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
         rows=sum(record["frames"] for record in records),
         targets=sum(sum(record["targets"].values()) for record in records),
