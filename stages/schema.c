@@ -18,19 +18,21 @@ struct schema_state {
 static const struct {
     const char *name;
     const struct record *record;
+    enum record_schema_kind kind;
 } schemas[] = {
-    {"cost", &cost_table_record},
-    {"frame", &frame_record},
-    {"scenario", &scenario_record},
-    {"score", &score_line_record},
-    {"score-ensemble", &ensemble_score_record},
-    {"score-summary", &score_summary_record},
-    {"score-tracks", &score_track_line_record},
-    {"score-tracks-summary", &score_track_summary_record},
-    {"sensors", &suite_record},
-    {"tables", NULL}, /* the columns of glint-tables */
-    {"tracks", &track_list_record},
-    {"vehicle", &vehicle_record},
+    {"cost", &cost_table_record, SCHEMA_PLAIN},
+    {"frame", &frame_record, SCHEMA_PLAIN},
+    {"scenario", &scenario_record, SCHEMA_DRAWN},
+    {"score", &score_line_record, SCHEMA_PLAIN},
+    {"score-ensemble", &ensemble_score_record, SCHEMA_PLAIN},
+    {"score-summary", &score_summary_record, SCHEMA_PLAIN},
+    {"score-tracks", &score_track_line_record, SCHEMA_PLAIN},
+    {"score-tracks-summary", &score_track_summary_record, SCHEMA_PLAIN},
+    {"sensors", &suite_record, SCHEMA_PLAIN},
+    {"sensors-extending", &suite_record, SCHEMA_EXTENDING},
+    {"tables", NULL, SCHEMA_PLAIN}, /* the columns of glint-tables */
+    {"tracks", &track_list_record, SCHEMA_PLAIN},
+    {"vehicle", &vehicle_record, SCHEMA_PLAIN},
 };
 
 static int schema_run(void *state, struct runner *runner)
@@ -45,7 +47,7 @@ static int schema_run(void *state, struct runner *runner)
         if (record == NULL)
             record_schema_add_tables(output_text(output));
         else
-            record_schema_add(record, record == &scenario_record, output_text(output));
+            record_schema_add(record, schemas[i].kind, output_text(output));
         if (output_send(output, runner_diag(runner)) != 0)
             return -1;
     }

@@ -8,6 +8,7 @@
 #include "documents/consistency.h"
 #include "text/csv_table.h"
 #include "text/document.h"
+#include "text/path.h"
 #include "text/record_write.h"
 
 /* The path of a table by its name in a document, which is relative to the document. */
@@ -202,8 +203,8 @@ static void set_digest(struct suite *suite)
     text_free(&values);
 }
 
-static int complete_suite(struct suite *suite, const char *path, struct arena *arena,
-                          struct diag *diag)
+static int complete_suite(struct suite *suite, const char *path, const char *beside,
+                          struct arena *arena, struct diag *diag)
 {
     if (suite->sensors.count == 0)
         return diag_fail(diag, DIAG_CONFIG, "%s: sensors: none; expected at least one", path);
@@ -216,7 +217,7 @@ static int complete_suite(struct suite *suite, const char *path, struct arena *a
         if (suite_check(sensor, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         suite_derive(sensor);
-        if (add_tables(path, sensor, arena, diag) != 0)
+        if (add_tables(beside, sensor, arena, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         if (consistency_check(sensor, i, diag) != 0)
             return diag_prefix(diag, "%s: ", path);
@@ -235,19 +236,92 @@ static const char *plain_name(const char *given, struct arena *arena)
                       ending != NULL && ending > begin ? (size_t)(ending - begin) : strlen(begin));
 }
 
+/* ---- suites that extend others ---- */
+
+/* A suite's document, with the members that it has from others. */
+struct whole {
+    const char *line;
+    const char *beside; /* what the paths of its tables are relative to; "": the working folder */
+};
+
+/* A document that is being read, and the one that extends it; NULL: none. */
+struct reading {
+    const char *path;
+    const struct reading *of;
+};
+
+static int read_whole(const struct reading *reading, struct whole *whole, struct arena *arena,
+                      struct diag *diag);
+
+/* The document with paths of tables from the working folder. */
+static const char *moved(const struct whole *whole, struct arena *arena)
+{
+    static const char *const tables[] = {"range_curve",         "azimuth_curve", "elevation_curve",
+                                         "azimuth_floor_curve", "antenna_table", NULL};
+    return document_moved(whole->line, tables, path_beside(whole->beside, "", arena), arena);
+}
+
+static bool is_in_circle(const char *path, const struct reading *reading)
+{
+    while (reading != NULL && !path_same_file(path, reading->path))
+        reading = reading->of;
+    return reading != NULL;
+}
+
+/* Puts the members of the base around those of the suite. The base must be a suite by itself. */
+static int extend(const char *base_name, const struct reading *reading, struct whole *whole,
+                  struct arena *arena, struct diag *diag)
+{
+    const char *word = base_name;
+    if (document_is_path(base_name))
+        word = path_beside(reading->path, base_name, arena);
+    const char *path = document_find_file(NULL, "sensors", word, ".json", arena, diag);
+    if (path == NULL)
+        return -1;
+    if (is_in_circle(path, reading))
+        return diag_fail(diag, DIAG_CONFIG,
+                         "\"%s\"; expected a suite that does not extend this one", base_name);
+    struct suite *alone = arena_get(arena, sizeof *alone);
+    struct whole base;
+    if (read_whole(&(struct reading){path, reading}, &base, arena, diag) != 0 ||
+        document_take(path, base.line, &suite_record, alone, arena, diag) != 0)
+        return -1;
+    whole->line = document_extended(moved(&base, arena), moved(whole, arena), arena);
+    whole->beside = "";
+    return 0;
+}
+
+static int read_whole(const struct reading *reading, struct whole *whole, struct arena *arena,
+                      struct diag *diag)
+{
+    const char *path = reading->path;
+    struct text bytes = {0};
+    *whole = (struct whole){.beside = path};
+    if (document_bytes(path, &bytes, diag) == 0)
+        whole->line = document_line(path, &bytes, suite_record.name, arena, diag);
+    text_free(&bytes);
+    if (whole->line == NULL)
+        return -1;
+    const char *base = document_base(whole->line, arena, diag);
+    if (base == NULL)
+        return diag->code == DIAG_OK ? 0 : diag_prefix(diag, "%s: ", path);
+    if (extend(base, reading, whole, arena, diag) != 0)
+        return diag_prefix(diag, "%s: extends: ", path);
+    return 0;
+}
+
 const struct suite *suite_file_load(const char *name, struct arena *arena, struct diag *diag)
 {
     const char *path = document_find_file(NULL, "sensors", name, ".json", arena, diag);
     if (path == NULL)
         return NULL;
     struct suite *suite = arena_get(arena, sizeof *suite);
-    struct text bytes = {0};
-    int result = document_bytes(path, &bytes, diag);
+    struct whole whole;
+    int result = read_whole(&(struct reading){path, NULL}, &whole, arena, diag);
     if (result == 0)
-        result = document_parse(path, &bytes, &suite_record, suite, arena, diag);
+        result = document_take(path, whole.line, &suite_record, suite, arena, diag);
     if (result == 0)
-        result = complete_suite(suite, path, arena, diag);
-    text_free(&bytes);
+        result = complete_suite(suite, path, whole.beside, arena, diag);
     suite->given = arena_text(arena, name, strlen(name));
     suite->name = plain_name(name, arena);
     if (result != 0 && diag->code != DIAG_MEMORY)

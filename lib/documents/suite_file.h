@@ -1,4 +1,8 @@
-/* Finds, reads and checks a sensor suite by name (data/sensors/). */
+/* Finds, reads and checks a sensor suite by name (data/sensors/).
+ *
+ * A document may extend another suite, by a name or by its path from here. Then it has the members
+ * of that one, but for those that it states itself or sets to null; sensors are matched by their
+ * names. */
 #pragma once
 
 #include "documents/suite.h"

@@ -7,7 +7,7 @@
 #include "export/detection_tables.h"
 #include "text/document.h"
 
-static json_t *schema_of(const struct record *record, bool drawn);
+static json_t *schema_of(const struct record *record, enum record_schema_kind kind);
 
 static json_t *names_of(const char *const *names)
 {
@@ -30,6 +30,11 @@ static json_t *or_drawn(json_t *value, const char *distribution)
     return json_pack("{s:[o,{s:o}]}", "anyOf", value, "$ref", other);
 }
 
+static json_t *or_null(json_t *value)
+{
+    return json_pack("{s:[o,{s:s}]}", "anyOf", value, "type", "null");
+}
+
 static json_t *name_schema(const struct field *field)
 {
     bool known = field->choices != NULL;
@@ -40,7 +45,7 @@ static json_t *name_schema(const struct field *field)
         "examples", known ? names_of(field->choices) : NULL);
 }
 
-static json_t *value_schema(const struct field *field, bool drawn)
+static json_t *value_schema(const struct field *field, enum record_schema_kind kind)
 {
     json_t *items;
     switch (field->kind) {
@@ -62,14 +67,15 @@ static json_t *value_schema(const struct field *field, bool drawn)
     case FIELD_NAMES:
         return json_pack("{s:s,s:{s:s}}", "type", "array", "items", "type", "string");
     case FIELD_RECORD:
-        return schema_of(field->record, drawn);
+        return schema_of(field->record, kind);
     case FIELD_LIST:
-        items = schema_of(field->record, drawn);
+        items = schema_of(field->record, kind);
         return json_pack("{s:s,s:o}", "type", "array", "items",
-                         drawn ? or_drawn(items, "drawn") : items);
+                         kind == SCHEMA_DRAWN ? or_drawn(items, "drawn") : items);
     case FIELD_NOTES:
-        return json_pack("{s:s,s:{s:s}}", "type", "object", "additionalProperties", "type",
-                         "string");
+        items = json_pack("{s:s}", "type", "string");
+        return json_pack("{s:s,s:o}", "type", "object", "additionalProperties",
+                         kind == SCHEMA_EXTENDING ? or_null(items) : items);
     case FIELD_RAW:
         break;
     }
@@ -77,29 +83,42 @@ static json_t *value_schema(const struct field *field, bool drawn)
 }
 
 /* A record's schema has a description of its own. */
-static json_t *member_schema(const struct field *field, bool drawn)
+static json_t *member_schema(const struct field *field, enum record_schema_kind kind)
 {
     bool number = field->kind == FIELD_REAL || field->kind == FIELD_INTEGER;
-    json_t *value = value_schema(field, drawn);
-    if (drawn)
+    json_t *value = value_schema(field, kind);
+    if (kind == SCHEMA_DRAWN)
         value = or_drawn(value, number ? "drawn_number" : "drawn");
+    if (kind == SCHEMA_EXTENDING && field->optional)
+        value = or_null(value);
     json_t *schema =
         json_pack("{s:s}", field->kind == FIELD_RECORD ? "$comment" : "description", field->help);
     json_object_update_new(schema, value);
     return schema;
 }
 
-static json_t *schema_of(const struct record *record, bool drawn)
+static json_t *schema_of(const struct record *record, enum record_schema_kind kind)
 {
     json_t *required = json_array(), *properties = json_object();
     for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (!field->optional)
+        if (!field->optional && kind != SCHEMA_EXTENDING)
             json_array_append_new(required, json_string(field->name));
-        json_object_set_new(properties, field->name, member_schema(field, drawn));
+        json_object_set_new(properties, field->name, member_schema(field, kind));
     }
     return json_pack("{s:s,s:s,s:s,s:b,s:o,s:o}", "title", record->name, "description",
                      record->help, "type", "object", "additionalProperties", false, "required",
                      required, "properties", properties);
+}
+
+/* The member that an extending document has beside those of its record. */
+static void add_base(json_t *schema)
+{
+    json_t *base = json_pack("{s:s,s:s}", "description",
+                             "the document whose members hold where this one has none: its name, "
+                             "or its path from here",
+                             "type", "string");
+    json_object_set_new(json_object_get(schema, "properties"), "extends", base);
+    json_array_append_new(json_object_get(schema, "required"), json_string("extends"));
 }
 
 static void print(json_t *tree, struct text *text)
@@ -110,11 +129,13 @@ static void print(json_t *tree, struct text *text)
     json_decref(tree);
 }
 
-void record_schema_add(const struct record *record, bool drawn, struct text *text)
+void record_schema_add(const struct record *record, enum record_schema_kind kind, struct text *text)
 {
     json_t *schema = json_pack("{s:s}", "$schema", "https://json-schema.org/draft/2020-12/schema");
-    json_object_update_new(schema, schema_of(record, drawn));
-    if (drawn)
+    json_object_update_new(schema, schema_of(record, kind));
+    if (kind == SCHEMA_EXTENDING)
+        add_base(schema);
+    if (kind == SCHEMA_DRAWN)
         json_object_set_new(schema, "$defs", json_loads(document_drawn_schema, 0, NULL));
     print(schema, text);
 }

@@ -7,9 +7,13 @@
 #include "base/text.h"
 #include "text/field.h"
 
-/* Appends the schema of a record. If drawn is true, every value may be a distribution
- * (document_draw). */
-void record_schema_add(const struct record *record, bool drawn, struct text *text);
+/* A document as it is; one whose values may be distributions (document_draw); and one that extends
+ * another (document_extended): it needs no member but "extends", and null takes one away. */
+enum record_schema_kind { SCHEMA_PLAIN, SCHEMA_DRAWN, SCHEMA_EXTENDING };
+
+/* Appends the schema of a record. */
+void record_schema_add(const struct record *record, enum record_schema_kind kind,
+                       struct text *text);
 
 /* Appends an object with the schema of each table of glint-tables: names, types, units and meanings
  * of the columns, the primary key, and the foreign keys. */

@@ -229,6 +229,124 @@ int document_bytes(const char *path, struct text *text, struct diag *diag)
     return result == 0 ? 0 : diag_prefix(diag, "%s: ", path);
 }
 
+/* ---- documents that extend others ---- */
+
+const char *document_base(const char *line, struct arena *arena, struct diag *diag)
+{
+    json_t *tree = json_loads(line, 0, NULL);
+    json_t *base = json_object_get(tree, "extends");
+    const char *name = json_string_value(base);
+    if (name != NULL)
+        name = arena_text(arena, name, strlen(name));
+    else if (base != NULL)
+        diag_fail(diag, DIAG_CONFIG, "extends: expected the name or the path of a document");
+    json_decref(tree);
+    return name;
+}
+
+/* The item of this name; NULL if there is none, or if the items are no objects with names. */
+static json_t *find_item(json_t *list, const char *name)
+{
+    size_t i;
+    json_t *item;
+    json_array_foreach(list, i, item)
+    {
+        const char *own = json_string_value(json_object_get(item, "name"));
+        if (own != NULL && strcmp(own, name) == 0)
+            return item;
+    }
+    return NULL;
+}
+
+static bool has_names(json_t *list)
+{
+    size_t i;
+    json_t *item;
+    json_array_foreach(list, i, item)
+    {
+        if (!json_is_string(json_object_get(item, "name")))
+            return false;
+    }
+    return json_array_size(list) > 0;
+}
+
+static void extend_object(json_t *base, json_t *own);
+
+static void extend_list(json_t *base, json_t *own)
+{
+    size_t i;
+    json_t *item;
+    json_array_foreach(own, i, item)
+    {
+        json_t *there = find_item(base, json_string_value(json_object_get(item, "name")));
+        if (there != NULL)
+            extend_object(there, item);
+        else
+            json_array_append(base, item);
+    }
+}
+
+static void extend_object(json_t *base, json_t *own)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(own, key, value)
+    {
+        json_t *there = json_object_get(base, key);
+        if (json_is_null(value))
+            json_object_del(base, key);
+        else if (json_is_object(there) && json_is_object(value))
+            extend_object(there, value);
+        else if (has_names(there) && has_names(value))
+            extend_list(there, value);
+        else
+            json_object_set(base, key, value);
+    }
+}
+
+const char *document_extended(const char *base, const char *own, struct arena *arena)
+{
+    json_t *tree = json_loads(base, 0, NULL), *changes = json_loads(own, 0, NULL);
+    extend_object(tree, changes);
+    json_object_del(tree, "extends");
+    json_decref(changes);
+    return print(tree, arena);
+}
+
+static bool is_among(const char *const *names, const char *name)
+{
+    while (*names != NULL && strcmp(*names, name) != 0)
+        names++;
+    return *names != NULL;
+}
+
+static void move(json_t *tree, const char *const *names, const char *folder)
+{
+    size_t i;
+    const char *key;
+    json_t *part;
+    json_array_foreach(tree, i, part)
+    {
+        move(part, names, folder);
+    }
+    json_object_foreach(tree, key, part)
+    {
+        const char *path = json_string_value(part);
+        if (path == NULL)
+            move(part, names, folder);
+        else if (is_among(names, key) && path[0] != '/')
+            json_object_set_new(tree, key, json_sprintf("%s%s", folder, path));
+    }
+}
+
+const char *document_moved(const char *line, const char *const *names, const char *folder,
+                           struct arena *arena)
+{
+    json_t *tree = json_loads(line, 0, NULL);
+    move(tree, names, folder);
+    return print(tree, arena);
+}
+
 /* ---- distributions ---- */
 
 #define LAW(names, laws)                                                                           \

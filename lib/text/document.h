@@ -83,6 +83,20 @@ const char *document_line(const char *path, const struct text *bytes, const char
 int document_take(const char *path, const char *line, const struct record *record, void *base,
                   struct arena *arena, struct diag *diag);
 
+/* The name or path in the member "extends" of a document; NULL if there is none, or, after a
+ * message (DIAG_CONFIG), if it is no text. */
+const char *document_base(const char *line, struct arena *arena, struct diag *diag);
+
+/* The line of a document that extends another one, without the member "extends". Members of both
+ * are its own: objects are merged member by member, and lists of objects with names item by item; a
+ * new name is a further item. null takes a member of the base away. */
+const char *document_extended(const char *base, const char *own, struct arena *arena);
+
+/* The line of a document whose paths begin with this folder: texts in members of these names, but
+ * for absolute paths. folder is "" or ends with a slash; the names end with NULL. */
+const char *document_moved(const char *line, const char *const *names, const char *folder,
+                           struct arena *arena);
+
 /* The line of a document with a draw in the place of every distribution. Any value may be an object
  * whose one member names a law:
  *

@@ -21,7 +21,8 @@ import sys
 
 sys.dont_write_bytecode = True
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
+sys.path[:0] = [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "tests", "support")]
+import suites  # noqa: E402
 from glint.progress import Progress, say  # noqa: E402
 
 GLINT = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin", "glint")
@@ -106,9 +107,8 @@ def main():
     chains = []
     for suite in asked.suites.split(","):
         chains.append((suite, suite, CELLS))
-        with open(os.path.join(ROOT, "data", "sensors", suite + ".json")) as text:
-            if all("waveform" in one for one in json.load(text)["sensors"]):
-                chains.append((f"{suite}, signal", suite, SIGNAL))
+        if all("waveform" in one for one in suites.whole(suite)["sensors"]):
+            chains.append((f"{suite}, signal", suite, SIGNAL))
     say(f"{'suite':27}{'echoes':17}{'':9}{'count':>6}  {'% of targets':23}{'mean squared error/variance':28}% inside 95 %")
     for title, suite, chain in Progress("chains").over(chains):
         report(title, scenes_of(source, suite, chain))

@@ -3,8 +3,12 @@ import json
 import math
 import os
 import subprocess
+import sys
 
 import chains
+
+sys.path.append(os.path.join(chains.ROOT, "tests", "support"))
+import suites  # noqa: E402
 
 SEEDS = 4  # in a block
 OF_CHAINS = 1000  # seeds of chains begin behind those of the reference
@@ -36,15 +40,10 @@ FLUCTUATION = {"fluctuation": "log_normal", "fluctuation_sigma_db": 3.41}  # one
 OF_LONG_RANGE = ["range_step_m", "range_rate_step_mps", "azimuth_step_rad"]
 
 
-def sensors(name):
-    with open(os.path.join(chains.ROOT, "data", "sensors", name + ".json")) as text:
-        return json.load(text)
-
-
 def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=(), levels=False):
     """The suite with every effect and a scan in every frame, without a second train: chain and signal fold
     alike. Fewer repetitions of the same chirps or pulses tell rates apart less well."""
-    full = sensors("lrr77-full")["sensors"][0]
+    full = suites.whole("lrr77-full")["sensors"][0]
     taken = {key: value for key, value in full.items() if key not in [*OF_ITS_OWN, *LEVELS, *without]}
     taken |= {key: full[key] for key in LEVELS if key in full} if levels else FLUCTUATION
     for number, sensor in enumerate(suite["sensors"]):
@@ -62,14 +61,14 @@ def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=
 
 def long_range(size, levels=False):
     """A chirp every 20 us: 256 of them part rates by 0.383 m/s."""
-    suite = sensors(f"lrr77-signal-{size}")
+    suite = suites.whole(f"lrr77-signal-{size}")
     return described(suite, suite["sensors"][0]["waveform"]["repetitions"], 256, 97.971392 / 256, levels=levels)
 
 
 def short_range(size):
     """Fewer pulses leave less room for the noise's window."""
     repetitions, cells = {"small": (28, 8), "medium": (40, 12), "large": (64, 16)}[size]
-    return described(sensors("srr24-signal"), repetitions, 64, 0.5, cells, OF_LONG_RANGE)
+    return described(suites.whole("srr24-signal"), repetitions, 64, 0.5, cells, OF_LONG_RANGE)
 
 
 def beside_a_road(size):
@@ -98,12 +97,12 @@ class Radar:
     """A radar's suites by size, and frames in which it lists something; again: other frames than those of the tables."""
 
     def __init__(self, name, cache, few=False, again=False):
-        suites, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT),
+        of_size, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT),
                              "roadside": (beside_a_road, ROADSIDE)}[name]
         self.name, self.cache, self.few, self.again = name, cache, few, again
         self.lasting = name == "roadside"  # do levels and a roadside stay from scan to scan?
         self.score = ["--azimuth-cell-rad", repr(AZIMUTH_CELL_RAD[name])]  # options of glint-score
-        self.suites = {size: self.suite_file(suites(size)) for size in SIZES}
+        self.suites = {size: self.suite_file(of_size(size)) for size in SIZES}
         with open(self.suites["large"]) as suite:
             self.cell_range_m = json.load(suite)["sensors"][0]["cell_range_m"]
         self.contour = f"glint-extract-contour --spacing-m {self.cell_range_m / 3:.9g}"
@@ -111,11 +110,11 @@ class Radar:
         self.first = cache.text(".jsonl", lines_of(self.frames[:1], [1]))
 
     def suite_file(self, suite):
-        """The suite with its antenna's table beside it: its text and name are the same in every folder."""
+        """The suite with its antenna's tables beside it: its text and name are the same in every folder."""
         for sensor in suite["sensors"]:
-            if "antenna_table" in sensor:
-                with open(os.path.join(chains.ROOT, "data", "sensors", sensor["antenna_table"])) as table:
-                    sensor["antenna_table"] = os.path.basename(self.cache.text(".csv", table.read()))
+            for member in {"antenna_table", "azimuth_curve"} & sensor.keys():
+                with open(os.path.join(suites.FOLDER, sensor[member])) as table:
+                    sensor[member] = os.path.basename(self.cache.text(".csv", table.read()))
         return self.cache.text(".json", json.dumps(suite))
 
     def few_frames(self):

@@ -710,6 +710,26 @@ def tables_of_a_suite_stand_in_the_set_or_are_refused(folder):
     refusals(folder, [(with_table("nowhere.csv"), "nowhere.csv: no such file")], 66)
 
 
+def suites_that_a_suite_extends_stand_in_the_set(folder):
+    for name in ("sensors", "antennas"):
+        shutil.copytree(os.path.join(ROOT, "data", name), os.path.join(folder, "radars", name))
+    os.rename(os.path.join(folder, "radars/sensors", SUITE + ".json"), os.path.join(folder, "radars/base.json"))
+    base = json.loads(open(os.path.join(folder, "radars/base.json"), encoding="utf-8").read().replace("../antennas", "antennas"))
+
+    def extending(word):
+        for path, document in (("base.json", base), ("sensors/mine.json", {"extends": word})):
+            with open(os.path.join(folder, "radars", path), "w", encoding="utf-8") as file:
+                json.dump(document, file)
+        return snapshots(9, suites=["radars/sensors/mine.json"])
+
+    there = files(made(folder, extending("../base.json")))
+    assert {"documents/sensors/mine.json", "documents/base.json", "documents/antennas/corner77.csv"} <= set(there), list(there)
+    there = files(made(folder, extending("lrr77-coherent"), "other"))
+    assert {"documents/sensors/lrr77-coherent.json", "documents/sensors/lrr77.json"} <= set(there), list(there)
+    base["extends"] = "sensors/mine.json"
+    refusals(folder, [(extending("../base.json"), "expected a suite that does not extend this one")], 65)
+
+
 def paths_may_have_any_letters(folder):
     """A plan's folder with letters that mean something to make and the shell, and a table that looks like an option."""
     home = os.path.join(folder, "it's $(my) #1 \"plan\"")
@@ -998,7 +1018,8 @@ CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole
           recordings_tell_licence_and_source, rows_are_counted_wherever_a_table_is_cut,
           blocks_of_time_keep_their_gap, blocks_of_a_resampled_recording_have_all_frames, no_two_scenes_share_a_draw,
           leaks_are_refused, scenes_that_differ_by_a_body_are_alike, copies_of_a_recording_are_known, what_no_frame_of_a_rehearsal_meets_is_refused, what_cannot_be_made_is_refused,
-          scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused, paths_may_have_any_letters,
+          scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused,
+          suites_that_a_suite_extends_stand_in_the_set, paths_may_have_any_letters,
           another_plan_in_the_folder_is_refused, two_plans_at_once_make_one_set, who_finishes_at_once_disturbs_nobody,
           what_is_damaged_is_made_again, temporaries_of_the_living_stay, one_failing_scene_stops_no_other,
           an_ego_may_have_any_letters_in_its_id, a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,

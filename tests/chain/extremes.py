@@ -16,7 +16,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(ROOT, "tests", "support"))
+import suites  # noqa: E402
+
 PATIENCE_S = 300
 def without_distributions(member):
     """Where a distribution may stand for a value, the first alternative is the value's schema."""
@@ -169,7 +173,7 @@ class Bench:
                         {"id": "ahead", "class": "vehicle.json", "x_m": 15, "y_m": 1, "speed_mps": 8},
                         {"id": "walker", "class": "pedestrian", "x_m": 9, "y_m": -3, "yaw_rad": 1.5, "speed_mps": 1},
                         {"id": "wall", "class": "wall", "x_m": 20, "y_m": 6, "length_m": 60}]}
-        self.suites = {name: json.load(open(f"{ROOT}/data/sensors/{name}.json"))
+        self.suites = {name: suites.whole(name)
                        for name in ("srr24-pair-every-frame", "corner77-every-frame", "lrr77-full",
                                     "radarscenes77-full", "lrr77-coherent", "array77")}
 

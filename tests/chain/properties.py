@@ -20,7 +20,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(ROOT, "tests", "support"))
+import suites  # noqa: E402
+
 BIN = os.path.abspath(sys.argv[1]) if len(sys.argv) == 2 else sys.exit(__doc__)
 ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 PIPELINES = sorted(glob.glob(ROOT + "/pipelines/*.sh"))
@@ -844,7 +848,7 @@ def well_formed(folder):
                 check_order(frame)
                 if "targets" in frame:
                     name = frame["sensors"]["suite"]
-                    check_list(frame, json.load(open(f"{ROOT}/data/sensors/{name}.json")))
+                    check_list(frame, suites.whole(name))
 
 
 def schema(folder):
@@ -860,6 +864,25 @@ def schema(folder):
                 fault = next(validator.iter_errors(frame), None)
                 check(fault is None, f"{path}, {command}: {fault}")
     return f"{count} frames"
+
+
+def suites_by_schema(folder):
+    if importlib.util.find_spec("jsonschema") is None:
+        raise Skip("python3-jsonschema is not installed")
+    from jsonschema import Draft202012Validator
+    schemas = {name: json.load(open(f"{ROOT}/schemas/{name}.json")) for name in ("sensors", "sensors-extending")}
+    for schema_of in schemas.values():
+        Draft202012Validator.check_schema(schema_of)
+    names = sorted(name[:-5] for name in os.listdir(suites.FOLDER) if name.endswith(".json"))
+    for name in names:
+        document = json.load(open(f"{suites.FOLDER}/{name}.json"))
+        kind = "sensors-extending" if "extends" in document else "sensors"
+        for document, kind in ((document, kind), (suites.whole(name), "sensors")):
+            fault = next(Draft202012Validator(schemas[kind]).iter_errors(document), None)
+            check(fault is None, f"{name} by {kind}: {fault}")
+    wrong = {"extends": "lrr77", "sensors": [{"name": "front", "range_max_m": None}]}
+    check(not Draft202012Validator(schemas["sensors-extending"]).is_valid(wrong), "a member that must be there is taken away")
+    return f"{len(names)} suites"
 
 
 def sizes(folder):
@@ -926,6 +949,7 @@ PROPERTIES = [
     ("extra members pass byte for byte", extras),
     ("all numbers are finite, all parts in canonical order", well_formed),
     ("frames are as the schema says", schema),
+    ("suites are as their schemas say", suites_by_schema),
     ("frames are small", sizes),
     ("a recording goes through with every vehicle as ego", recording),
 ]

@@ -37,14 +37,15 @@ def frames():
 
 
 def suite_and_frame():
+    sys.path.insert(0, "tests/support")
+    import suites as documents
     scenes = [first_lines("glint-traffic " + scene) for scene in SCENES]
     scenes += [first_lines(f"glint-traffic-random --density {density} --draw-conditions --frames 1 --seed {seed}")
                for density in ["sparse", "medium"] for seed in [1, 2]]
     scenes += [first_lines(f"glint-traffic {scene} | glint-extract") for scene in ["two-vehicles", "shadows"]]
     suites = []
     for name in SUITES:
-        with open(f"data/sensors/{name}.json", encoding="utf-8") as file:
-            suite = json.load(file)
+        suite = documents.whole(name)
         for sensor in suite["sensors"]:
             for table in ["antenna_table", "range_curve", "azimuth_curve", "elevation_curve"]:
                 if table in sensor:

@@ -10,10 +10,13 @@ import json
 import math
 import random
 import sys
+from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import effects_signal as signal  # noqa: E402
 import model  # noqa: E402
+import suites  # noqa: E402
 from model import ego, sensor, suite_of, thing  # noqa: E402
 
 SCANS = 30000
@@ -185,7 +188,7 @@ def world(draw, document, kind, scans):
 def existence_of_shipped(bench):
     """Through the whole chain, with both thresholds, in worlds drawn from the priors of three shipped suites."""
     for name in ("lrr77-full", "radarscenes77-full", "srr24-signal"):
-        document = json.loads((model.ROOT / f"data/sensors/{name}.json").read_text())
+        document = suites.whole(name)
         frames, vehicle = world(random.Random(name), document, "point", 4000)
         bench.add_vehicle("point", vehicle)
         text = "".join(json.dumps(one) + "\n" for one in frames)

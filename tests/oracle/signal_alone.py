@@ -16,6 +16,9 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
+import suites  # noqa: E402
+
 C = 299792458.0
 ROOT = Path(__file__).resolve().parents[2]
 QUIET = "all,-angle_noise"
@@ -242,7 +245,7 @@ class Program:
 
 def shipped(name):
     """The first sensor of a shipped suite, whose amplitudes hardly depend on range here, without false alarms."""
-    sensor = json.loads((ROOT / f"data/sensors/{name}.json").read_text())["sensors"][0]
+    sensor = suites.whole(name)["sensors"][0]
     for table in {"antenna_table", "azimuth_curve"} & sensor.keys():
         sensor[table] = str(ROOT / "data/sensors" / sensor[table])
     return dict(sensor, exponent=0.1, cell_phase="random", list_limit=0, false_alarms=0)

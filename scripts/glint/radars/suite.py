@@ -6,7 +6,7 @@ import os
 from glint.places import SCHEMAS
 from glint.radars import antennas, detection, printed
 from glint.radars.figures import ABOUT, FIRST, Figures, Refused, scale
-from glint.sets.documents import TABLES, path_of
+from glint.sets.documents import TABLES, path_of, whole_suite
 from glint.sets.plan import read_json, refuse
 from glint.sets.schema import fault_of
 
@@ -297,7 +297,7 @@ def check_dwells(radar, scans):
 def base_suite(name, beside, out):
     """The suite that a sheet extends, by name or by its path beside the sheet, with paths of tables as from the new suite; its path."""
     path = path_of(name, "suite", beside)
-    suite = read_json(path)
+    suite = whole_suite(path)
     refuse(fault := fault_of(suite, SUITE), path, fault)
     for sensor in suite["sensors"]:
         for member in sensor.keys() & set(TABLES):

@@ -49,16 +49,66 @@ def suite_name(word):
 TABLES = "antenna_table", "range_curve", "azimuth_curve", "elevation_curve", "azimuth_floor_curve"
 
 
-def copies_of_tables(suite):
-    """The tables that a suite names. In the set they lie as they do here, seen from the suite."""
-    for sensor in read_json(suite)["sensors"]:
+def base_of(suite, path, extending):
+    """The file of the suite that this one extends; None if it extends none. extending are those that extend this one."""
+    if "extends" not in suite:
+        return None
+    base = path_of(suite["extends"], "suite", os.path.dirname(path))
+    refuse(os.path.realpath(base) in map(os.path.realpath, (*extending, path)), path,
+           f"extends: {suite['extends']}: expected a suite that does not extend this one")
+    return base
+
+
+def extended(base, own):
+    """The members of the base, but for those that the other one has: objects member by member, lists of what has names
+    item by item. None takes a member away."""
+    if isinstance(base, dict) and isinstance(own, dict):
+        made = base | {name: extended(base.get(name), value) for name, value in own.items()}
+        return {name: value for name, value in made.items() if value is not None}
+    if have_names(base) and have_names(own):
+        changes = {one["name"]: one for one in own}
+        return [extended(one, changes.pop(one["name"], {})) for one in base] + list(changes.values())
+    return own
+
+
+def have_names(items):
+    return isinstance(items, list) and all(isinstance(one, dict) and "name" in one for one in items) and bool(items)
+
+
+def whole_suite(path, extending=()):
+    """A suite with what it has from those that it extends; its tables by their paths from its folder."""
+    own = read_json(path)
+    there = base_of(own, path, extending)
+    if there is None:
+        return own
+    base = whole_suite(there, (*extending, path))
+    for sensor in base["sensors"]:
+        for member in sensor.keys() & set(TABLES):
+            table = os.path.join(os.path.dirname(there), sensor[member])
+            sensor[member] = os.path.relpath(table, os.path.dirname(path) or ".")
+    return extended(base, {name: value for name, value in own.items() if name != "extends"})
+
+
+def copies_of_suite(path, place, extending=()):
+    """A suite, its tables, and the suites that it extends. In the set they lie as they do here, seen from the suite."""
+    def beside(word, what):
+        there = os.path.normpath(os.path.join(os.path.dirname(place), word))
+        refuse(os.path.isabs(word) or not there.startswith(DOCUMENTS + "/"), path,
+               f"{word}: expected a {what} in or below the folder above this one, by its path from here")
+        return there
+
+    yield place, path
+    suite = read_json(path)
+    for sensor in suite.get("sensors", []) if "extends" in suite else suite["sensors"]:
         for table in filter(None, map(sensor.get, TABLES)):
-            place, path = os.path.normpath(f"{DOCUMENTS}/sensors/{table}"), os.path.join(os.path.dirname(suite), table)
-            refuse(os.path.isabs(table) or not place.startswith(DOCUMENTS + "/"), suite,
-                   f"{table}: expected a table in or below the folder above this one, by its path from here")
-            if not os.path.isfile(path):
-                raise Fault(NO_INPUT, f"{suite}: {path}: no such file")
-            yield place, path
+            there, found = beside(table, "table"), os.path.join(os.path.dirname(path), table)
+            if not os.path.isfile(found):
+                raise Fault(NO_INPUT, f"{path}: {found}: no such file")
+            yield there, found
+    if base := base_of(suite, path, extending):
+        word = suite["extends"]
+        there = f"{DOCUMENTS}/sensors/{word}.json" if is_name(word) else beside(word, "suite")
+        yield from copies_of_suite(base, there, (*extending, path))
 
 
 def copies_of_suites(plan, plan_folder):
@@ -67,9 +117,8 @@ def copies_of_suites(plan, plan_folder):
         refuse(not re.fullmatch(r"\w[\w-]*", name), "/suites", f"{word}: expected a file name of letters, digits, _ and -")
         refuse([one.lower() for one in names].count(name.lower()) > 1, "/suites", f"{name} is there twice")
         path = path_of(word, "suite", plan_folder)
-        yield f"{DOCUMENTS}/sensors/{name}.json", path
         try:
-            yield from list(copies_of_tables(path))
+            yield from list(copies_of_suite(path, f"{DOCUMENTS}/sensors/{name}.json"))
         except (AttributeError, KeyError, TypeError) as error:
             raise Fault(BAD_DATA, f"{path}: expected a suite of sensors") from error
 

@@ -1,0 +1,13 @@
+"""Suites of data/sensors, whole: with the members that they have from the suites that they extend."""
+import os
+import sys
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+FOLDER = os.path.join(ROOT, "data", "sensors")
+sys.path.append(os.path.join(ROOT, "scripts"))
+from glint.sets.documents import whole_suite  # noqa: E402
+
+
+def whole(name):
+    """A shipped suite by its name; its tables lie beside FOLDER."""
+    return whole_suite(os.path.join(FOLDER, name + ".json"))
