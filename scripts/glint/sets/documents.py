@@ -51,8 +51,10 @@ TABLES = "antenna_table", "range_curve", "azimuth_curve", "elevation_curve", "az
 
 def base_of(suite, path, extending):
     """The file of the suite that this one extends; None if it extends none. extending are those that extend this one."""
+    refuse(not isinstance(suite, dict), path, "expected a suite of sensors")
     if "extends" not in suite:
         return None
+    refuse(not isinstance(suite["extends"], str), path, "extends: expected the name or the path of a suite")
     base = path_of(suite["extends"], "suite", os.path.dirname(path))
     refuse(os.path.realpath(base) in map(os.path.realpath, (*extending, path)), path,
            f"extends: {suite['extends']}: expected a suite that does not extend this one")
@@ -82,6 +84,7 @@ def whole_suite(path, extending=()):
     if there is None:
         return own
     base = whole_suite(there, (*extending, path))
+    refuse(not have_names(base.get("sensors")), there, "expected a suite of sensors")
     for sensor in base["sensors"]:
         for member in sensor.keys() & set(TABLES):
             table = os.path.join(os.path.dirname(there), sensor[member])
