@@ -387,7 +387,8 @@ static struct pair log_of(double x)
     double k, m = split_binary(x, &k);
     int j = (int)(m * 16 + 0.5);
     double c = j * 0.0625;
-    double above = m - c, below = m + c, inverse = 1 / below;
+    double above = m - c, below = m + c;
+    double inverse = 1 / below;
     double below_head = head(below), below_tail = m - (below_head - c);
     double quotient = above * inverse, s = head(quotient);
     double s_tail = ((above - s * below_head) - s * below_tail) * inverse;
@@ -410,7 +411,8 @@ double elementary_log(double x)
     if (!(x > 0 && x < INFINITE))
         return log_outside(x);
     double k, f = split_binary(x, &k) - 1;
-    double s = f / (2 + f), z = s * s, zz = z * z;
+    double s = f / (2 + f);
+    double z = s * s, zz = z * z;
     double low = 0x1.555555555560ap-1 + 0x1.999999995828bp-2 * z;
     double middle = 0x1.24924964a8817p-2 + 0x1.c71c36592b2dbp-3 * z;
     double high = 0x1.746bcadb58c76p-3 + 0x1.391681fb99197p-3 * z + 0x1.3456470a3f859p-3 * zz;

@@ -148,7 +148,8 @@ int64_t random_poisson(double mean, double uniform)
     if (mean >= 16) /* the probability of 0 is too small to begin with */
         begin = begin_below_the_mean(mean);
     double target = uniform * begin.total;
-    double k = begin.first, weight = begin.weight, sum = weight;
+    double k = begin.first, weight = begin.weight;
+    double sum = weight;
     while (sum < target && (weight > NEGLIGIBLE * begin.total || k < mean)) {
         weight *= mean / (k + 1);
         sum += weight;

@@ -23,8 +23,8 @@ static void find_runs(struct sorting *sorting, const char *items, size_t count, 
 /* Merges two neighbouring runs into one. */
 static void merge(const struct sorting *sorting, size_t begin, size_t middle, size_t end)
 {
-    const char **left = sorting->from + begin, **right = sorting->from + middle,
-               **to = sorting->to + begin;
+    const char **left = sorting->from + begin, **right = sorting->from + middle;
+    const char **to = sorting->to + begin;
     const char *const *left_end = right, *const *right_end = sorting->from + end;
     while (left < left_end && right < right_end)
         *to++ = sorting->compare(*left, *right) <= 0 ? *left++ : *right++;

@@ -31,7 +31,9 @@ static size_t distance(const char *a, size_t a_length, const char *b, size_t b_l
 {
     size_t rows[3][SUGGESTION_SIZE];
     for (size_t i = 0; i <= a_length; i++) {
-        size_t *row = rows[i % 3], *above = rows[(i + 2) % 3], *two_above = rows[(i + 1) % 3];
+        size_t *row = rows[i % 3];
+        size_t *above = rows[(i + 2) % 3];
+        size_t *two_above = rows[(i + 1) % 3];
         row[0] = i;
         for (size_t j = 1; j <= b_length; j++) {
             if (i == 0) {
@@ -70,9 +72,10 @@ int suggestion_find(const char *const *known, const char *word, size_t length,
     for (int i = 0; known[i] != NULL; i++)
         if (text_is(word, length, known[i]))
             return i;
-    if (meant != NULL)
-        *meant = suggestion_begin(word, length);
-    for (int i = 0; meant != NULL && known[i] != NULL; i++)
+    if (meant == NULL)
+        return -1;
+    *meant = suggestion_begin(word, length);
+    for (int i = 0; known[i] != NULL; i++)
         suggestion_offer(meant, known[i]);
     return -1;
 }

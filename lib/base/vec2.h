@@ -50,7 +50,8 @@ static inline double vec2_product_rest(double a, double b, double product)
 /* a · b within 2 ulp even where the products cancel, as for speeds that are nearly tangential. */
 static inline double vec2_dot_accurate(struct vec2 a, struct vec2 b)
 {
-    double x = a.x * b.x, y = a.y * b.y, sum = x + y;
+    double x = a.x * b.x, y = a.y * b.y;
+    double sum = x + y;
     double part = sum - x;
     double lost = (x - (sum - part)) + (y - part);
     return (sum + (lost + vec2_product_rest(a.x, b.x, x))) + vec2_product_rest(a.y, b.y, y);

@@ -288,7 +288,9 @@ enum { LABEL_BACKGROUND = 0, LABEL_NOISE = -2, LABEL_MAIN = 100 };
 
 static int64_t class_digit(const char *class)
 {
-    for (size_t i = 0; class != NULL && i < sizeof class_digits / sizeof *class_digits; i++)
+    if (class == NULL)
+        return 0;
+    for (size_t i = 0; i < sizeof class_digits / sizeof *class_digits; i++)
         if (strcmp(class, class_digits[i].class) == 0)
             return class_digits[i].digit;
     return 0;

@@ -288,7 +288,8 @@ bool reflectors_surely_no_foot(const struct box *box, const struct plane_reflect
     struct vec2 from = {plane->from_x * box->length_m, plane->from_y * box->width_m};
     struct vec2 to = {plane->to_x * box->length_m, plane->to_y * box->width_m};
     struct vec2 side = vec2_sub(to, from), sight = vec2_sub(sensor, from);
-    double square = vec2_dot(side, side), along = vec2_dot(side, sight), length = sqrt(square);
+    double square = vec2_dot(side, side), along = vec2_dot(side, sight);
+    double length = sqrt(square);
     double margin = (plane->margin_m - REFLECTORS_SLACK_M) * length;
     return vec2_cross(side, sight) > REFLECTORS_SLACK_M * length || along < margin ||
            along > square - margin;

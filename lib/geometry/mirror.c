@@ -73,7 +73,8 @@ struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_
 
 bool mirror_bounce(const struct mirror *mirror, struct vec2 point_m, struct vec2 *bounce_m)
 {
-    struct vec2 a = mirror->a, b = mirror->b, sensor_m = mirror->sensor_m;
+    struct vec2 a = mirror->a, b = mirror->b;
+    struct vec2 sensor_m = mirror->sensor_m;
     if (mirror->sensor_height_m == 0 || predicates_orientation(a, b, point_m) >= 0)
         return false;
     double height_m = mirror_height_m(mirror, point_m);

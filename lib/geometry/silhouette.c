@@ -91,7 +91,9 @@ struct silhouette_index silhouette_index_begin(size_t count, struct arena *arena
 static struct silhouette_span sets_of(const struct silhouette_index *index,
                                       struct silhouette_span span)
 {
-    unsigned shift = index->shift, all = (unsigned)SECTORS >> shift, first = span.first >> shift;
+    unsigned shift = index->shift;
+    unsigned all = (unsigned)SECTORS >> shift;
+    unsigned first = span.first >> shift;
     unsigned count = ((span.first + span.count - 1) >> shift) - first + 1;
     return (struct silhouette_span){first, count < all ? count : all};
 }

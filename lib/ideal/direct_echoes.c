@@ -201,7 +201,8 @@ static void describe_motion(const struct look *look, const struct look_body *bod
                             const struct candidate *candidate, struct vec2 velocity,
                             struct echo *echo)
 {
-    struct vec2 still = {0, 0}, boresight = look->pose.boresight, heading = body->box.heading;
+    struct vec2 still = {0, 0};
+    struct vec2 boresight = look->pose.boresight, heading = body->box.heading;
     if (!look->sensor->micro_motion || candidate->moving_part == MOVING_NONE)
         return;
     struct kinematics ground =
@@ -401,7 +402,9 @@ static void add_body(struct look *look, const struct look_body *body, const stru
     bool each = reports_all(look);
     add_points(look, body, set, each || !effects_enabled(selection, EFFECT_VISIBILITY));
     add_planes(look, body, all, each);
-    for (size_t i = 0; i < all->rows.count && effects_enabled(selection, EFFECT_ROWS); i++)
+    if (!effects_enabled(selection, EFFECT_ROWS))
+        return;
+    for (size_t i = 0; i < all->rows.count; i++)
         add_row(look, body, &all->rows.items[i]);
 }
 
@@ -425,8 +428,9 @@ void direct_echoes_add(struct look *look)
     for (size_t i = 0; i < frame->reflectors.count; i++)
         for (size_t j = 0; j < look->sets[i].reflectors->objects.count; j++)
             add_body(look, look->sets[i].bodies[j], &look->sets[i]);
-    for (size_t i = 0; look->sightings != NULL && i < look->body_count; i++)
-        sightings_judge(&look->sightings[i]);
+    if (look->sightings != NULL)
+        for (size_t i = 0; i < look->body_count; i++)
+            sightings_judge(&look->sightings[i]);
     frame_count_pairs(frame, look->sensor->name, look->pairs);
     frame_count_echoes(frame, look->sensor->name, PATH_DIRECT, look->echoes);
 }

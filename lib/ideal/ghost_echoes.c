@@ -236,7 +236,8 @@ static void add_paths(struct look *look, struct ghost_candidate *candidate, bool
     const struct route *direct = &candidate->direct, *mirrored = &candidate->mirrored;
     const struct kinematics *object = &direct->read, *image = &mirrored->read;
     double reflection = bounce_factor(look, candidate);
-    struct mirror_ghost both = mirror_ghost_both_ways(reflection, image), out = both, back = both;
+    struct mirror_ghost both = mirror_ghost_both_ways(reflection, image);
+    struct mirror_ghost out = both, back = both;
     one_way = one_way && direct->factor > 0 && object->range_m > 0;
     if (one_way) {
         out = mirror_ghost_one_way(reflection, object, image, object->azimuth_rad);
@@ -440,7 +441,9 @@ void ghost_echoes_add(struct look *look)
     if (look->sensor->bounces < BOUNCES_ONE_WAY || !effects_enabled(selection, EFFECT_GHOSTS))
         return;
     struct mirror_faces faces = mirror_faces_of(look);
-    for (size_t i = 0; i < look->body_count && faces.list.count > 0; i++)
+    if (faces.list.count == 0)
+        return;
+    for (size_t i = 0; i < look->body_count; i++)
         if (look->bodies[i].set != NULL)
             add_ghosts_of(look, &faces, &look->bodies[i]);
 }

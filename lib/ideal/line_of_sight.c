@@ -91,7 +91,8 @@ static enum crossing crossing_by_circles(const struct look_body *body, struct ve
                                          struct vec2 to, double wavelength_m)
 {
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
-    double square = vec2_dot(line, line), length_m = sqrt(square), along = vec2_dot(line, centre);
+    double square = vec2_dot(line, line), length_m = sqrt(square);
+    double along = vec2_dot(line, centre);
     double aside = fabs(vec2_cross(line, centre));
     double slack_m = 1e-6 + obstruction_edge_reach_m(length_m, wavelength_m);
     double reach = (body->radius_m + slack_m) * (1 + 1e-9) * length_m;
@@ -134,7 +135,9 @@ struct side line_of_sight_side(const struct look_body *body, double from_x, doub
 static bool joins(const struct look_body *body, const struct side *side, bool begins,
                   double within_m)
 {
-    for (size_t i = 0; body->set != NULL && i < body->set->reflectors->planes.count; i++) {
+    if (body->set == NULL)
+        return false;
+    for (size_t i = 0; i < body->set->reflectors->planes.count; i++) {
         const struct plane_reflector *plane = &body->set->reflectors->planes.items[i];
         struct side other =
             line_of_sight_side(body, plane->from_x, plane->from_y, plane->to_x, plane->to_y);
@@ -195,9 +198,11 @@ static bool blocks_sharply(const struct look *look)
 bool line_of_sight_all_hidden(const struct look *look, const struct look_set *set,
                               const struct look_extent *wanted)
 {
+    if (!blocks_sharply(look))
+        return false;
     /* A blocker with all its reflectors in its box that ends before the set begins has no side in
      * line with a side of the set. */
-    for (size_t i = 0; i < look->blocker_count && blocks_sharply(look); i++) {
+    for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
         if (silhouette_covers(&body->shadow.silhouette, &wanted->silhouette) &&
             body->set->shape->share == 1 && !(set->shape->under && body->raised))
@@ -294,9 +299,11 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
     double length_m = vec2_length(vec2_sub(line->to, line->from));
     double soft_m = 2 * obstruction_edge_reach_m(length_m, look->wavelength_m);
     bool occlusion = effects_enabled(look->selection, EFFECT_OCCLUSION);
-    for (size_t i = 0; i < look->indexed_count && occlusion; i++) {
+    size_t bodies = occlusion ? look->indexed_count : 0;
+    for (size_t i = 0; i < bodies; i++) {
         const struct look_body *body = look->indexed[i];
-        const struct vec2 *corner = body->corner, from = line->from, to = line->to;
+        const struct vec2 *corner = body->corner;
+        const struct vec2 from = line->from, to = line->to;
         if (body->spare || (under && body->raised) || is_among(body, except, count))
             continue;
         if (!obstruction_blocks(corner, 4, from, to)) {

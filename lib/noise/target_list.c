@@ -81,20 +81,28 @@ static bool has_echo(const struct cell *cell, const struct contributor *echo)
     return false;
 }
 
+static bool has_earlier(const struct effect_measurement *all, size_t number,
+                        const struct contributor *echo)
+{
+    for (size_t i = 0; i < number; i++)
+        if (has_echo(all[i].cell, echo))
+            return true;
+    return false;
+}
+
 /* Loses the echoes of a measurement. Where labels repeat, an echo of an earlier measurement is
  * listed or lost already. */
 static void lose(struct frame *frame, const char *stage, const struct effect_measurement *all,
                  size_t number, enum loss reason, bool repeats)
 {
     const struct cell *cell = all[number].cell;
-    if (!repeats)
+    if (!repeats) {
         frame_lose_cell(frame, stage, cell, reason, 0, &all[number].margins);
-    for (size_t i = 0; repeats && i < cell->members.count; i++) {
-        bool known = false;
+        return;
+    }
+    for (size_t i = 0; i < cell->members.count; i++) {
         struct lost_echo lost = frame_lost_echo(&cell->members.items[i], &all[number].margins);
-        for (size_t j = 0; j < number && !known; j++)
-            known = has_echo(all[j].cell, &cell->members.items[i]);
-        if (!known)
+        if (!has_earlier(all, number, &cell->members.items[i]))
             frame_lose(frame, stage, cell->sensor, reason, &lost);
     }
 }

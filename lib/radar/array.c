@@ -16,7 +16,8 @@ static double taylor_coefficient(int order)
     double level = units_amplitude_from_db(30);
     double a = elementary_log(level + sqrt(level * level - 1)) / PI;
     double dilation = nbar * nbar / (a * a + (nbar - 0.5) * (nbar - 0.5));
-    double over = 1, under = 2, square = order * order;
+    double square = order * order;
+    double over = 1, under = 2;
     for (int i = 1; i < nbar; i++) {
         over *= 1 - square / dilation / (a * a + (i - 0.5) * (i - 0.5));
         under *= i == order ? 1 : 1 - square / (i * i);

@@ -32,7 +32,9 @@ double radar_greatest_amplitude(const struct radar_equation *equation, double fr
 {
     double greatest = elementary_max(radar_reference_amplitude(equation, from_m),
                                      radar_reference_amplitude(equation, to_m));
-    for (size_t i = 0; equation->rows != NULL && i < equation->row_count; i++)
+    if (equation->rows == NULL)
+        return greatest;
+    for (size_t i = 0; i < equation->row_count; i++)
         if (equation->rows[i].range_m > from_m && equation->rows[i].range_m < to_m)
             greatest = elementary_max(greatest, equation->rows[i].amplitude);
     return greatest;

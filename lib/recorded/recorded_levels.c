@@ -36,7 +36,8 @@ static struct apart apart_of(const struct recorded_level *one, const struct reco
 {
     struct vec2 way_m = vec2_sub(other->place_m, one->place_m);
     struct rise from = rise_of(one, way_m), to = rise_of(other, way_m);
-    double weight = from.weight + to.weight, mean_m = 0, half_m = 0;
+    double weight = from.weight + to.weight;
+    double mean_m = 0, half_m = 0;
     if (weight > 0) {
         mean_m = (from.weight * from.rise_m + to.weight * to.rise_m) / weight;
         half_m = elementary_min(from.weight, to.weight) / weight * fabs(from.rise_m - to.rise_m);

@@ -278,6 +278,17 @@ static bool stands_again(const struct recorded_state *one, const struct recorded
            is_same(a->speed_mps, b->speed_mps);
 }
 
+/* True if both steps have the same states. */
+static bool is_repeated(const struct recorded_step *step, const struct recorded_step *last)
+{
+    if (step->states.count != last->states.count)
+        return false;
+    for (size_t i = 0; i < step->states.count; i++)
+        if (!stands_again(&step->states.items[i], &last->states.items[i]))
+            return false;
+    return true;
+}
+
 /* Adds a step that has been read; not one that stands twice unchanged. */
 static int add_step(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
 {
@@ -285,10 +296,7 @@ static int add_step(struct recorded_steps *steps, struct recorded_step *step, st
         const struct recorded_step *last = step_at(steps, steps->read - 1);
         if (sort_states(steps, step, diag) != 0)
             return -1;
-        bool again = step->states.count == last->states.count;
-        for (size_t i = 0; again && i < last->states.count; i++)
-            again = stands_again(&step->states.items[i], &last->states.items[i]);
-        return again ? 0 : refuse_time(steps, step, last, diag);
+        return is_repeated(step, last) ? 0 : refuse_time(steps, step, last, diag);
     }
     if (link_states(steps, step, diag) != 0)
         return -1;
@@ -395,7 +403,8 @@ static void climb(struct recorded_state *state, const struct recorded_state *bef
 
 static void complete_step(struct recorded_steps *steps, size_t number)
 {
-    struct recorded_step *step = step_at(steps, number), *last = NULL, *next = NULL;
+    struct recorded_step *step = step_at(steps, number);
+    struct recorded_step *last = NULL, *next = NULL;
     if (number > 0)
         last = step_at(steps, number - 1);
     if (number + 1 < steps->read)
@@ -403,7 +412,8 @@ static void complete_step(struct recorded_steps *steps, size_t number)
     bool open = steps->live || (next == NULL && steps->fault.code != DIAG_OK);
     bool closes = next != NULL && next->time_ns > steps->to_ns;
     for (size_t i = 0; i < step->states.count; i++) {
-        struct recorded_state *state = &step->states.items[i], *before = NULL, *after = NULL;
+        struct recorded_state *state = &step->states.items[i];
+        struct recorded_state *before = NULL, *after = NULL;
         if (last != NULL && state->before != NONE)
             before = &last->states.items[state->before];
         if (next != NULL && state->after != NONE)

@@ -260,6 +260,15 @@ static int refuse_seconds(const struct store *store, const struct recorded_track
     return 0;
 }
 
+static int refuse_all_seconds(const struct store *store, struct diag *diag)
+{
+    const struct recorded_memory *memory = &store->memory;
+    for (size_t i = 0; i < memory->order.count; i++)
+        if (refuse_seconds(store, &memory->tracks[memory->order.items[i]], diag) != 0)
+            return -1;
+    return 0;
+}
+
 /* Compares the ways between the rows of each road user with its speeds. */
 static void follow_tracks(struct store *store, struct recorded_plausibility *plausibility)
 {
@@ -429,10 +438,8 @@ static int choose_times(struct store *store, double rate_hz,
     if (!apart && counts.moved == 0)
         return 0;
     recorded_memory_link_by_track(memory);
-    for (size_t i = 0; apart && i < memory->order.count; i++)
-        if (refuse_seconds(store, &memory->tracks[memory->order.items[i]], diag) != 0)
-            return -1;
-    if (apart && judge_tracks(store, plausibility, diag) != 0)
+    if (apart &&
+        (refuse_all_seconds(store, diag) != 0 || judge_tracks(store, plausibility, diag) != 0))
         return -1;
     for (size_t i = 0; i < memory->order.count; i++)
         find_rates(store, &memory->tracks[memory->order.items[i]]);

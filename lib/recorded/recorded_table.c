@@ -133,11 +133,21 @@ static bool is_needed(const struct part *part, const struct recorded_column *col
     return column->need == RECORDED_NEEDED || (column->need == RECORDED_TOGETHER && together);
 }
 
+/* Adds the names of columns of which one is lacking. */
+static void add_names(const struct part *part, size_t from, size_t end, struct text *names)
+{
+    char room[NAME_ROOM];
+    for (size_t i = from; i < end; i++) {
+        const char *between = names->length > 0 ? ", " : "";
+        text_format(names, "%s\"%s\"", i > from ? " or " : between,
+                    name_of(&part->kind->columns[i], part->user, room));
+    }
+}
+
 /* Counts the needed values, and adds the names of lacking columns to the text, if there is one. */
 static void count_values(struct fit *fit, const struct part *part, struct text *names)
 {
     const struct recorded_column *columns = part->kind->columns;
-    char room[NAME_ROOM];
     for (size_t i = 0, end; columns[i].name != NULL; i = end) {
         bool found = false;
         for (end = i; columns[end].name != NULL && same_value(&columns[i], &columns[end]); end++)
@@ -146,11 +156,8 @@ static void count_values(struct fit *fit, const struct part *part, struct text *
             continue;
         fit->found += found;
         fit->lacking += !found;
-        for (size_t j = i; names != NULL && !found && j < end; j++) {
-            const char *between = names->length > 0 ? ", " : "";
-            text_format(names, "%s\"%s\"", j > i ? " or " : between,
-                        name_of(&columns[j], part->user, room));
-        }
+        if (names != NULL && !found)
+            add_names(part, i, end, names);
     }
 }
 

@@ -49,8 +49,10 @@ static int choose_egos(struct recording *recording, const char *egos, struct dia
         return 0;
     }
     recording->all = strcmp(egos, "all") == 0;
+    if (recording->all)
+        return 0;
     struct text id = {0};
-    for (const char *at = egos, *end = at + strlen(at); !recording->all && at <= end; at++) {
+    for (const char *at = egos, *end = at + strlen(at); at <= end; at++) {
         if (at < end && *at != ',') {
             at += *at == '\\' && (at[1] == ',' || at[1] == '\\');
             text_add(&id, at, 1);
@@ -155,11 +157,12 @@ static bool is_ego(const struct recording *recording, const struct recorded_stat
     static const char *const others[] = {"pedestrian", "guardrail", "wall", "post"};
     uint32_t number;
     const struct object *object = &state->object;
-    for (size_t i = 0; recording->all && i < sizeof others / sizeof *others; i++)
+    if (!recording->all)
+        return intern_find(&recording->wanted, object->id, strlen(object->id), &number);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcmp(object->class, others[i]) == 0)
             return false;
-    return recording->all ||
-           intern_find(&recording->wanted, object->id, strlen(object->id), &number);
+    return true;
 }
 
 static void fill_grid(struct recording *recording)

@@ -83,9 +83,13 @@ static void note_fragments(const struct recording *recording, struct diag *diag)
 /* Tells that nothing moves, or else the first ego that was asked for by its id and does not. */
 static void note_standing(const struct recording *recording, struct diag *diag)
 {
-    if (!recording->moves)
+    if (!recording->moves) {
         note(recording, diag, "nothing moves");
-    for (size_t i = 0; i < recording->egos.count && recording->moves && !recording->all; i++) {
+        return;
+    }
+    if (recording->all)
+        return;
+    for (size_t i = 0; i < recording->egos.count; i++) {
         const struct recorded_ego *ego = &recording->egos.items[i];
         if (ego->moves)
             continue;

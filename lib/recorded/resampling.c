@@ -63,7 +63,8 @@ struct object resampling_between(const struct object *a, const struct object *b,
     struct vec2 from_m = {a->x_m, a->y_m}, from_mps = {a->vx_mps, a->vy_mps};
     struct vec2 to_m = {b->x_m, b->y_m}, to_mps = {b->vx_mps, b->vy_mps};
     struct vec2 place_m, velocity_mps, acceleration_mps2;
-    double from = vec2_length(from_mps), to = vec2_length(to_mps), limit = 1;
+    double from = vec2_length(from_mps), to = vec2_length(to_mps);
+    double limit = 1;
     object.travelled_m = travelled_between(a, b, from, to, length_s, share);
     if (vec2_dot(from_mps, to_mps) >= 0)
         limit = motion_monotone_share(from, to, vec2_length(vec2_sub(to_m, from_m)) / length_s);

@@ -76,9 +76,11 @@ void frame_sample_thin(struct frame_sample *sample, int64_t most)
 {
     struct sampled_frame *frames = sample->list.items;
     int64_t count = (int64_t)sample->list.count;
-    for (int64_t i = 0; i < most && most < count; i++) {
+    if (most >= count)
+        return;
+    for (int64_t i = 0; i < most; i++) {
         int64_t first = i * count / most, end = (i + 1) * count / most;
         frames[i] = frames[first + draw(i, most, end - first)];
     }
-    sample->list.count = (size_t)(most < count ? most : count);
+    sample->list.count = (size_t)most;
 }

@@ -80,27 +80,35 @@ static int is_exact(struct plan *plan)
     return plan->pipeline.changed == 0;
 }
 
-/* Leaves out all that is idle. While a list differs, puts back what comes last: a stage, and then
- * the last effect in the order of the chain. */
+/* Puts back what comes last of what is left out: a stage, and then the last effect in the order of
+ * the chain. */
+static void put_back(struct plan *plan)
+{
+    bool *replaced = &plan->replaced[plan->replaced[PLAN_STAGES - 1]];
+    int last = EFFECT_COUNT - 1;
+    while (last > 0 && (plan->left_out & EFFECT_BIT(last)) == 0)
+        last--;
+    if (!*replaced)
+        plan->left_out &= ~EFFECT_BIT(last);
+    *replaced = false;
+}
+
+/* Leaves out all that is idle, and puts back part by part while a list differs. */
 static int prove(struct plan *plan)
 {
-    int exact = 0;
     for (enum effect_id i = 0; i < EFFECT_COUNT; i++)
         if (trial_simulated(&plan->bench, i) && plan->bench.without[i].changed == 0)
             plan->idle |= EFFECT_BIT(i);
     plan->left_out = plan->idle;
     for (int i = 0; i < PLAN_STAGES; i++)
         plan->replaced[i] = plan->stand_ins[i].changed == 0;
-    for (int i = 0; i < EFFECT_COUNT + PLAN_STAGES && (exact = is_exact(plan)) == 0; i++) {
-        bool *replaced = &plan->replaced[plan->replaced[PLAN_STAGES - 1]];
-        int last = EFFECT_COUNT - 1;
-        while (last > 0 && (plan->left_out & EFFECT_BIT(last)) == 0)
-            last--;
-        if (!*replaced)
-            plan->left_out &= ~EFFECT_BIT(last);
-        *replaced = false;
+    for (int i = 0; i < EFFECT_COUNT + PLAN_STAGES; i++) {
+        int exact = is_exact(plan);
+        if (exact != 0)
+            return exact < 0 ? -1 : 0;
+        put_back(plan);
     }
-    return exact < 0 ? -1 : 0;
+    return 0;
 }
 
 /* All trials in turns, on a part of the frames. */

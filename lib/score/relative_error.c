@@ -16,7 +16,8 @@ double relative_error_student(double freedom)
 static double jackknife(const struct energy_sample *chain, const struct energy_sample *ideal,
                         size_t first, size_t count)
 {
-    double n = (double)count, mean = 0, squares = 0;
+    double n = (double)count;
+    double mean = 0, squares = 0;
     for (size_t i = first; i < first + count; i++) {
         double below = ideal != NULL ? energy_distance_without(ideal, i) : 1;
         double ratio = energy_distance_without(chain, i) / below, apart = ratio - mean;

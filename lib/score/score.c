@@ -199,7 +199,8 @@ void score_merge(struct score_tally *tally, const struct score_tally *other, str
 /* Sums over the sorted values, so that the order of the differences changes no bit. */
 struct score_differences score_statistics(double *differences, size_t count, struct arena *arena)
 {
-    double sum = 0, squares = 0, *size = differences;
+    double sum = 0, squares = 0;
+    double *size = differences;
     sort_numbers(differences, count, arena);
     for (size_t i = 0; i < count; i++) {
         sum += differences[i];

@@ -107,7 +107,9 @@ static double component(const struct target *target, int which)
 static void add_values(struct score_values *values, const struct target *target,
                        struct arena *arena)
 {
-    for (int which = 0; which < COMPONENTS && target != NULL; which++)
+    if (target == NULL)
+        return;
+    for (int which = 0; which < COMPONENTS; which++)
         *list_add(&values[which].list, arena) = component(target, which);
 }
 

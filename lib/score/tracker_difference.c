@@ -53,7 +53,8 @@ void tracker_difference_add(struct tracker_scenes *scenes, const char *scene,
 
 static struct tracker_interval interval_of(const struct tracker_scenes *scenes, int figure)
 {
-    double count = (double)scenes->list.count, sum = 0, squares = 0;
+    double count = (double)scenes->list.count;
+    double sum = 0, squares = 0;
     for (size_t i = 0; i < scenes->list.count; i++)
         sum += scenes->list.items[i].sums[figure] / (double)scenes->list.items[i].frames;
     double mean = sum / count;

@@ -115,35 +115,43 @@ bool resolution_cell_measure(const struct sensor *sensor, struct antenna_pointer
     return angle.valid;
 }
 
-bool resolution_cell_see(const struct sensor *sensor, const struct received_echo *echoes,
+/* Sees several echoes at the largest maximum of the array's beams. */
+static void see_together(const struct array *array, const struct received_echo *echoes,
                          size_t count, struct arena *arena, struct cell *cell)
 {
-    const struct array *array = &sensor->beams;
-    double azimuth_rad = echoes[0].echo.azimuth_rad, amplitude = echoes[0].amplitude;
     struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
     struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
-    for (size_t i = 0; count > 1 && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         struct elementary_sincos phase =
             elementary_sincos(echoes[i].phase_rad - echoes[0].phase_rad);
         struct phasor echo = {echoes[i].amplitude * phase.cos, echoes[i].amplitude * phase.sin};
         array_receive(array, elementary_sin(echoes[i].echo.azimuth_rad), echo, samples);
     }
-    for (size_t n = 0; count > 1 && n < array->count; n++)
+    for (size_t n = 0; n < array->count; n++)
         *list_add(&cell->elements, arena) = samples[n];
-    if (count > 1 && array_maxima(array, samples, maxima) > 0) {
-        azimuth_rad = elementary_asin(maxima[0].sine);
-        amplitude = maxima[0].amplitude;
-    }
-    cell->azimuth_rad = azimuth_rad;
-    cell->sum_re = amplitude;
-    return amplitude > 0;
+    if (array_maxima(array, samples, maxima) == 0)
+        return;
+    cell->azimuth_rad = elementary_asin(maxima[0].sine);
+    cell->sum_re = maxima[0].amplitude;
+}
+
+bool resolution_cell_see(const struct sensor *sensor, const struct received_echo *echoes,
+                         size_t count, struct arena *arena, struct cell *cell)
+{
+    cell->azimuth_rad = echoes[0].echo.azimuth_rad;
+    cell->sum_re = echoes[0].amplitude;
+    if (count > 1)
+        see_together(&sensor->beams, echoes, count, arena, cell);
+    return cell->sum_re > 0;
 }
 
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell)
 {
     double *range = arena_get(arena, 4 * count * sizeof *range);
-    double *rate = range + count, *weight = rate + count, *azimuth = weight + count;
+    double *rate = range + count;
+    double *weight = rate + count;
+    double *azimuth = weight + count;
     *cell = (struct cell){
         .sensor = sensor->name,
         .effects = effects_of(echoes, count, superpose),

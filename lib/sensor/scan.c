@@ -54,10 +54,19 @@ static void group_by_cell(struct scan *scan)
         first[number + 2] += first[number + 1];
     for (size_t i = 0; i < all->count; i++)
         by_cell[first[all->cell[i] + 1]++] = all->echoes[i];
-    for (size_t n = 0; all->resolution.coherent && n < scan->cells; n++)
-        respond(by_cell + first[n], first[n + 1] - first[n], &all->resolution);
+    if (all->resolution.coherent)
+        for (size_t n = 0; n < scan->cells; n++)
+            respond(by_cell + first[n], first[n + 1] - first[n], &all->resolution);
     scan->by_cell = by_cell;
     scan->first = first;
+}
+
+/* Puts each echo into a cell of its own; the number of cells. */
+static size_t one_cell_each(size_t *cell, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        cell[i] = i;
+    return count;
 }
 
 static void resolve(struct scan *scan, const struct selection *selection)
@@ -72,11 +81,8 @@ static void resolve(struct scan *scan, const struct selection *selection)
     bool merge = effects_forced(selection, EFFECT_MERGING) ||
                  (effects_enabled(selection, EFFECT_MERGING) &&
                   resolution_close(places, count, resolution, arena));
-    scan->cells = count;
-    if (merge)
-        scan->cells = resolution_cluster(places, count, resolution, cell, arena);
-    for (size_t i = 0; i < count && !merge; i++)
-        cell[i] = i;
+    scan->cells = merge ? resolution_cluster(places, count, resolution, cell, arena)
+                        : one_cell_each(cell, count);
     scan->received.cell = cell;
     group_by_cell(scan);
     effects_note(selection, EFFECT_MERGING, merge);

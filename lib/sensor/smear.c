@@ -191,7 +191,8 @@ static double offset_of(const struct smear *smear, const struct smear_sample *pe
                         bool along_range)
 {
     int64_t range = along_range ? SAMPLES_PER_BIN : 0, rate = along_range ? 0 : SAMPLES_PER_BIN;
-    double least = -0.5 / SAMPLES_PER_BIN, most = 0.5 / SAMPLES_PER_BIN, here = magnitude(peak);
+    double least = -0.5 / SAMPLES_PER_BIN, most = 0.5 / SAMPLES_PER_BIN;
+    double here = magnitude(peak);
     if (!(here > 0))
         return 0;
     double before = magnitude(find(smear, peak->range - range, peak->rate - rate));

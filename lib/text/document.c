@@ -421,7 +421,9 @@ static const struct law {
 static const struct law *find_law(json_t *value)
 {
     const char *key = json_object_iter_key(json_object_iter(value));
-    for (size_t i = 0; key != NULL && i < sizeof laws / sizeof laws[0]; i++)
+    if (key == NULL)
+        return NULL;
+    for (size_t i = 0; i < sizeof laws / sizeof laws[0]; i++)
         if (strcmp(key, laws[i].name) == 0)
             return &laws[i];
     return NULL;

@@ -55,7 +55,10 @@ static void remove_leftovers(const char *folder)
     struct utsname system;
     uname(&system);
     DIR *list = opendir(folder);
-    for (const struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;) {
+    const struct dirent *entry;
+    if (list == NULL)
+        return;
+    while ((entry = readdir(list)) != NULL) {
         const char *name = entry->d_name, *host = strrchr(name, '@');
         bool ours = host != NULL && strncmp(name, MARK, sizeof MARK - 1) == 0 &&
                     strcmp(host + 1, system.nodename) == 0;
@@ -65,8 +68,7 @@ static void remove_leftovers(const char *folder)
         if (fd >= 0)
             close(fd);
     }
-    if (list != NULL)
-        closedir(list);
+    closedir(list);
 }
 
 /* Gives the file the first temporary name that is free; makes the file if it is not open yet.

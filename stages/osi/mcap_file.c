@@ -96,7 +96,8 @@ uint16_t mcap_file_add_channel(struct mcap_file *mcap, const char *topic,
 /* Writes the chunk, the places of each channel's messages in it, and its own for the summary. */
 static void end_chunk(struct mcap_file *mcap)
 {
-    struct text *out = &mcap->out, *chunk = &mcap->chunk, indexes = {0};
+    struct text *out = &mcap->out, *chunk = &mcap->chunk;
+    struct text indexes = {0};
     uint64_t begin = place(mcap);
     if (chunk->length == 0)
         return;

@@ -49,7 +49,9 @@ static struct osi_message of_view(const Osi3__SensorView *view)
 static struct osi_message of_data(const Osi3__SensorDataViews *data)
 {
     struct osi_message message = {0};
-    for (size_t i = 0; data != NULL && message.truth == NULL && i < data->n_sensor_view; i++)
+    if (data == NULL)
+        return message;
+    for (size_t i = 0; message.truth == NULL && i < data->n_sensor_view; i++)
         message = of_view(data->sensor_view[i]);
     if (message.truth != NULL && message.time == NULL)
         message.time = data->timestamp;

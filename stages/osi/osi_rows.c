@@ -382,16 +382,18 @@ static const struct recorded_format format = {
 static const char *host_of(const struct osi_message *message, struct arena *arena)
 {
     const Osi3__GroundTruth *truth = message->truth;
-    for (size_t i = 0; message->host != NULL && i < truth->n_moving_object; i++) {
+    if (message->host == NULL)
+        return NULL;
+    for (size_t i = 0; i < truth->n_moving_object; i++) {
         const Osi3__MovingObject *one = truth->moving_object[i];
         if (one->id != NULL && one->id->value == message->host->value)
             return name_of(one->id, one->source_reference, one->n_source_reference, arena);
     }
-    return message->host != NULL ? name_of(message->host, NULL, 0, arena) : NULL;
+    return name_of(message->host, NULL, 0, arena);
 }
 
 struct recorded_reader osi_rows_open(struct input *input, bool rear_axle, const char **host,
-                                         struct arena *arena, struct diag *diag)
+                                     struct arena *arena, struct diag *diag)
 {
     struct trace *trace = arena_get(arena, sizeof *trace);
     trace->input = input;

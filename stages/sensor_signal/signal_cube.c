@@ -406,6 +406,13 @@ static size_t beams_of(const struct signal_cube *signal)
     return signal->turns * (2 + (size_t)(2 * limit / (width / 2)));
 }
 
+/* The power of each sample, |s|^2. */
+static void take_power(const struct phasor *samples, size_t count, double *power)
+{
+    for (size_t i = 0; i < count; i++)
+        power[i] = samples[i].re * samples[i].re + samples[i].im * samples[i].im;
+}
+
 struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, struct arena *arena)
 {
     size_t rate_cells = SIGNAL_CUBE_PADDING * signal->repetitions;
@@ -427,8 +434,7 @@ struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, stru
     };
     if (beams > 1)
         form_beams(signal, &spectrum, power, power + beams * cells);
-    for (size_t i = 0; i < cells && beams == 1; i++)
-        power[i] = signal->spectrum[i].re * signal->spectrum[i].re +
-                   signal->spectrum[i].im * signal->spectrum[i].im;
+    else
+        take_power(signal->spectrum, cells, power);
     return spectrum;
 }
