@@ -97,10 +97,12 @@ struct effect_member {
     struct effect_random random; /* of a condition */
 };
 
-#define EFFECT_MEMBER(owner, member) offsetof(owner, member), sizeof(((owner *)0)->member)
-#define EFFECT_SENSOR(member) EFFECT_MEMBER(struct sensor, member), EFFECT_OWNER_SENSOR
-#define EFFECT_CONDITION(member) EFFECT_MEMBER(struct conditions, member), EFFECT_OWNER_CONDITIONS
-#define EFFECT_FRAME(member) EFFECT_MEMBER(struct frame, member), EFFECT_OWNER_FRAME
+#define EFFECT_MEMBER(type, member)                                                                \
+    .offset = offsetof(type, member), .size = sizeof(((type *)0)->member)
+#define EFFECT_SENSOR(member) EFFECT_MEMBER(struct sensor, member), .owner = EFFECT_OWNER_SENSOR
+#define EFFECT_CONDITION(member)                                                                   \
+    EFFECT_MEMBER(struct conditions, member), .owner = EFFECT_OWNER_CONDITIONS
+#define EFFECT_FRAME(member) EFFECT_MEMBER(struct frame, member), .owner = EFFECT_OWNER_FRAME
 
 struct effect {
     /* Texts for people, all without a period. */
