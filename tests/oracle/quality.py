@@ -6,6 +6,7 @@ Exit status 1 if any check fails. Seeds are fixed; statistics are held to three 
 """
 
 import cmath
+import itertools
 import json
 import math
 import random
@@ -300,6 +301,11 @@ def other_stages(bench):
     for key, deviation in zip(PARTS, DEVIATIONS):
         mean, _ = mean_of(squared(targets, key, deviation))
         bench.check(abs(mean - 1) < 3 * math.sqrt(2 / SCANS), f"glint-noise-gauss: {key}: {mean:.4f}")
+    errors_of = {key: [(one[key] - one["cell_" + key]) / one["quality"][deviation] for one in targets]
+                 for key, deviation in zip(PARTS, DEVIATIONS)}
+    for key, other in itertools.combinations(PARTS, 2):
+        product = sum(a * b for a, b in zip(errors_of[key], errors_of[other])) / SCANS
+        bench.check(abs(product) < 3 / math.sqrt(SCANS), f"glint-noise-gauss: {key} and {other}: {product:.4f}")
     for cell, target in zip(lists[0], targets_of(heard(bench, suite, lists[:1], "glint-noise-none"))):
         quality = target["quality"]
         bench.check(all(quality[key] == 0 for key in DEVIATIONS) and quality["existence"] == 1, f"none: {quality}")
