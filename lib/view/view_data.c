@@ -63,6 +63,23 @@ void view_data_begin(struct view_data *data, struct arena *arena)
     *data = (struct view_data){.arena = arena, .models = {.arena = arena}};
 }
 
+/* Adds what the frame has of lines on the ground, relative to the place of its ego. */
+static void add_ground(struct view_data *data, struct view_scene *scene, const struct frame *frame,
+                       struct vec2 ego)
+{
+    for (size_t i = 0; i < frame->roadside.count; i++) {
+        const struct roadside_strip *strip = &frame->roadside.items[i];
+        *list_add(&scene->ground, data->arena) = (struct view_ground){
+            .kind = roadside_kinds[strip->kind],
+            .from_x_m = strip->from_x_m - ego.x,
+            .from_y_m = strip->from_y_m - ego.y,
+            .to_x_m = strip->to_x_m - ego.x,
+            .to_y_m = strip->to_y_m - ego.y,
+            .width_m = strip->width_m,
+        };
+    }
+}
+
 static uint32_t scene_of(struct view_data *data, const struct frame *frame)
 {
     const uint64_t key[] = {name_of(data, frame->scene), frame->seed};
@@ -80,13 +97,7 @@ static uint32_t scene_of(struct view_data *data, const struct frame *frame)
             .anchor_x_m = frame->origin_x_m + ego.x,
             .anchor_y_m = frame->origin_y_m + ego.y,
         };
-        struct view_scene *scene = &data->scenes.items[number];
-        for (size_t i = 0; i < frame->roadside.count; i++) {
-            struct roadside_strip *strip = list_add(&scene->roadside, data->arena);
-            *strip = frame->roadside.items[i];
-            strip->id = NULL; /* lies in the frame's memory; the page does not show it */
-            roadside_shift(strip, vec2_scale(-1, ego));
-        }
+        add_ground(data, &data->scenes.items[number], frame, ego);
     }
     if (frame->last)
         data->scenes.items[number].ended = true;

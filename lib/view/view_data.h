@@ -32,13 +32,20 @@ struct view_columns {
     LIST_OF(uint32_t) list[COLUMN_COUNT]; /* real numbers as their bits in single precision */
 };
 
+/* A line or band that stays on the ground. The page draws each kind as page/ground.js says. */
+struct view_ground {
+    const char *kind;
+    double from_x_m, from_y_m, to_x_m, to_y_m;
+    double width_m; /* 0: a line */
+};
+
 struct view_scene {
     int64_t name, ego, suite; /* numbers in the table of names */
     uint64_t seed;
     int64_t first_frame;
     double start_s;
     double anchor_x_m, anchor_y_m;
-    LIST_OF(struct roadside_strip) roadside;
+    LIST_OF(struct view_ground) ground;
     bool ended;
     bool compared, tracked; /* the other streams have a frame of it */
 };

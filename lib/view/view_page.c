@@ -38,6 +38,18 @@ static const struct field effect_set_fields[] = {
 static const struct record effect_set_record = {
     .name = "effects", .size = sizeof(struct effect_set), .fields = effect_set_fields};
 
+static const struct field ground_fields[] = {
+    {FIELD_NAME_OF(struct view_ground, kind, "what it is")},
+    {FIELD_REAL_IN(struct view_ground, from_x_m, -1e10, 1e10, "where it begins")},
+    {FIELD_REAL_IN(struct view_ground, from_y_m, -1e10, 1e10, "where it begins")},
+    {FIELD_REAL_IN(struct view_ground, to_x_m, -1e10, 1e10, "where it ends")},
+    {FIELD_REAL_IN(struct view_ground, to_y_m, -1e10, 1e10, "where it ends")},
+    {FIELD_REAL_IN(struct view_ground, width_m, 0, 100, "half of it to each side; 0: a line")},
+    {0},
+};
+static const struct record ground_record = {
+    .name = "ground", .size = sizeof(struct view_ground), .fields = ground_fields};
+
 #define NAME_NUMBER(member)                                                                        \
     FIELD_INTEGER_IN(struct view_scene, member, 0, UINT32_MAX, "number of its name")
 static const struct field scene_fields[] = {
@@ -50,7 +62,7 @@ static const struct field scene_fields[] = {
     {FIELD_REAL_IN(struct view_scene, start_s, -1e10, 1e10, "time of that frame")},
     {FIELD_REAL_IN(struct view_scene, anchor_x_m, -1e10, 1e10, "place of the ego in that frame")},
     {FIELD_REAL_IN(struct view_scene, anchor_y_m, -1e10, 1e10, "place of the ego in that frame")},
-    {OPTIONAL_LIST(struct view_scene, roadside, &roadside_strip_record, "strips beside the road")},
+    {OPTIONAL_LIST(struct view_scene, ground, &ground_record, "lines and bands on the ground")},
     {FIELD_FLAG_OF(struct view_scene, ended, "does the stream have its last frame?")},
     {0},
 };

@@ -70,7 +70,7 @@ module.exports = ({work, write, view, withPage}) => {
                         : targetPlace(missed.scan, missed.target));
                     Object.assign(camera, at);
                     draw();
-                    const {data} = context.getImageData(canvas.width / 2 - 20, canvas.height / 2 - 20, 40, 40);
+                    const {data} = pen.getImageData(canvas.width / 2 - 20, canvas.height / 2 - 20, 40, 40);
                     return [...data].filter((_, i) => i % 4 === 0 && data[i] > 150 && data[i + 1] < 80).length;
                 });
                 assert.ok(red > 20, String(red));

@@ -285,7 +285,6 @@ module.exports = ({stream, view, withPage, targetOnMap, panelText, clock}) => {
                         await page.evaluate(id => { showPane(id); draw(); }, pane);
                     }
                 });
-                view(frames, '--svg');
             }
         },
     };

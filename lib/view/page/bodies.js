@@ -1,12 +1,19 @@
 // Objects on the map: their outlines, their reflectors, and where late radars measured them.
 
 function traceOutline(box) {
-    context.beginPath();
+    pen.beginPath();
     for (const corner of outlineOf(box)) {
         const at = toScreen(corner);
-        context.lineTo(at.x, at.y);
+        pen.lineTo(at.x, at.y);
     }
-    context.closePath();
+    pen.closePath();
+}
+
+function drawObjects() {
+    const {begin, end} = objectsOf(state.frame);
+    for (let row = begin; row < end; row++) {
+        drawObject(row);
+    }
 }
 
 function drawObject(row) {
@@ -16,41 +23,49 @@ function drawObject(row) {
     if (!isClassShown(row) || !onScreen(toScreen(box), Math.max(box.length, box.width) * camera.scale)) {
         return;
     }
+    pen.beginPart('object', () => objectLabel(row));
     traceOutline(box);
-    context.fillStyle = isEgo ? ink.ego : ink.body;
-    context.fill();
+    pen.fillStyle = isEgo ? ink.ego : ink.body;
+    pen.fill();
     strokeOutline(id, isEgo);
     if (box.length * camera.scale > 14 && box.width > 0.25 * box.length) {
         const colour = isEgo ? ink.paper : ink.edge;
         drawHeading(box, colour);
     }
+    pen.endPart();
 }
 
 function strokeOutline(id, isEgo) {
     const coloured = state.colour === 'object' && !isEgo;
     const chosen = id === state.object;
-    context.lineWidth = (chosen ? 2.2 : 1.2) + (coloured ? 1 : 0);
-    context.strokeStyle = coloured ? objectColour(id) : chosen ? ink.chosen : ink.edge;
-    context.stroke();
+    pen.lineWidth = (chosen ? 2.2 : 1.2) + (coloured ? 1 : 0);
+    pen.strokeStyle = coloured ? objectColour(id) : chosen ? ink.chosen : ink.edge;
+    pen.stroke();
 }
 
 // Draws a chevron at the front of a box.
 function drawHeading(box, colour) {
-    context.strokeStyle = colour;
-    context.lineWidth = 1.2;
-    context.beginPath();
+    pen.strokeStyle = colour;
+    pen.lineWidth = 1.2;
+    pen.beginPath();
     for (const [x, y] of [[0.4, 0.22], [0.46, 0], [0.4, -0.22]]) {
         const at = toScreen(placeIn(box, x, y));
-        context.lineTo(at.x, at.y);
+        pen.lineTo(at.x, at.y);
     }
-    context.stroke();
+    pen.stroke();
 }
 
 // Draws a dot at every reflector of an object that the stream has named anywhere in the scene.
-function drawReflectors(row) {
-    if (!isClassShown(row) || camera.scale < 6) {
-        return;
+function drawReflectors() {
+    const {begin, end} = objectsOf(state.frame);
+    for (let row = begin; row < end && camera.scale >= 6; row++) {
+        if (isClassShown(row)) {
+            drawReflectorsOf(row);
+        }
     }
+}
+
+function drawReflectorsOf(row) {
     const box = boxOf(row);
     for (const spot of spotsOf(column('object_id')[row]).values()) {
         const at = toScreen(spotPlace(box, spot));
@@ -60,8 +75,16 @@ function drawReflectors(row) {
     }
 }
 
-// Draws where a scan measured the bodies that it has targets of, if they have moved since.
-function drawMeasuredBodies(scan) {
+function reflectorMeanings() {
+    return [meaning(dotMark(ink.edge), 'reflection centre')];
+}
+
+// Draws where scans measured the bodies that they have targets of, if these have moved since.
+function drawMeasuredBodies() {
+    eachScan(drawMeasuredIn);
+}
+
+function drawMeasuredIn(scan) {
     const age = column('scan_age_s')[scan];
     const {begin, end} = objectsOf(state.frame);
     if (!(age > 0) || !column('scan_measured')[scan]) {
@@ -73,13 +96,23 @@ function drawMeasuredBodies(scan) {
         if (way * camera.scale >= 3 && id !== head.scenes[state.scene].ego &&
             (id === state.object || targetsFrom(scan, id).length > 0)) {
             traceOutline(measuredBox(scan, row));
-            context.setLineDash([3, 3]);
-            context.lineWidth = 1.2;
-            context.strokeStyle = id === state.object ? ink.chosen : ink.edge;
-            context.stroke();
-            context.setLineDash([]);
+            pen.setLineDash([3, 3]);
+            pen.lineWidth = 1.2;
+            pen.strokeStyle = id === state.object ? ink.chosen : ink.edge;
+            pen.stroke();
+            pen.setLineDash([]);
         }
     }
+}
+
+function measuredMeanings() {
+    const mark = drawing => {
+        drawing.strokeStyle = ink.edge;
+        drawing.lineWidth = 1;
+        drawing.setLineDash([3, 3]);
+        drawing.strokeRect(2, 4, 14, 8);
+    };
+    return extremes('scan_age_s', false).high > 1e-6 ? [meaning(mark, 'where the body was when measured')] : [];
 }
 
 function labelAge() {

@@ -90,9 +90,9 @@ function differenceOf({truth, target}, {name, factor}) {
 // Drawing.
 
 // A missed target is hollow and stands in a diamond, a false one stands in a square.
-function drawAlone(drawing, at, corners, turn) {
+function drawAlone(drawing, at, radius, turn) {
     drawing.beginPath();
-    tracePolygon(drawing, at.x, at.y, 14, corners, 0, turn);
+    tracePolygon(drawing, at.x, at.y, radius, 4, 0, turn);
     drawing.strokeStyle = ink.lost;
     drawing.lineWidth = 1.8;
     drawing.stroke();
@@ -103,15 +103,15 @@ function drawPair(pair) {
     if (truth >= 0) {
         const at = toScreen(truePlace(scan, truth));
         if (target >= 0) {
-            context.strokeStyle = ink.soft;
-            context.lineWidth = 1.5;
+            pen.strokeStyle = ink.soft;
+            pen.lineWidth = 1.5;
             line(at, toScreen(targetPlace(scan, target)));
         } else {
-            drawAlone(context, at, 4, 0);
+            drawAlone(pen, at, 14, 0);
         }
-        drawTargetSymbol(context, sensorStyle(scan), at.x, at.y, 7, ink.ink, 'truth');
+        drawTargetSymbol(pen, sensorStyle(scan), at.x, at.y, 7, ink.ink, 'truth');
     } else {
-        drawAlone(context, toScreen(targetPlace(scan, target)), 4, Math.PI / 4);
+        drawAlone(pen, toScreen(targetPlace(scan, target)), 14, Math.PI / 4);
     }
 }
 
@@ -134,11 +134,11 @@ function trackPlace(i, seconds) {
 function drawMissedObject(i) {
     const row = objectRow(state.frame, column('track_object')[i] - 1);
     const at = toScreen(boxOf(row));
-    context.strokeStyle = ink.lost;
-    context.lineWidth = 2;
-    context.setLineDash([3, 3]);
-    context.strokeRect(at.x - 11, at.y - 11, 22, 22);
-    context.setLineDash([]);
+    pen.strokeStyle = ink.lost;
+    pen.lineWidth = 2;
+    pen.setLineDash([3, 3]);
+    pen.strokeRect(at.x - 11, at.y - 11, 22, 22);
+    pen.setLineDash([]);
 }
 
 function drawTrack(i) {
@@ -149,13 +149,13 @@ function drawTrack(i) {
     }
     const at = toScreen(trackPlace(i, 0));
     const before = nameOrNone('track_before', i);
-    context.strokeStyle = nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
-    context.lineWidth = 2;
+    pen.strokeStyle = nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
+    pen.lineWidth = 2;
     line({x: at.x - 7, y: at.y}, {x: at.x + 7, y: at.y});
     line({x: at.x, y: at.y - 7}, {x: at.x, y: at.y + 7});
-    context.lineWidth = 1.2;
+    pen.lineWidth = 1.2;
     line(at, toScreen(trackPlace(i, 0.5)));
-    putLabel(before ? `${id}, before ${before}` : id, at, context.strokeStyle);
+    putLabel(before ? `${id}, before ${before}` : id, at, pen.strokeStyle);
 }
 
 function drawComparison() {
@@ -173,19 +173,15 @@ function drawComparison() {
     }
 }
 
-function comparisonLines() {
-    const mark = paint => markCanvas(drawing => {
-        drawing.scale(0.55, 0.55);
-        paint(drawing);
-    });
-    const cross = lineMark(2, [[3, 8, 15, 8], [9, 2, 9, 14]]);
+function comparisonMeanings() {
+    const alone = turn => drawing => drawAlone(drawing, {x: 9, y: 8}, 7, turn);
     return [
         ...hasTruth ? [
-            legendLine(symbolCanvas(0, ink.ink, 18, 'truth'), 'true target, tied to its pair'),
-            legendLine(mark(drawing => drawAlone(drawing, {x: 16, y: 14}, 4, 0)), 'missed target'),
-            legendLine(mark(drawing => drawAlone(drawing, {x: 16, y: 14}, 4, Math.PI / 4)), 'false target'),
+            meaning(symbolMark(0, ink.ink, 'truth'), 'true target, tied to its pair'),
+            meaning(alone(0), 'missed target'),
+            meaning(alone(Math.PI / 4), 'false target'),
         ] : [],
-        ...hasTracks ? [legendLine(cross, 'track, with its id')] : [],
+        ...hasTracks ? [meaning(lineMark(2, [[3, 8, 15, 8], [9, 2, 9, 14]]), 'track, with its id')] : [],
     ];
 }
 

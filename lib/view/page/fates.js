@@ -27,7 +27,12 @@ function drawFates() {
             drawContributors(scan, target, false);
         }
     }
-    lostEchoes().forEach(({place}) => drawLostMark(context, toScreen(place), 5));
+    lostEchoes().forEach(({place}) => drawLostMark(pen, toScreen(place), 5));
+}
+
+function lossMeanings() {
+    return column('frame_account').includes(1)
+        ? [meaning(drawing => drawLostMark(drawing, {x: 9, y: 8}, 5), 'echo that is in no target')] : [];
 }
 
 function labelFates() {
@@ -46,13 +51,13 @@ function drawChosenReflector() {
     if (!state.reflector) {
         return;
     }
-    context.strokeStyle = ink.chosen;
-    context.lineWidth = 2.5;
+    pen.strokeStyle = ink.chosen;
+    pen.lineWidth = 2.5;
     for (const place of chosenPlaces()) {
         const at = toScreen(place);
-        context.beginPath();
-        context.arc(at.x, at.y, 8, 0, 2 * Math.PI);
-        context.stroke();
+        pen.beginPath();
+        pen.arc(at.x, at.y, 8, 0, 2 * Math.PI);
+        pen.stroke();
     }
 }
 
@@ -62,7 +67,7 @@ function drawCause() {
         return;
     }
     for (const place of placesOfCause()) {
-        drawLostMark(context, toScreen(place), 4);
+        drawLostMark(pen, toScreen(place), 4);
     }
 }
 

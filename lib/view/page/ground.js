@@ -1,13 +1,39 @@
-// What lies or stands on the ground along the road, as lines and bands.
+// What lies or stands on the ground, as lines and bands: a band is as wide as it is, a line has no width of
+// its own.
 
-// Draws the strips on which rails, poles, kerbs and vegetation stand: bands as wide as they are, or
-// lines, which are dotted for poles.
-function drawRoadside() {
-    for (const strip of head.scenes[state.scene].roadside || []) {
-        context.strokeStyle = strip.width_m > 0 ? ink.grid : ink.edge;
-        context.lineWidth = Math.max(1.5, (strip.width_m || 0) * camera.scale);
-        context.setLineDash(strip.kind === 'poles' ? [2, 6] : []);
-        line(toScreen({x: strip.from_x_m, y: strip.from_y_m}), toScreen({x: strip.to_x_m, y: strip.to_y_m}));
+// The colour, dashes and least width in pixels of a kind, as far as it is no plain grey line.
+const groundStyles = () => ({
+    poles: {dash: [2, 6]},
+});
+
+function groundStyle({kind, width_m: width}) {
+    return {colour: width > 0 ? ink.grid : ink.edge, dash: [], least: 1.5, ...groundStyles()[kind]};
+}
+
+function drawGround() {
+    for (const one of head.scenes[state.scene].ground || []) {
+        const {colour, dash, least} = groundStyle(one);
+        pen.strokeStyle = colour;
+        pen.lineWidth = Math.max(least, (one.width_m || 0) * camera.scale);
+        pen.setLineDash(dash);
+        line(toScreen({x: one.from_x_m, y: one.from_y_m}), toScreen({x: one.to_x_m, y: one.to_y_m}));
     }
-    context.setLineDash([]);
+    pen.setLineDash([]);
+}
+
+// What there is in any scene, each kind once.
+function groundMeanings() {
+    const kinds = new Map(head.scenes.flatMap(scene => scene.ground || []).map(one => [one.kind, one]));
+    return [...kinds.values()].map(one => {
+        const {colour, dash, least} = groundStyle(one);
+        return meaning(drawing => {
+            drawing.strokeStyle = colour;
+            drawing.setLineDash(dash);
+            drawing.lineWidth = one.width_m > 0 ? 9 : least;
+            drawing.beginPath();
+            drawing.moveTo(1, 8);
+            drawing.lineTo(17, 8);
+            drawing.stroke();
+        }, words(one.kind));
+    });
 }

@@ -67,11 +67,11 @@ function hoverOver(hits, at, event) {
 function drawHover() {
     if (state.hover >= 0 && state.hover !== state.target) {
         const at = toScreen(targetPlace(scanOfTarget(state.frame, state.hover), state.hover));
-        context.beginPath();
-        context.arc(at.x, at.y, 13, 0, 2 * Math.PI);
-        context.strokeStyle = ink.soft;
-        context.lineWidth = 2;
-        context.stroke();
+        pen.beginPath();
+        pen.arc(at.x, at.y, 13, 0, 2 * Math.PI);
+        pen.strokeStyle = ink.soft;
+        pen.lineWidth = 2;
+        pen.stroke();
     }
 }
 

@@ -65,16 +65,24 @@ function freeBox(at, width, height) {
     return second;
 }
 
+// Lets little of what is drawn in a box show through the text that comes over it.
+function clearBehind(box) {
+    pen.globalAlpha = 0.9;
+    pen.fillStyle = ink.paper;
+    pen.fillRect(box.x, box.y, box.width, box.height);
+    pen.globalAlpha = 1;
+}
+
 function shorten(text) {
     const room = Math.min(480, 0.6 * canvas.clientWidth);
-    const {width} = context.measureText(text);
+    const {width} = pen.measureText(text);
     return width > room ? text.slice(0, Math.floor(text.length * room / width) - 1) + '…' : text;
 }
 
 function putLabel(text, at, colour, bold) {
-    context.font = (bold ? '700 14px' : '12.5px') + ' system-ui, "DejaVu Sans", sans-serif';
+    pen.font = mapFont(bold ? 14 : 12.5, bold);
     const shown = shorten(text);
-    const box = onScreen(at, 0) ? freeBox(at, context.measureText(shown).width + 8, 18) : null;
+    const box = onScreen(at, 0) ? freeBox(at, pen.measureText(shown).width + 8, 18) : null;
     if (!box) {
         return;
     }
@@ -82,15 +90,14 @@ function putLabel(text, at, colour, bold) {
     const x = Math.max(box.x, Math.min(at.x, box.x + box.width));
     const y = Math.max(box.y, Math.min(at.y, box.y + box.height));
     if (Math.hypot(at.x - x, at.y - y) > 12) {
-        context.strokeStyle = colour;
-        context.lineWidth = 0.8;
+        pen.strokeStyle = colour;
+        pen.lineWidth = 0.8;
         line(at, {x, y});
     }
-    context.fillStyle = ink.halo;
-    context.fillRect(box.x, box.y, box.width, box.height);
-    context.fillStyle = colour;
-    context.textBaseline = 'middle';
-    context.fillText(shown, box.x + 4, box.y + 9.5);
+    clearBehind(box);
+    pen.fillStyle = colour;
+    pen.textBaseline = 'middle';
+    pen.fillText(shown, box.x + 4, box.y + 9.5);
 }
 
 // The object's id, with its class unless the id contains it.
@@ -134,6 +141,16 @@ function hasTarget(id) {
     return false;
 }
 
+function drawLabels() {
+    if (state.target >= 0) {
+        labelContributors(state.target);
+    } else {
+        labelFates();
+        labelAge();
+    }
+    labelObjects();
+}
+
 function labelObjects() {
     const ego = head.scenes[state.scene].ego;
     let room = 24;
@@ -156,14 +173,14 @@ function labelObject(box, text, colour) {
         x: (box.length * cos + box.width * sin) * camera.scale,
         y: (box.length * sin + box.width * cos) * camera.scale,
     };
-    context.font = '12px system-ui, "DejaVu Sans", sans-serif';
-    const width = context.measureText(text).width;
+    pen.font = mapFont(12);
+    const width = pen.measureText(text).width;
     const place = {x: at.x - width / 2, y: at.y - 8, width, height: 16};
     if (width < 0.7 * Math.max(size.x, size.y) && size.y > 22 && width < size.x && isFree(place)) {
         taken.push(place);
-        context.fillStyle = colour;
-        context.textBaseline = 'middle';
-        context.fillText(text, place.x, at.y);
+        pen.fillStyle = colour;
+        pen.textBaseline = 'middle';
+        pen.fillText(text, place.x, at.y);
     } else {
         putLabel(text, at, ink.soft);
     }

@@ -2,7 +2,9 @@
 // it, else the scene's; the camera's x and y are a local place, its scale is pixels per metre.
 
 const canvas = document.getElementById('map');
-const context = canvas.getContext('2d');
+// A canvas has no parts, as the pen of a picture has (svg_pen.js).
+const canvasPen = Object.assign(canvas.getContext('2d'), {beginPart() {}, endPart() {}});
+let pen = canvasPen; // with which the map is drawn
 
 let mapSize = {width: 0, height: 0}; // in CSS pixels, as drawn last; to ask the canvas takes long
 
@@ -60,10 +62,10 @@ function screenAngle(yaw) {
 }
 
 function line(from, to) {
-    context.beginPath();
-    context.moveTo(from.x, from.y);
-    context.lineTo(to.x, to.y);
-    context.stroke();
+    pen.beginPath();
+    pen.moveTo(from.x, from.y);
+    pen.lineTo(to.x, to.y);
+    pen.stroke();
 }
 
 function onScreen(at, margin) {
@@ -72,10 +74,10 @@ function onScreen(at, margin) {
 }
 
 function drawDot(at, radius, colour) {
-    context.beginPath();
-    context.arc(at.x, at.y, radius, 0, 2 * Math.PI);
-    context.fillStyle = colour;
-    context.fill();
+    pen.beginPath();
+    pen.arc(at.x, at.y, radius, 0, 2 * Math.PI);
+    pen.fillStyle = colour;
+    pen.fill();
 }
 
 function reserveRoom() {
@@ -87,61 +89,39 @@ function reserveRoom() {
     eachTarget(state.frame, (scan, target) => takeAround(toScreen(targetPlace(scan, target)), 7));
 }
 
-function drawMap() {
-    mapSize = fitCanvas(canvas, context);
-    if (state.frame < 0) {
-        return;
-    }
+// What the map shows, from the ground up: each layer draws, and may tell the legend what its marks mean.
+const layers = [
+    {draw: drawGround, legend: groundMeanings},
+    {draw: drawGrid},
+    {draw: drawRings},
+    {draw: drawBeams, legend: beamMeanings},
+    {draw: drawObjects},
+    {draw: drawReflectors, legend: reflectorMeanings},
+    {draw: drawRingNumbers},
+    {draw: drawGridNumbers},
+    {draw: drawMeasuredBodies, legend: measuredMeanings},
+    {draw: drawEchoes, legend: echoMeanings},
+    {draw: drawTrail, legend: trailMeanings},
+    {draw: drawFates, legend: lossMeanings},
+    {draw: drawCause},
+    {draw: drawChosenReflector},
+    {draw: drawChosenEchoes},
+    {draw: drawTargets, legend: targetMeanings},
+    {draw: drawLabels},
+    {draw: drawComparison, legend: comparisonMeanings},
+];
+
+function drawLayers() {
     reserveRoom();
-    drawRoadside();
-    drawGrid();
-    drawRings();
-    const objects = objectsOf(state.frame);
-    const scans = scansOf(state.frame);
-    for (let scan = scans.begin; scan < scans.end; scan++) {
-        if (isSensorShown(scan)) {
-            drawBeam(scan);
-        }
-    }
-    for (let row = objects.begin; row < objects.end; row++) {
-        drawObject(row);
-    }
-    for (let row = objects.begin; row < objects.end; row++) {
-        drawReflectors(row);
-    }
-    drawRingNumbers();
-    drawGridNumbers();
-    eachScan(drawMeasuredBodies);
-    eachTarget(state.frame, drawEchoes);
-    if (state.trail) {
-        drawTrail();
-    }
-    drawTargets();
+    layers.forEach(layer => layer.draw());
 }
 
-function drawTargets() {
-    drawFates();
-    drawCause();
-    drawChosenReflector();
-    if (state.target >= 0) {
-        const scan = scanOfTarget(state.frame, state.target);
-        drawCellRing(scan, state.target);
-        drawContributors(scan, state.target, true);
+function drawMap() {
+    mapSize = fitCanvas(canvas, canvasPen);
+    if (state.frame >= 0) {
+        drawLayers();
+        tellOutside();
     }
-    eachTarget(state.frame, (scan, target) => {
-        if (target !== state.target) {
-            drawTarget(scan, target);
-        }
-    });
-    if (state.target >= 0) {
-        drawTarget(scanOfTarget(state.frame, state.target), state.target); // over all others
-        labelContributors(state.target);
-    } else {
-        labelFates();
-        labelAge();
-    }
-    labelObjects();
-    tellOutside();
 }
 
 // Says how many targets lie beyond the edges of the map; a click brings them into view.

@@ -208,7 +208,7 @@ function drawGap(drawing, size, gap) {
     drawing.fillStyle = ink.grid;
     drawing.fillRect(from, panelOf.top, Math.max(1, to - from - 1), size.height - overTimeMargin.bottom - panelOf.top);
     drawing.fillStyle = ink.soft;
-    drawing.font = '11px system-ui, "DejaVu Sans", sans-serif';
+    drawing.font = mapFont(11);
     const width = drawing.measureText(gap.reason).width;
     drawing.textAlign = 'center';
     drawing.textBaseline = 'middle';

@@ -45,7 +45,6 @@ function redraw() {
 function draw() {
     drawn = true;
     drawMap();
-    drawComparison();
     drawHover();
     if (state.frame >= 0) {
         rememberPlace();
@@ -307,6 +306,7 @@ function connectChoices() {
     control('follow').addEventListener('change', () => setFollow(control('follow').checked));
     control('trail').addEventListener('change', () => {
         state.trail = control('trail').checked;
+        showLegend();
         redraw();
     });
     control('pace').addEventListener('change', () => {
@@ -333,6 +333,7 @@ function connectButtons() {
     click('farther', () => zoomMiddle(1 / 1.4));
     click('fit', fitView);
     click('outside', fitTargets);
+    click('save', savePicture);
     click('theme', () => setTheme(!isDark()));
 }
 
@@ -357,6 +358,7 @@ const keyActions = {
     '-': () => zoomMiddle(0.8),
     '0': fitView,
     'a': fitTargets,
+    's': savePicture,
     'n': () => chooseNext(1),
     'b': () => chooseNext(-1),
     'c': () => cycle('colour'),

@@ -124,7 +124,7 @@ function plotPlace(size, axes, x, range) {
 
 function plotText(drawing, text, x, y, align) {
     drawing.fillStyle = ink.soft;
-    drawing.font = '11px system-ui, "DejaVu Sans", sans-serif';
+    drawing.font = mapFont(11);
     drawing.textAlign = align;
     drawing.textBaseline = 'middle';
     drawing.fillText(text, x, y);

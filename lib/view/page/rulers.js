@@ -1,7 +1,5 @@
 // The map's rulers: a grid with numbers in metres, and rings of equal range.
 
-const rulerFont = '11px system-ui, "DejaVu Sans", sans-serif';
-
 // The distance of grid lines that are at least some pixels apart: a round number of metres.
 function gridStep(pixels) {
     const wanted = pixels / camera.scale;
@@ -25,26 +23,25 @@ function metres(value) {
 
 // Writes a number on the map where it is whole and over no other one, and keeps labels away from it.
 function rulerText(text, x, y) {
-    context.font = rulerFont;
-    const width = context.measureText(text).width;
+    pen.font = mapFont(11);
+    const width = pen.measureText(text).width;
     const box = {x: x - width / 2 - 3, y: y - 7, width: width + 6, height: 14};
     if (!isFree(box) || box.x < 0 || box.y < 0 || box.x + box.width > mapSize.width ||
         box.y + box.height > mapSize.height) {
         return;
     }
     taken.push(box);
-    context.fillStyle = ink.halo;
-    context.fillRect(box.x, box.y, box.width, box.height);
-    context.fillStyle = ink.soft;
-    context.textBaseline = 'middle';
-    context.fillText(text, box.x + 3, y + 0.5);
+    clearBehind(box);
+    pen.fillStyle = ink.soft;
+    pen.textBaseline = 'middle';
+    pen.fillText(text, box.x + 3, y + 0.5);
 }
 
 function drawGrid() {
     const step = gridStep(70);
     const {low, high} = viewedArea();
-    context.strokeStyle = ink.grid;
-    context.lineWidth = 1;
+    pen.strokeStyle = ink.grid;
+    pen.lineWidth = 1;
     for (let x = Math.ceil(low.x / step) * step; x <= high.x; x += step) {
         line(localToScreen({x, y: low.y}), localToScreen({x, y: high.y}));
     }
@@ -98,12 +95,12 @@ function ringsInView() {
 
 function drawRings() {
     const {at, ranges} = ringsInView();
-    context.strokeStyle = ink.faint;
-    context.lineWidth = 1;
+    pen.strokeStyle = ink.faint;
+    pen.lineWidth = 1;
     for (const range of ranges) {
-        context.beginPath();
-        context.arc(at.x, at.y, range * camera.scale, 0, 2 * Math.PI);
-        context.stroke();
+        pen.beginPath();
+        pen.arc(at.x, at.y, range * camera.scale, 0, 2 * Math.PI);
+        pen.stroke();
     }
 }
 

@@ -10,10 +10,15 @@ function isDark() {
 function readInk() {
     const style = getComputedStyle(document.documentElement);
     ink = {palette: isDark() ? head.dark : head.light};
-    for (const name of ['paper', 'ink', 'soft', 'faint', 'grid', 'body', 'edge', 'ego', 'chosen',
-        'halo', 'lost']) {
+    for (const name of ['paper', 'ink', 'soft', 'faint', 'grid', 'body', 'edge', 'ego', 'chosen', 'lost']) {
         ink[name] = style.getPropertyValue('--' + name).trim();
     }
+}
+
+const fontFamily = 'system-ui, "DejaVu Sans", sans-serif';
+
+function mapFont(size, bold) {
+    return `${bold ? '700 ' : ''}${size}px ${fontFamily}`;
 }
 
 // Gives a canvas the pixels of its place on the screen; returns its size in CSS pixels.
