@@ -43,9 +43,10 @@ class Drawing:
         barbs = [f"{x2 + 10 * math.cos(turn + side):.1f} {y2 + 10 * math.sin(turn + side):.1f}" for side in (-0.4, 0.4)]
         self.add(f'<path class="arrow" fill="none" d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}L{barbs[0]}M{x2:.1f} {y2:.1f}L{barbs[1]}"/>')
 
-    def star(self, x, y, kind, size=10):
-        tips = [(size if tip % 2 == 0 else 0.42 * size, math.radians(36 * tip - 90)) for tip in range(10)]
-        points = " ".join(f"{x + r * math.cos(a):.1f},{y + r * math.sin(a):.1f}" for r, a in tips)
+    def star(self, x, y, kind, size=10, tips=5, inner=0.42):
+        """A star whose inner corners are so far out, as a share of its tips."""
+        corners = [(size if corner % 2 == 0 else inner * size, math.pi * corner / tips - math.pi / 2) for corner in range(2 * tips)]
+        points = " ".join(f"{x + r * math.cos(a):.1f},{y + r * math.sin(a):.1f}" for r, a in corners)
         self.add(f'<polygon class="{kind}" points="{points}"/>')
 
     def circle(self, x, y, kind, size):

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 
+import glint
 from glint.places import DATA, GLINT
 
 
@@ -77,8 +78,16 @@ def at_point(number, kind, range_m, azimuth_rad):
                                      range_m * math.sin(azimuth_rad))])
 
 
+def as_measured(frame):
+    """The frame at the instant at which its one sensor measured."""
+    sensor, = frame["sensors"]["list"]
+    objects = [glint.earlier(one, sensor.get("age_s", 0)) for one in frame["objects"]]
+    return frame | {"objects": objects, "sensors": {"list": [sensor | {"age_s": 0}]}}
+
+
 class View:
-    """Places as the observer sees them: metres ahead of its front bumper, and to its left."""
+    """Places as the observer sees them: metres ahead of its front bumper, and to its left. Sensors are where they
+    measured."""
 
     def __init__(self, frame):
         self.ego = next(o for o in frame["objects"] if o["id"] == frame["ego"])
@@ -90,13 +99,19 @@ class View:
         cosine, sine = math.cos(self.ego["yaw_rad"]), math.sin(self.ego["yaw_rad"])
         return (east * cosine + north * sine - self.bumper_m, north * cosine - east * sine)
 
+    def carrier(self, name):
+        """The ego when the sensor measured."""
+        return glint.earlier(self.ego, self.sensors[name].get("age_s", 0))
+
     def mount(self, name):
-        sensor = self.sensors[name]
-        return sensor["mount_x_m"] - self.bumper_m, sensor["mount_y_m"]
+        sensor, carrier = self.sensors[name], self.carrier(name)
+        x_m, y_m = glint.turned(sensor["mount_x_m"], sensor["mount_y_m"], carrier["yaw_rad"])
+        return self.world(carrier["x_m"] + x_m, carrier["y_m"] + y_m)
 
     def polar(self, name, range_m, azimuth_rad):
         x_m, y_m = self.mount(name)
-        bearing = azimuth_rad + self.sensors[name]["mount_yaw_rad"]
+        turned = self.carrier(name)["yaw_rad"] - self.ego["yaw_rad"]
+        bearing = azimuth_rad + self.sensors[name]["mount_yaw_rad"] + turned
         return x_m + range_m * math.cos(bearing), y_m + range_m * math.sin(bearing)
 
     def reading(self, target):

@@ -2,7 +2,7 @@
 import math
 
 from glint.drawings.drawing import Drawing, draw_metres
-from glint.drawings.played import View
+from glint.drawings.played import View, as_measured
 
 WIDTH, HEAD = 480, 58  # pixels of a figure, and of the title and the key at its top
 BEAM_RAD = math.radians(35)
@@ -20,7 +20,7 @@ def draw_bodies(drawing, frame, view, names):
             name = names[item["id"]]
             x, y = drawing.at(view.world(item["x_m"], item["y_m"]))
             beside = drawing.scale * item["width_m"] / 2 + 18
-            y += {"^": -beside, "_": beside}.get(name[0], 0)
+            y += {"^": -beside, "_": beside}.get(name[:1], 0)
             drawing.word(name.strip("^_"), x, y + 5, "white" if item["id"] == frame["ego"] else "quiet", "middle")
 
 
@@ -41,15 +41,30 @@ def draw_labels(drawing, frame, view):
             drawing.circle(*drawing.at(place), "centre", 3)
 
 
+def draw_mark(drawing, x, y, sensor, path, size=10):
+    """A target of the sensor with this number: stars of the first, circles of the second, squares and triangles of the
+    next, in two colours. Ghosts are hollow, clutter is three dots, a false alarm a cross of thin beams."""
+    side = ("left", "right")[sensor % 2]
+    kind = "ghost" if "wall" in path else side
+    if path == "clutter":
+        for dx, dy in ((0, -0.4), (-0.45, 0.35), (0.45, 0.35)):
+            drawing.circle(x + dx * size, y + dy * size, {"left": "blue", "right": "orange"}[side], 0.3 * size)
+    elif path == "false_alarm":
+        drawing.star(x, y, side, size, 6, 0.2)
+    elif sensor % 4 == 1:
+        drawing.circle(x, y, kind, 0.7 * size)
+    else:
+        tips, inner = {0: (5, 0.42), 2: (4, 0.71), 3: (3, 0.5)}[sensor % 4]
+        drawing.star(x, y, kind, size, tips, inner)
+
+
 def draw_list(drawing, frame, view, way_s=0.5, size=10):
-    """Circles of the right sensor, stars of any other, ghosts hollow, each with its radial speed."""
+    """The targets, each with its radial speed."""
+    numbers = {name: number for number, name in enumerate(view.sensors)}
     for target in frame["targets"]:
-        right, ghost = target["sensor"] == "right", "wall" in target["contributors"][0]["path"]
-        drawing.line(*view.speed_line(target, way_s), "rate-right" if right else "rate-left")
-        if right:
-            drawing.circle(*drawing.at(view.reading(target)), "right", 0.7 * size)
-        else:
-            drawing.star(*drawing.at(view.reading(target)), "ghost" if ghost else "left", size)
+        number = numbers[target["sensor"]]
+        drawing.line(*view.speed_line(target, way_s), ("rate-left", "rate-right")[number % 2])
+        draw_mark(drawing, *drawing.at(view.reading(target)), number, target["contributors"][0]["path"], size)
 
 
 def lost_of(frame, *reasons):
@@ -131,8 +146,8 @@ WALLED = {"ego": "ego", "van": "van"}
 
 def picture_ghosts(bench, path):
     """Mirror ghosts of an oncoming car, and the way that the waves of the farthest one took."""
-    frame = bench.run("glint-traffic walled-road | glint-extract | glint-ideal --sensors lrr77-full"
-                      " | glint-sensor | glint-noise")[60]
+    frame = as_measured(bench.run("glint-traffic walled-road | glint-extract | glint-ideal --sensors lrr77-full"
+                                  " | glint-sensor | glint-noise")[60])
     view = View(frame)
     drawing = Drawing((960, 488), 9.9, -7, 21)
     draw_field_of_view(drawing, view, "front")
