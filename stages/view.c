@@ -1,49 +1,42 @@
-/* An HTML page that plays the stream and shows which echoes made each target, or one frame as an
- * SVG still. */
+/* An HTML page that plays the stream and shows which echoes made each target. */
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "text/document.h"
 #include "view/view_page.h"
-#include "view/view_svg.h"
 
 struct view {
-    bool svg;
     int64_t frame;
     const char *only, *truth, *tracks;
     const char *vehicles; /* as in extraction.h */
     bool found;           /* a frame that was asked for */
     struct view_data data;
     struct frame_sequence sequence;
-    const char *still; /* of the frame with most targets so far; NULL: none yet */
-    size_t targets;    /* how many that frame has */
 };
 
 static int open_beside(const char *path, const struct record *record,
                        struct reference_stream **stream, struct runner *runner)
 {
-    if (path != NULL)
-        *stream = runner_reference_stream(runner, path, record, true);
-    return path == NULL || *stream != NULL ? 0 : -1;
+    if (path == NULL)
+        return 0;
+    *stream = runner_reference_stream(runner, path, record, true);
+    return *stream != NULL ? 0 : -1;
 }
 
-/* Decides by --svg and the name of the output whether it is a page or a still. */
-static int choose_form(struct view *view, struct runner *runner)
+#define PICTURES                                                                                   \
+    "the button \"Save map as SVG\" of the page saves a frame as it is shown, and "                \
+    "scripts/figures --frame N draws frame N of a stream"
+
+/* Refuses an output that shows no page. */
+static int check_output(struct runner *runner)
 {
     if (runner_output_is_terminal(runner))
-        return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "standard output is a terminal, which shows no page and no still; write "
-                         "it to a file: -o FILE");
-    if (runner_require_ending(runner, (const char *const[]){".html", ".svg", NULL}) != 0)
-        return -1;
-    if (view->svg && runner_output_ends(runner, ".html"))
-        return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--svg: a still is no page, but --output ends in .html; expected .svg");
-    view->svg = view->svg || runner_output_ends(runner, ".svg");
-    if (view->svg && (view->truth != NULL || view->tracks != NULL))
         return diag_fail(
             runner_diag(runner), DIAG_USAGE,
-            "--svg or an --output of .svg: the still shows neither --truth nor --tracks");
-    return 0;
+            "standard output is a terminal, which shows no page; write it to a file: -o FILE");
+    if (runner_output_ends(runner, ".svg"))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--output: a page is HTML, expected .html; " PICTURES);
+    return runner_require_ending(runner, (const char *const[]){".html", NULL});
 }
 
 static int view_start(void *state, struct runner *runner)
@@ -57,33 +50,23 @@ static int view_start(void *state, struct runner *runner)
     struct document_names known = {0}; /* refuses a GLINT_DATA where no class could be found */
     if (document_list("vehicles", ".json", &known, runner_arena(runner), runner_diag(runner)) != 0)
         return -1;
-    if (choose_form(view, runner) != 0)
+    if (check_output(runner) != 0)
         return -1;
-    return open_beside(view->truth, &frame_record, &view->data.truth, runner) != 0
-               ? -1
-               : open_beside(view->tracks, &track_list_record, &view->data.tracks, runner);
-}
-
-static void take_still(struct view *view, const struct frame *frame, struct arena *arena)
-{
-    if (view->still != NULL && frame->targets.count <= view->targets)
-        return;
-    struct text text = {0};
-    view_svg_write(frame, &view->data.models, &text);
-    view->still = arena_text(arena, text.bytes, text.length);
-    view->targets = frame->targets.count;
-    text_free(&text);
+    if (open_beside(view->truth, &frame_record, &view->data.truth, runner) != 0)
+        return -1;
+    return open_beside(view->tracks, &track_list_record, &view->data.tracks, runner);
 }
 
 /* Frames of --truth and --tracks are matched by scene and number, so they must ascend. */
 static int check_order(struct view *view, const struct frame *frame, struct runner *runner)
 {
-    bool beside = view->truth != NULL || view->tracks != NULL;
-    if ((beside ? frame_sequence_ascend
-                : frame_sequence_once)(&view->sequence, frame, runner_place(runner),
-                                       runner_arena(runner), runner_diag(runner)) != 0)
+    struct arena *arena = runner_arena(runner);
+    struct diag *diag = runner_diag(runner);
+    if (view->truth == NULL && view->tracks == NULL)
+        return frame_sequence_once(&view->sequence, frame, runner_place(runner), arena, diag);
+    if (frame_sequence_ascend(&view->sequence, frame, runner_place(runner), arena, diag) != 0)
         return -1;
-    return beside ? frame_sequence_one_seed(&view->sequence, runner_diag(runner)) : 0;
+    return frame_sequence_one_seed(&view->sequence, diag);
 }
 
 static int view_step(void *state, struct frame *frame, struct runner *runner)
@@ -95,11 +78,7 @@ static int view_step(void *state, struct frame *frame, struct runner *runner)
         view_frame_check_vehicles(&view->data.models, frame, runner_diag(runner)) != 0)
         return -1;
     view->found = view->found || view->frame < 0 || view->frame == frame->frame;
-    if (!view->svg)
-        return view_data_add(&view->data, frame, runner_diag(runner));
-    if (view->frame < 0 || view->frame == frame->frame)
-        take_still(view, frame, runner_arena(runner));
-    return 0;
+    return view_data_add(&view->data, frame, runner_diag(runner));
 }
 
 /* Refuses a stream without the scene or frame that was asked for. A stream without any frame has a
@@ -111,9 +90,11 @@ static int check_found(const struct view *view, struct runner *runner)
     if (view->frame < 0)
         return diag_fail(runner_diag(runner), DIAG_DATA, "no scene \"%s\" in the stream",
                          view->only);
-    return diag_fail(runner_diag(runner), DIAG_DATA, "no frame %lld in the stream%s%s",
-                     (long long)view->frame, view->only != NULL ? " of scene " : "",
-                     view->only != NULL ? view->only : "");
+    if (view->only == NULL)
+        return diag_fail(runner_diag(runner), DIAG_DATA, "no frame %lld in the stream",
+                         (long long)view->frame);
+    return diag_fail(runner_diag(runner), DIAG_DATA, "no frame %lld in the stream of scene %s",
+                     (long long)view->frame, view->only);
 }
 
 static int view_stop(void *state, struct runner *runner)
@@ -122,20 +103,12 @@ static int view_stop(void *state, struct runner *runner)
     struct text text = {0};
     if (check_found(view, runner) != 0 || view_data_finish(&view->data, runner_diag(runner)) != 0)
         return -1;
-    if (!view->svg)
-        view_page_write(&view->data, view->frame, &text);
-    else if (view->still != NULL)
-        text_add_word(&text, view->still);
-    else
-        view_svg_write_empty(&text);
+    view_page_write(&view->data, view->frame, &text);
     return runner_write_text(runner, &text);
 }
 
 static const struct field view_fields[] = {
-    {OPTIONAL_FLAG(struct view, svg,
-                   "write one frame as an SVG still; an --output that ends in .svg does the same")},
-    {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53,
-                      "number of the frame at which the page opens, or which the still shows"),
+    {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53, "number of the frame at which the page opens"),
      .absent = -1},
     {OPTIONAL_NAME(struct view, only, "show only this scene"), .word = "SCENE"},
     {OPTIONAL_NAME(struct view, vehicles, "the folder that was given to glint-extract, if any"),
@@ -150,19 +123,17 @@ static const struct field view_fields[] = {
 
 const struct stage stage_view = {
     .name = "view",
-    .summary = "Write an HTML page that plays the stream, or one frame as an SVG still.",
+    .summary = "Write an HTML page that plays the stream.",
     .details =
-        "The page is one file that needs no network: open it in a browser. An --output that ends "
-        "in "
-        ".html is a page, one that ends in .svg a still; .gz behind either compresses it. Without "
-        "--frame the "
-        "page opens at the frame with most to see, and the still shows the frame with the most "
-        "targets. If glint-ideal was given --sections account, the page also shows why a reflector "
-        "is in no target. With --truth the page also shows the targets of another stream of the "
-        "same scenes, paired with those of this one as glint-score pairs them. With --tracks it "
-        "shows a tracker's tracks, paired with the objects in view. The output is written at the "
-        "end of the stream.",
+        "The page is one file that needs no network: open it in a browser. Its map can be saved "
+        "as a picture, SVG. An --output that ends in .html.gz is compressed. Without --frame the "
+        "page opens at the frame with most to see. If glint-ideal was given --sections account, "
+        "the page also shows why a reflector is in no target. With --truth the page also shows "
+        "the targets of another stream of the same scenes, paired with those of this one as "
+        "glint-score pairs them. With --tracks it shows a tracker's tracks, paired with the "
+        "objects in view. The output is written at the end of the stream.",
     .options = STAGE_OPTIONS(struct view, view_fields),
+    .former_options = (const char *const[]){"svg", PICTURES, NULL},
     .sink = true,
     .start = view_start,
     .step = view_step,

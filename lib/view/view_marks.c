@@ -16,8 +16,9 @@ const char *const view_marks_dark[VIEW_COLOURS] = {"#56b4e9", "#f0a030", "#2c9b9
 
 const char *view_marks_kind(enum path path)
 {
-    return path == PATH_CLUTTER       ? "clutter"
-           : path == PATH_FALSE_ALARM ? "false_alarm"
-           : frame_shows_object(path) ? "body"
-                                      : "ghost";
+    if (path == PATH_CLUTTER)
+        return "clutter";
+    if (path == PATH_FALSE_ALARM)
+        return "false_alarm";
+    return frame_shows_object(path) ? "body" : "ghost";
 }

@@ -1,4 +1,4 @@
-/* Marks of targets, in the page and in stills.
+/* Marks of targets: shapes, colours and kinds.
  *
  * A target has the shape and colour of its sensor, by number; both begin again after the last. Its
  * kind is that of its first echo: "body", "ghost", "clutter" or "false_alarm". Shapes of bodies are

@@ -160,15 +160,15 @@ def frames_on_a_terminal_stay_whole(folder):
 
 def a_page_is_not_written_to_a_terminal(folder):
     frames = f"{folder}/lists.jsonl"
-    for command in (f"glint-view {frames}", f"glint-view --svg {frames}", f"glint -c 'glint-view {frames}'"):
+    for command in (f"glint-view {frames}", f"glint -c 'glint-view {frames}'"):
         terminal = Terminal()
         process = terminal.start(f"{command} >&2", stdin=subprocess.DEVNULL)
         code, text = process.wait(PATIENCE_S), terminal.all()
         if code != 64 or b"-o FILE" not in text or text.count(b"\n") != 1:
             return f"exit code {code} and {text[:100]} from: {command}"
-    for output, begin in ((f"{folder}/still.svg", b""), ("-", b"<svg")):
+    for output, begin in ((f"{folder}/page.html", b""), ("-", b"<!DO")):
         terminal = Terminal()
-        process = terminal.start(f"glint-view --svg -o {output} {frames} >&2", stdin=subprocess.DEVNULL)
+        process = terminal.start(f"glint-view -o {output} {frames} >&2", stdin=subprocess.DEVNULL)
         code, text = process.wait(PATIENCE_S), terminal.all()
         if code != 0 or text[:4] != begin:
             return f"exit code {code} and {text[:100]} with -o {output}"

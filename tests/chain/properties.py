@@ -500,7 +500,7 @@ def object_order(folder):
 
 READERS = {"tables": "glint-tables --plain {0}", "summary": "glint-summary", "osi": "glint-osi --shift-s 1",
            "mcap": """glint-mcap --shift-s 1 | grep -ao '"data": *"[^"]*"'""",  # points, without sums of the bytes of the file
-           "page": "glint-view", "still": "glint-view --svg", "check": "glint-check",
+           "page": "glint-view", "check": "glint-check",
            "detected": "glint-score-tracks --objects detected --tracks <(python3 {root}/scripts/tracker {list}) {list}",
            "tracks": "python3 {root}/scripts/tracker {list}",
            "export": "python3 {root}/scripts/export nuscenes --out {0} {list} && rm {0}/glint-boxes.csv",  # boxes have hashes of ids
