@@ -1,15 +1,20 @@
 """Pictures of the pages: all drawn by scripts/figures, readable without colours, no text over another, no target
-outside the fields of view.
+outside the fields of view; and a frame that scripts/figures draws has its targets where they are.
 
 Usage: python3 tests/chain/pictures.py [PICTURE.svg ...]        exit status 1 if any check fails
 
 The texts of an SVG are boxes here, as wide as DejaVu Sans makes them. At the width that a page gives a picture,
 letters must have 11 pixels. A picture brings its own ground, as pages may be dark.
 """
+import cmath
+import itertools
+import json
+import math
 import os
 import re
 import subprocess
 import sys
+import tempfile
 import xml.etree.ElementTree as xml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -140,6 +145,29 @@ def check_picture(path, shown):
             check(not box.meets(its), f'{name}: "{text}" lies over "{other}"')
 
 
+def check_frame(pipeline, number):
+    """scripts/figures --frame: the marks of each sensor, stars and circles, are as far apart as its targets are."""
+    glint = os.path.join(ROOT, "build", "bin", "glint")
+    lines = subprocess.run([glint, os.path.join(ROOT, "pipelines", pipeline + ".sh")], stdout=subprocess.PIPE, check=True).stdout
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "frame.svg")
+        subprocess.run([os.path.join(ROOT, "scripts", "figures"), "--frame", str(number), "-o", path], input=lines, check=True)
+        root = xml.parse(path).getroot()
+    frame = next(one for one in map(json.loads, lines.splitlines()) if one["frame"] == number)
+    title = root.find("{http://www.w3.org/2000/svg}title").text
+    check(f'{frame["scene"]}, frame {number} at {frame["time_s"]:g} s' in title, f"{pipeline}: the title {title!r} names another frame")
+    marks = {"left": [tuple(sum(axis) / 10 for axis in zip(*corners(node))) for node in root.iter() if node.get("class") == "left"],
+             "right": [(float(node.get("cx")), float(node.get("cy"))) for node in root.iter() if node.get("class") == "right"]}
+    metres = next(float(re.search(r"v6h([\d.]+)v-6", node.get("d"))[1]) for node in root.iter() if "v6h" in node.get("d", ""))
+    scale = metres / next(int(node.text.split()[0]) for node in root.iter() if re.fullmatch(r"\d+ m", node.text or ""))
+    for sensor, places in marks.items():
+        targets = [one for one in frame["targets"] if one["sensor"] == sensor]
+        check(len(places) == len(targets) + 1, f"{pipeline}: {len(places)} marks of {sensor}, one of them in the key, for {len(targets)} targets")
+        for (place, one), (other, two) in itertools.combinations(zip(places, targets), 2):
+            expected = abs(cmath.rect(one["range_m"], one["azimuth_rad"]) - cmath.rect(two["range_m"], two["azimuth_rad"]))
+            check(abs(math.dist(place, other) - scale * expected) < 0.3, f"{pipeline}: two targets of {sensor} are {expected:.2f} m apart")
+
+
 def main(paths):
     for path in paths:
         check_picture(path, PAGE)
@@ -151,6 +179,10 @@ def main(paths):
             check(False, f"{shown[path]} shows {path}, which scripts/figures does not draw")
         for path in sorted(set(drawn) - shown.keys()):
             check(False, f"no page shows {path}")
+        for path in sorted(set(tree.files("*.svg")) - set(drawn)):
+            check(False, f"{path} is a picture that scripts/figures does not draw")
+        check_frame("two-vehicles", 1)
+        check_frame("intersection", 40)
         for path in drawn:
             in_table = path.startswith("data/figures/fig") and "fig14" not in path
             check_picture(os.path.join(ROOT, path), HALF if in_table else PAGE)
