@@ -20,7 +20,8 @@ static double taylor_coefficient(int order)
     double over = 1, under = 2;
     for (int i = 1; i < nbar; i++) {
         over *= 1 - square / dilation / (a * a + (i - 0.5) * (i - 0.5));
-        under *= i == order ? 1 : 1 - square / (i * i);
+        if (i != order)
+            under *= 1 - square / (i * i);
     }
     return (order % 2 == 1 ? 1 : -1) * over / under;
 }
@@ -131,8 +132,10 @@ static void set_envelope(struct array *array)
 static void set_weights(struct array *array, enum array_taper taper)
 {
     double sum = 0, squares = 0;
-    for (size_t n = 0; n < array->count; n++)
-        sum += array->weight[n] = taper_weight(taper, array->count, middle_of(array, n));
+    for (size_t n = 0; n < array->count; n++) {
+        array->weight[n] = taper_weight(taper, array->count, middle_of(array, n));
+        sum += array->weight[n];
+    }
     for (size_t n = 0; n < array->count; n++) {
         double phase = 2 * PI * middle_of(array, n), weight = array->weight[n] / sum;
         array->weight[n] = weight;
@@ -152,9 +155,10 @@ static void set_places(struct array *array, const struct array_layout *layout)
         for (size_t r = 0; r < layout->receive.count; r++) {
             double place = layout->transmit.items[t].place + layout->receive.items[r].place;
             size_t n = array->count++;
-            for (; n > 0 && places[n - 1] > place; n--) {
+            while (n > 0 && places[n - 1] > place) {
                 places[n] = places[n - 1];
                 array->turn[n] = array->turn[n - 1];
+                n--;
             }
             places[n] = place;
             array->turn[n] = t;
@@ -205,10 +209,13 @@ static double power_at(const struct array *array, const struct phasor *samples, 
 {
     size_t length = ARRAY_PADDING * array->count, at = 0;
     struct phasor sum = {0, 0};
-    for (size_t n = 0; n < array->count; n++, at = at + k < length ? at + k : at + k - length) {
+    for (size_t n = 0; n < array->count; n++) {
         struct phasor root = array->root[at];
         sum.re += array->weight[n] * (samples[n].re * root.re - samples[n].im * root.im);
         sum.im += array->weight[n] * (samples[n].re * root.im + samples[n].im * root.re);
+        at += k;
+        if (at >= length)
+            at -= length;
     }
     return product(sum, sum);
 }
@@ -238,6 +245,17 @@ static struct array_maximum refined(const struct array *array, const struct phas
                                   sqrt(2 * noise) / (fabs(bend_of(&beam)) * array->spacing)};
 }
 
+/* Puts a maximum in its place among the count stronger and weaker ones. */
+static void insert(struct array_maximum *maxima, size_t count, const struct array_maximum *found)
+{
+    size_t place = count;
+    while (place > 0 && maxima[place - 1].amplitude < found->amplitude) {
+        maxima[place] = maxima[place - 1];
+        place--;
+    }
+    maxima[place] = *found;
+}
+
 size_t array_maxima(const struct array *array, const struct phasor *samples,
                     struct array_maximum *maxima)
 {
@@ -248,17 +266,13 @@ size_t array_maxima(const struct array *array, const struct phasor *samples,
         power[k] = power_at(array, samples, k);
     for (size_t k = 0; k < length; k++) {
         double before = power[(k + length - 1) % length], after = power[(k + 1) % length];
-        double turns = ((double)k - (k > length / 2 ? (double)length : 0)) * step;
         if (!(power[k] > before && power[k] >= after))
             continue;
+        double turn = k > length / 2 ? (double)k - (double)length : (double)k;
         double vertex = point_response_vertex(before, power[k], after) * step;
-        struct array_maximum found = refined(array, samples, turns + vertex);
-        size_t place = count;
-        if (fabs(found.sine) > 1 || count == array->count)
-            continue;
-        for (count++; place > 0 && maxima[place - 1].amplitude < found.amplitude; place--)
-            maxima[place] = maxima[place - 1];
-        maxima[place] = found;
+        struct array_maximum found = refined(array, samples, turn * step + vertex);
+        if (fabs(found.sine) <= 1 && count < array->count)
+            insert(maxima, count++, &found);
     }
     return count;
 }

@@ -171,12 +171,11 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
     cell->range_rate_mps = resolution_mean(rate, weight, count);
     struct received_echo merged =
         superpose || count == 1 ? echoes[0] : merge(echoes, count, weight, azimuth);
+    const struct received_echo *added = superpose ? echoes : &merged;
+    size_t added_count = superpose ? count : 1;
     if (sensor->beams.count > 0)
-        return resolution_cell_see(sensor, superpose ? echoes : &merged, superpose ? count : 1,
-                                   arena, cell);
-    struct antenna_pointers pointers =
-        superpose ? add_pointers(sensor, echoes, count) : add_pointers(sensor, &merged, 1);
-    return resolution_cell_measure(sensor, pointers, cell);
+        return resolution_cell_see(sensor, added, added_count, arena, cell);
+    return resolution_cell_measure(sensor, add_pointers(sensor, added, added_count), cell);
 }
 
 void resolution_cell_list(struct frame *frame, const char *stage, const struct effect_scan *scan,
