@@ -1,5 +1,7 @@
 #include "effects/effect.h"
 
+#include <assert.h>
+
 #include "base/elementary.h"
 #include "propagation/attenuation.h"
 #include "propagation/micro_doppler.h"
@@ -19,6 +21,7 @@ const char *const effect_homes[] = {
 
 const struct effect_member *effect_random_condition(int number)
 {
+    assert(number >= 1);
     for (int i = 0; i < EFFECT_COUNT; i++)
         for (const struct effect_member *member = effect_table[i]->members; member->size > 0;
              member++)
@@ -151,9 +154,10 @@ double effect_age_s(const struct effect_scan *scan)
 struct sensor_pose effect_sensor_pose(const struct effect_scan *scan)
 {
     const struct sensor *sensor = scan->sensor;
-    struct motion ego =
-        frame_motion(frame_object(scan->frame, scan->frame->ego), effect_age_s(scan));
-    return kinematics_sensor_pose(&ego, sensor->mount_x_m, sensor->mount_y_m,
+    const struct object *ego = frame_object(scan->frame, scan->frame->ego);
+    assert(ego != NULL);
+    struct motion motion = frame_motion(ego, effect_age_s(scan));
+    return kinematics_sensor_pose(&motion, sensor->mount_x_m, sensor->mount_y_m,
                                   sensor->mount_yaw_rad);
 }
 

@@ -162,7 +162,7 @@ static inline bool effect_has_cause(const struct effect *effect)
     return effect->described != NULL || effect->members[0].size > 0;
 }
 
-/* The condition that random scenes draw as this number, from 1; NULL: they draw fewer. */
+/* The condition that random scenes draw as this number >= 1; NULL: they draw fewer. */
 const struct effect_member *effect_random_condition(int number);
 
 /* Begins a scan at a home. Notes in the selection's log, for each effect of this home that has a
