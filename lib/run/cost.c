@@ -26,18 +26,26 @@ static int64_t signal_samples(const struct suite *suite)
     return sum;
 }
 
+/* Why the simulated signal is not the reference; NULL: it is. */
+static const char *lack_of_signal(enum cost_reference reference, int64_t samples)
+{
+    if (reference == COST_ALL)
+        return "it was not asked for";
+    if (samples == 0)
+        return "the suite has no waveform";
+    if (stage_by_name(stage_name_in_path(SIGNAL)) == NULL)
+        return "it is not installed beside this program";
+    return NULL;
+}
+
 int cost_begin(struct cost *cost, const struct suite_choice *choice, struct runner *runner,
                enum cost_reference reference, int64_t frames)
 {
     if (trial_begin(&cost->bench, choice, runner) != 0)
         return -1;
     int64_t samples = signal_samples(suite_choice_load(runner, choice->sensors)), most = FRAMES;
-    bool built = stage_by_name(stage_name_in_path(SIGNAL)) != NULL;
     cost->runner = runner;
-    cost->no_signal = reference == COST_ALL ? "it was not asked for"
-                      : samples == 0        ? "the suite has no waveform"
-                      : !built              ? "it is not installed beside this program"
-                                            : NULL;
+    cost->no_signal = lack_of_signal(reference, samples);
     if (cost->no_signal != NULL)
         reference = COST_ALL;
     else if (SIGNAL_SAMPLES / samples < most)

@@ -38,12 +38,13 @@ static double bounded(const struct tried_chain *chain, enum cost_search_bound bo
 static double rival(const struct cost *cost, const struct tried_chain *chain,
                     enum cost_search_bound bound)
 {
-    bool reference = chain == (cost->no_signal == NULL ? &cost->reference
-                                                       : cost->chains.list.items[COST_WHOLE]) &&
-                     strcmp(chain->row.effects, cost->reference.row.effects) == 0;
-    return bound == COST_SEARCH_ERROR ? chain->row.us_per_frame
-           : reference                ? -(double)INFINITY
-                                      : chain->row.energy.value;
+    const struct tried_chain *reference =
+        cost->no_signal == NULL ? &cost->reference : cost->chains.list.items[COST_WHOLE];
+    if (bound == COST_SEARCH_ERROR)
+        return chain->row.us_per_frame;
+    if (chain == reference && strcmp(chain->row.effects, cost->reference.row.effects) == 0)
+        return -(double)INFINITY;
+    return chain->row.energy.value;
 }
 
 /* The effects that save time in every round, in the order of their prices, but for those that alone

@@ -46,9 +46,10 @@ static struct runner *stage_at(const struct trial_bench *bench, const struct tri
 {
     const struct suite_choice choice = {bench->sensors, trial->effects};
     const char *program = at == TRIAL_IDEAL ? "glint-ideal" : trial->programs[at - 1];
-    return program == NULL ? NULL
-                           : runner_trial(bench->runner, stage_by_name(stage_name_in_path(program)),
-                                          at == TRIAL_IDEAL ? &choice : NULL, log);
+    if (program == NULL)
+        return NULL;
+    return runner_trial(bench->runner, stage_by_name(stage_name_in_path(program)),
+                        at == TRIAL_IDEAL ? &choice : NULL, log);
 }
 
 void trial_prepare(struct trial_bench *bench, struct trial *trial)

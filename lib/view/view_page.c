@@ -126,7 +126,9 @@ static size_t column_width(const struct view_columns *columns, enum view_column 
         uint32_t number = columns->list[column].items[i];
         most = number > most ? number : most;
     }
-    return table[column].kind == 'f' ? 4 : most < 1 << 8 ? 1 : most < 1 << 16 ? 2 : 4;
+    if (table[column].kind == 'f' || most >= 1 << 16)
+        return 4;
+    return most < 1 << 8 ? 1 : 2;
 }
 
 void view_page_places(const struct view_columns *columns, struct view_column_place *places)
