@@ -1,5 +1,7 @@
 #include "view/view_data.h"
 
+#include <assert.h>
+
 #include "base/sort.h"
 #include "score/target_score.h"
 
@@ -265,7 +267,8 @@ static uint32_t reason_of(struct view_data *data, const struct lost_group *group
 static uint32_t collect_losses(struct view_data *data, const struct lost_group *group,
                                struct loss_scan *scan)
 {
-    uint32_t stage = name_of(data, group->stage), details = 0;
+    uint32_t details = 0;
+    uint32_t stage = name_of(data, group->stage);
     uint32_t reason = reason_of(data, group, scan->frame->arena);
     for (size_t i = 0; i < group->echoes.count; i++) {
         const struct lost_echo *echo = &group->echoes.items[i];
@@ -286,16 +289,19 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
     return details;
 }
 
+/* Adds the fate of an object, of which all these rows are. */
 static void add_fate(struct view_data *data, const struct loss_row *rows, size_t count,
                      struct arena *scratch)
 {
     enum { ITEM = LOST_NUMBERS - LOST_REFLECTOR };
+    assert(count > 0);
     uint32_t *items = arena_get(scratch, count * ITEM * sizeof *items);
     for (size_t i = 0; i < count; i++)
         memcpy(items + i * ITEM, rows[i].of + LOST_REFLECTOR, ITEM * sizeof *items);
     put_count(data, COLUMN_FATE_OBJECT, rows->of[LOST_OBJECT]);
-    size_t known = data->patterns.list.count, size = count * ITEM * sizeof *items;
-    uint32_t pattern = intern_number(&data->patterns, items, size, data->arena);
+    size_t known = data->patterns.list.count;
+    uint32_t pattern =
+        intern_number(&data->patterns, items, count * ITEM * sizeof *items, data->arena);
     put_count(data, COLUMN_FATE_PATTERN, pattern);
     if (pattern < known)
         return;
@@ -307,17 +313,20 @@ static void add_fate(struct view_data *data, const struct loss_row *rows, size_t
 static void add_losses(struct view_data *data, struct loss_scan *scan, const char *sensor)
 {
     const struct frame *frame = scan->frame;
-    uint32_t details = 0, fates = 0;
+    uint32_t details = 0;
+    uint32_t fates = 0;
     for (size_t i = 0; i < frame->lost.count; i++)
         if (strcmp(frame->lost.items[i].sensor, sensor) == 0)
             details += collect_losses(data, &frame->lost.items[i], scan);
     sort_list(&scan->rows, compare_rows, frame->arena);
     const struct loss_row *rows = scan->rows.items;
-    for (size_t begin = 0, end; begin < scan->rows.count; begin = end, fates++) {
-        for (end = begin; end < scan->rows.count; end++)
-            if (rows[end].of[LOST_OBJECT] != rows[begin].of[LOST_OBJECT])
-                break;
-        add_fate(data, rows + begin, end - begin, frame->arena);
+    size_t begin = 0;
+    for (size_t i = 1; i <= scan->rows.count; i++) {
+        if (i < scan->rows.count && rows[i].of[LOST_OBJECT] == rows[begin].of[LOST_OBJECT])
+            continue;
+        add_fate(data, rows + begin, i - begin, frame->arena);
+        fates++;
+        begin = i;
     }
     put_count(data, COLUMN_SCAN_FATES, fates);
     put_count(data, COLUMN_SCAN_DETAILS, details);
@@ -376,8 +385,12 @@ static uint32_t add_truths(struct view_data *data, const struct frame *frame,
                            const struct target_pairs *pairs)
 {
     uint32_t count = 0;
-    for (size_t i = 0; i < pairs->list.count && pairs->list.items[i].truth != NULL; i++, count++) {
+    for (size_t i = 0; i < pairs->list.count; i++) {
         const struct target *truth = pairs->list.items[i].truth;
+        if (truth == NULL) /* false targets come last */
+            break;
+        assert(truth->contributors.count > 0);
+        count++;
         const struct target *listed = pairs->list.items[i].listed;
         put_real(data, COLUMN_TRUTH_RANGE, truth->range_m);
         put_real(data, COLUMN_TRUTH_AZIMUTH, truth->azimuth_rad);
@@ -434,10 +447,12 @@ static int compare_tracks(struct view_data *data, const struct frame *frame, str
     if (track_score_check(frame, TRACK_TRUTH_IN_VIEW, diag) != 0)
         return -1;
     int found = reference_stream_tracks(data->tracks, frame, &tracks, diag);
-    if (found > 0)
+    if (found < 0)
+        return -1;
+    if (found > 0) {
         data->scenes.items[scene_of(data, frame)].tracked = true;
-    if (found > 0)
         pairs = track_score_pairs(frame, &tracks, TRACK_TRUTH_IN_VIEW, NULL);
+    }
     for (size_t i = 0; i < pairs.list.count; i++) {
         const struct track_pair *pair = &pairs.list.items[i];
         const char *before = NULL;
@@ -450,11 +465,12 @@ static int compare_tracks(struct view_data *data, const struct frame *frame, str
         track_score_forget(&data->memory, frame->scene);
     put_count(data, COLUMN_FRAME_TRACKED, found > 0);
     put_count(data, COLUMN_FRAME_TRACKS, (uint32_t)pairs.list.count);
-    return found < 0 ? -1 : 0;
+    return 0;
 }
 
 int view_data_add(struct view_data *data, const struct frame *frame, struct diag *diag)
 {
+    assert(frame->arena != NULL);
     uint32_t number = scene_of(data, frame);
     const struct view_scene *scene = &data->scenes.items[number];
     struct vec2 shift = shift_of(data, frame);

@@ -1,5 +1,7 @@
 #include "view/view_frame.h"
 
+#include <assert.h>
+
 struct motion view_frame_ego(const struct frame *frame, double age_s)
 {
     const struct object *ego = frame_object(frame, frame->ego);
@@ -41,6 +43,7 @@ bool view_frame_loss_is_notable(enum loss reason)
 
 const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class)
 {
+    assert(models->arena != NULL);
     for (size_t i = 0; i < models->list.count; i++)
         if (strcmp(models->list.items[i].class, class) == 0)
             return models->list.items[i].vehicle;

@@ -1,5 +1,7 @@
 #include "view/view_page.h"
 
+#include <assert.h>
+
 #include "text/record_write.h"
 #include "view/view_marks.h"
 
@@ -122,13 +124,15 @@ static const struct {
 static size_t column_width(const struct view_columns *columns, enum view_column column)
 {
     uint32_t most = 0;
+    if (table[column].kind == 'f')
+        return 4;
     for (size_t i = 0; i < columns->list[column].count; i++) {
         uint32_t number = columns->list[column].items[i];
         most = number > most ? number : most;
     }
-    if (table[column].kind == 'f' || most >= 1 << 16)
-        return 4;
-    return most < 1 << 8 ? 1 : 2;
+    if (most < 1 << 8)
+        return 1;
+    return most < 1 << 16 ? 2 : 4;
 }
 
 void view_page_places(const struct view_columns *columns, struct view_column_place *places)
@@ -136,7 +140,8 @@ void view_page_places(const struct view_columns *columns, struct view_column_pla
     static const char *const whole[] = {[1] = "u1", [2] = "u2", [4] = "u4"};
     size_t begin = 0;
     for (enum view_column column = 0; column < COLUMN_COUNT; column++) {
-        size_t count = columns->list[column].count, width = column_width(columns, column);
+        size_t count = columns->list[column].count;
+        size_t width = column_width(columns, column);
         places[column] = (struct view_column_place){table[column].key,
                                                     table[column].kind == 'f' ? "f4" : whole[width],
                                                     (int64_t)count, (int64_t)begin};
@@ -158,15 +163,19 @@ void view_page_write_columns(const struct view_columns *columns, struct text *te
     enum { CHUNK = 12 * 1024 };
     unsigned char bytes[CHUNK];
     for (enum view_column column = 0; column < COLUMN_COUNT; column++) {
-        size_t count = columns->list[column].count, width = column_width(columns, column);
-        for (size_t index = 0; index < count;) {
-            size_t used = 0;
-            for (; index < count && used < CHUNK; index++, used += width)
-                put_number(bytes + used, columns->list[column].items[index], width);
-            size_t padded = (used + 11) / 12 * 12;
-            memset(bytes + used, 0, padded - used);
-            text_add_base64(text, bytes, padded);
+        size_t width = column_width(columns, column);
+        size_t used = 0;
+        for (size_t i = 0; i < columns->list[column].count; i++) {
+            put_number(bytes + used, columns->list[column].items[i], width);
+            used += width;
+            if (used == CHUNK) {
+                text_add_base64(text, bytes, used);
+                used = 0;
+            }
         }
+        size_t padded = (used + 11) / 12 * 12;
+        memset(bytes + used, 0, padded - used);
+        text_add_base64(text, bytes, padded);
     }
 }
 
@@ -224,6 +233,7 @@ void view_page_write_head(const struct view_data *data, int64_t open_frame, stru
 static void add_page(struct text *text, const char **from, const char *mark)
 {
     const char *at = strstr(*from, mark);
+    assert(at != NULL);
     text_add(text, *from, (size_t)(at - *from));
     *from = at + strlen(mark);
 }

@@ -461,3 +461,21 @@ TEST(columns_of_the_quality_are_those_of_its_table)
     }
     assert_int_equal(column, COLUMN_COUNT);
 }
+
+TEST(lines_on_the_ground_are_relative_to_the_ego_and_have_the_word_of_their_kind)
+{
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("s", "0", "4", "true",
+                            "\"roadside\":[{\"kind\":\"poles\",\"from_x_m\":12,\"from_y_m\":21,"
+                            "\"to_x_m\":15,\"to_y_m\":26,\"width_m\":3}]"));
+    finish(&packed);
+    json_t *scene = json_array_get(json_object_get(packed.json, "scenes"), 0);
+    json_t *line = json_array_get(json_object_get(scene, "ground"), 0);
+    assert_string_equal(json_string_value(json_object_get(line, "kind")), "poles");
+    static const char *const members[] = {"from_x_m", "from_y_m", "to_x_m", "to_y_m", "width_m"};
+    static const double expected[] = {2, 1, 5, 6, 3};
+    for (size_t i = 0; i < 5; i++)
+        assert_close(json_number_value(json_object_get(line, members[i])), expected[i], 1e-12);
+    release(&packed);
+}
