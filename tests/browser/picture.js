@@ -71,12 +71,16 @@ module.exports = ({stream, view, save, openFile, withPage, targetOnMap}) => {
                 await page.click('#legend input >> nth=0');
                 const shown = ofSensor(frame, 'right');
                 await page.selectOption('#up', 'right');
+                await page.evaluate(() => { zoomBy(6, 0, 0); draw(); });
+                const outside = await page.innerText('#outside');
                 await page.evaluate(() => document.activeElement.blur());
                 const image = () => page.evaluate(() => { draw(); return canvas.toDataURL(); });
                 const before = await image();
                 const file = await save(page, 'intersection-40.svg', () => page.keyboard.press('s'));
                 assert.strictEqual(await image(), before);
-                const {targets} = await read(file);
+                const {targets, title: told} = await read(file);
+                assert.match(outside, /^\d+ targets? off the map$/);
+                assert.ok(told.endsWith('; ' + outside), told);
                 assert.strictEqual(targets.length, shown.length);
                 for (const {title, x, y} of targets) {
                     const number = Number(/^right (\d+):/.exec(title)[1]);

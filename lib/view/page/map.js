@@ -124,12 +124,18 @@ function drawMap() {
     }
 }
 
-// Says how many targets lie beyond the edges of the map; a click brings them into view.
-function tellOutside() {
+// How many targets lie beyond the edges of the map, in words; nothing if there are none.
+function outsideWords() {
     let count = 0;
     eachTarget(state.frame, (scan, target) => {
         count += onScreen(toScreen(targetPlace(scan, target)), 0) ? 0 : 1;
     });
-    control('outside').hidden = count === 0;
-    setText(control('outside'), `${plural(count, 'target')} off the map`);
+    return count === 0 ? '' : `${plural(count, 'target')} off the map`;
+}
+
+// Says so on a button, which brings them into view.
+function tellOutside() {
+    const text = outsideWords();
+    control('outside').hidden = text === '';
+    setText(control('outside'), text);
 }

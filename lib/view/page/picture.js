@@ -41,7 +41,7 @@ function longest(texts, size, bold) {
 
 function pictureTitle() {
     const time = head.scenes[state.scene].start_s + column('frame_time_s')[state.frame];
-    return `${frameSentence()}, at ${round(time, 3)} s`;
+    return [`${frameSentence()}, at ${round(time, 3)} s`, outsideWords()].filter(Boolean).join('; ');
 }
 
 function picture() {

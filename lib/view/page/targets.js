@@ -69,7 +69,11 @@ function drawTrail() {
 }
 
 function trailMeanings() {
-    return state.trail ? [meaning(dotMark(ink.faint), 'targets of the last 0.5 s')] : [];
+    const pale = drawing => {
+        drawing.globalAlpha = 0.4;
+        dotMark(sensorColour(0))(drawing);
+    };
+    return state.trail ? [meaning(pale, 'targets of the last 0.5 s')] : [];
 }
 
 // Draws a target's range rate as its way in half a second, along the line of sight, away from the
