@@ -12,9 +12,13 @@
 
 /* The files that glint-schema writes; a folder with another one cannot be removed. */
 static const char *const written[] = {
-    "cost",           "frame",         "scenario",     "score",
-    "score-ensemble", "score-summary", "score-tracks", "score-tracks-summary",
-    "sensors",        "tables",        "tracks",       "vehicle",
+    "cost",           "frame",
+    "scenario",       "score",
+    "score-ensemble", "score-summary",
+    "score-tracks",   "score-tracks-summary",
+    "sensors",        "sensors-extending",
+    "tables",         "tracks",
+    "vehicle",
 };
 
 /* The schema of that name, as glint-schema writes it into the scratch folder. */
@@ -161,6 +165,13 @@ static int remove_schemas(void **state)
     return remove_scratch(state);
 }
 
+/* The schema of a sensor in that of a suite. */
+static const json_t *item_of(const json_t *suite)
+{
+    const json_t *sensors = json_object_get(json_object_get(suite, "properties"), "sensors");
+    return json_object_get(sensors, "items");
+}
+
 FIXTURE(write_schemas, remove_schemas);
 
 TEST(every_schema_says_what_its_field_table_says)
@@ -179,6 +190,29 @@ TEST(every_schema_says_what_its_field_table_says)
         assert_describes(schema, schemas[i].record);
         json_decref(schema);
     }
+}
+
+/* The members are those of a whole suite; the optional ones may be null. */
+TEST(a_suite_that_extends_another_needs_nothing_but_its_name)
+{
+    json_t *schema = schema_of("sensors-extending", *state), *whole = schema_of("sensors", *state);
+    const json_t *required = json_object_get(schema, "required");
+    assert_int_equal(json_array_size(required), 1);
+    assert_string_equal(json_string_value(json_array_get(required, 0)), "extends");
+    const json_t *sensor = item_of(schema), *whole_sensor = item_of(whole);
+    assert_int_equal(json_array_size(json_object_get(sensor, "required")), 0);
+    const char *name;
+    json_t *member;
+    json_object_foreach(json_object_get(whole_sensor, "properties"), name, member)
+    {
+        const json_t *there = json_object_get(json_object_get(sensor, "properties"), name);
+        assert_non_null(there);
+        const json_t *or_null = json_array_get(json_object_get(there, "anyOf"), 1);
+        bool must_be = is_required(whole_sensor, name);
+        assert_string_equal(word(or_null, "type"), must_be ? "" : "null");
+    }
+    json_decref(schema);
+    json_decref(whole);
 }
 
 /* `make schemas` writes them; they are kept so that a change shows. */
