@@ -274,21 +274,28 @@ lint: $(plugin_archives)
 	printf '%s\n' $(wildcard lib/*.c lib/*/*.c stages/*.c $(plugins:%=stages/%/*.c)) | xargs -P $$(nproc) -n 16 sh -c \
 	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib $(plugins:%=-iquote $(BUILD)/stages/%)' clang-tidy
 
+# Programs in Python are installed as glint-NAME: links to their files, beside which Python finds their package.
+scripts = dataset check-set export make-radar realism tracker
+script_programs = $(scripts:%=$(BUILD)/scripts/glint-%)
+package = $(filter-out scripts/glint/drawings/%,$(wildcard scripts/glint/*.py scripts/glint/*/*.py)) scripts/glint/drawings/gnuplot.py
+$(script_programs): $(BUILD)/scripts/glint-%: scripts/%
+	@mkdir -p $(@D)
+	$(Q)ln -sfn $(abspath $<) $@
+
 # Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
-man: all
+man: all $(script_programs)
 	@mkdir -p $(BUILD)/man
 	$(Q)command -v help2man >/dev/null || { echo "man pages are left out: they need help2man"; exit 0; }; \
-	for t in $(notdir $(programs)); do \
-	    name=$$($(BUILD)/bin/$$t --help | sed '/^Usage/d; /^  or/d' | sed -n 's/\.$$//; 1p'); \
-	    help2man --no-info -n "$$name" -o $(BUILD)/man/$$t.1 $(BUILD)/bin/$$t || exit 1; done
+	for t in $(programs) $(script_programs); do \
+	    name=$$($$t --help | sed '/^Usage/d; /^  or/d' | sed -n 's/\.$$//; 1p'); \
+	    help2man --no-info --version-string=$(version) -n "$$name" -o $(BUILD)/man/$${t##*/}.1 $$t || exit 1; done
 
-# Pages about data and pipelines go with them; the others, with their pictures, go to share/doc/glint, which has the
-# layout of this tree, so that commands of pages run there. What tests and measures glint stays here.
+# Pages about data, pipelines and scripts go with them; the others, with their pictures, go to share/doc/glint, which has
+# the layout of this tree, so that commands of pages run there. What tests and measures glint stays here.
+share = $(DESTDIR)$(PREFIX)/share/glint
 doc = $(DESTDIR)$(PREFIX)/share/doc/glint
-scripts = dataset check-set export make-radar tracker
-package = $(wildcard scripts/glint/*.py scripts/glint/*/*.py)
-doc_pages = README.md OTHERS.md CHANGES.md MODEL.md LICENSE scripts/README.md \
-    $(wildcard lib/*/MODEL.md stages/*/MODEL.md stages/README.md tests/*/README.md)
+doc_pages = README.md OTHERS.md CHANGES.md MODEL.md LICENSE $(wildcard lib/*/MODEL.md stages/*/MODEL.md stages/README.md \
+    $(filter-out tests/tools/%,$(wildcard tests/*/README.md)))
 # One file under the names of several programs, without what only a debugger reads.
 bin = $(DESTDIR)$(PREFIX)/bin
 install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
@@ -302,7 +309,7 @@ headers = $(wildcard lib/*/*.h lib/*/*.def)
 pc_prefix = $(if $(filter $(PREFIX)/%,$(LIBDIR)),$${pcfiledir}/../$(shell echo $(LIBDIR:$(PREFIX)/%=%) | sed 's:[^/]\{1,\}:..:g'),$(PREFIX))
 version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
 install: all man
-	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin share/man/man1 share/glint) $(DESTDIR)$(LIBDIR)/pkgconfig
+	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin share/man/man1) $(share) $(DESTDIR)$(LIBDIR)/pkgconfig
 	$(call install_as_one,$(plain_programs))
 	$(call install_as_one,$(full_programs))
 	install -m 644 $(BUILD)/libglint.a $(DESTDIR)$(LIBDIR)
@@ -312,31 +319,33 @@ install: all man
 	    install -D -m 644 lib/$$header $(DESTDIR)$(PREFIX)/include/glint/$$header || exit 1; done
 	$(Q)for page in $(BUILD)/man/*.1; do \
 	    [ ! -e $$page ] || install -m 644 $$page $(DESTDIR)$(PREFIX)/share/man/man1; done
-	cp -R data/* $(DESTDIR)$(PREFIX)/share/glint
-	cp -R pipelines schemas stages/plugin.mk $(DESTDIR)$(PREFIX)/share/glint
+	cp -R data/* pipelines schemas stages/plugin.mk $(share)
+	ln -sfn . $(share)/data
+	install -d $(share)/scripts
+	install -m 755 $(addprefix scripts/,$(scripts)) $(share)/scripts
+	install -m 644 scripts/README.md $(share)/scripts
+	$(Q)for module in $(package); do \
+	    install -D -m 644 $$module $(share)/$$module || exit 1; done
+	$(Q)for name in $(scripts); do \
+	    ln -sfn ../share/glint/scripts/$$name $(bin)/glint-$$name || exit 1; done
 	$(Q)for page in $(doc_pages); do \
 	    install -D -m 644 $$page $(doc)/$$page || exit 1; done
 	ln -sfn ../../glint $(doc)/data
-	ln -sfn . $(DESTDIR)$(PREFIX)/share/glint/data
-	ln -sfn ../../glint/pipelines ../../glint/schemas $(doc)
+	ln -sfn ../../glint/pipelines ../../glint/schemas ../../glint/scripts $(doc)
 	install -d $(doc)/build
 	ln -sfn ../../../../bin $(doc)/build/bin
-	install -m 755 $(addprefix scripts/,$(scripts)) $(doc)/scripts
-	$(Q)for module in $(package); do \
-	    install -D -m 644 $$module $(doc)/$$module || exit 1; done
-	ln -sfn ../doc/glint/scripts $(DESTDIR)$(PREFIX)/share/glint/scripts
 	install -m 644 stages/noise_none.c $(doc)/stages
 	$(Q)for source in $(plugin_sources); do \
 	    install -D -m 644 $$source $(doc)/$$source || exit 1; done
 	install -d $(doc)/stages/spray
 	sed '/^```c$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray/spray.c
 	sed '/^```make$$/,/^```$$/!d; /^```/d' stages/README.md >$(doc)/stages/spray/Makefile
-	tests/tools/installed-pages "$(scripts) glint" $(doc) $(DESTDIR)$(PREFIX)/share/glint
+	tests/tools/installed-pages "$(scripts)" $(doc) $(share)
 
 # Takes away what `make install` puts there: programs and pages by name, and glint's own folders.
 uninstall:
-	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(programs)))
-	rm -f $(patsubst %,$(DESTDIR)$(PREFIX)/share/man/man1/%.1,$(notdir $(programs)))
+	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(programs) $(script_programs)))
+	rm -f $(patsubst %,$(DESTDIR)$(PREFIX)/share/man/man1/%.1,$(notdir $(programs) $(script_programs)))
 	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,libglint.a pkgconfig/glint.pc)
 	rm -rf $(addprefix $(DESTDIR)$(PREFIX)/,include/glint share/glint share/doc/glint)
 

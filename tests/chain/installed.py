@@ -19,6 +19,7 @@ import tempfile
 PREFIX, BUILT = (os.path.abspath(folder) for folder in sys.argv[1:3])
 DOCUMENTS = os.path.join(PREFIX, "share/doc/glint")  # has the layout of the source tree
 PROGRAMS = os.path.join(PREFIX, "bin")
+SCRIPTS = ["glint-" + name for name in ("dataset", "check-set", "export", "make-radar", "realism", "tracker")]
 MOST_BYTES = 4_000_000
 STRICT = "-std=c11 -D_XOPEN_SOURCE=700 -O2 -Wall -Wextra -Werror"
 ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C",
@@ -42,7 +43,7 @@ def frames(command, folder="/"):
 def check_programs():
     """Every program that was built is installed, says the same, and all of them share their bytes."""
     names = sorted(os.listdir(BUILT))
-    assert sorted(os.listdir(PROGRAMS)) == names, "other programs are installed than were built"
+    assert sorted(os.listdir(PROGRAMS)) == sorted([*names, *SCRIPTS]), "other programs are installed than were built"
     of_one_file = {}
     for name in names:
         path = os.path.join(PROGRAMS, name)
@@ -180,8 +181,9 @@ def pages():
 
 
 def check_names():
-    """Links lead somewhere. Programs, scripts, pipelines, documents, schemas and headers that pages name are there, and scripts have a help."""
-    scripts = set()
+    """Links lead somewhere. Programs, pipelines, documents, schemas and headers that pages name are there, and scripts have a help
+    that names them as they are called."""
+    text_of_all = ""
     for folder, text, is_history in pages():
         for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", text):
             assert os.path.exists(os.path.join(folder, target)), f"{folder}: a link leads to {target}, which is not installed"
@@ -201,32 +203,51 @@ def check_names():
             assert there or not is_script and name.startswith("tests/"), f"{folder}: {name} is not installed"
         for name in re.findall(r"(?<![\w./-])lib/([a-z]+/\w+\.h)", text):
             assert os.path.exists(os.path.join(PREFIX, "include/glint", name)), f"{folder}: {name} is not installed"
-        scripts.update(re.findall(r"(?<![\w./-])scripts/([\w-]+)(?![\w./-])", text))
-    assert {"dataset", "check-set", "tracker"} <= scripts, scripts
-    for name in sorted(scripts):
-        assert run(f"{DOCUMENTS}/scripts/{name} --help"), f"{name} --help prints nothing"
+        text_of_all += text
+    for name in SCRIPTS:
+        assert f"{name} " in text_of_all, f"no page has a command of {name}"
+        told = run(f"{name} --help")
+        assert f"    {name} " in told, f"{name} --help: {told}"
 
 
 def check_scripts(folder):
-    """A set is made, checked and exported, also by scripts through a link; tracks are scored, and glint.py reads frames."""
-    run(f"{DOCUMENTS}/scripts/dataset {DOCUMENTS}/data/sets/small.json --out set && make -s -C set && {DOCUMENTS}/scripts/check-set set", folder)
-    run(f"cat set/*/*/*.jsonl.gz > list.jsonl.gz && {DOCUMENTS}/scripts/tracker list.jsonl.gz > tracks.jsonl", folder)
+    """Users' programs do their work without the pages, from any folder: a set is made, checked, exported and tracked, a data
+    sheet becomes a radar, and Python imports glint as stages/README.md says."""
+    data = os.path.join(PREFIX, "share/glint")
+    run(f"BUILD=elsewhere glint-dataset {data}/sets/small.json --out set && make -s -C set && glint-check-set set", folder)
+    run("cat set/*/*/*.jsonl.gz > list.jsonl.gz && glint-tracker list.jsonl.gz > tracks.jsonl", folder)
     score = json.loads(run("glint-score-tracks --tracks tracks.jsonl --summary list.jsonl.gz", folder))
     assert score["frames"] == 1000, score
-    code = "import glint; print(sum(len(one['targets']) for one in glint.frames('list.jsonl.gz')))"
-    assert int(run(f'PYTHONPATH={DOCUMENTS}/scripts python3 -B -c "{code}"', folder)) > 0
-    assert run("build/bin/glint pipelines/two-vehicles.sh", DOCUMENTS).startswith("{")
-    linked = os.path.join(PREFIX, "share/glint/scripts")
-    run(f"{linked}/make-radar {DOCUMENTS}/data/sheets/ars408-21.json -o radar.json && glint-traffic two-vehicles | glint-extract | "
+    run(f"glint-make-radar {data}/sheets/ars408-21.json -o radar.json && glint-traffic two-vehicles | glint-extract | "
         "glint-ideal --sensors ./radar.json --sections quality | glint-sensor | glint-noise >seen.jsonl", folder)
-    run(f"{linked}/export kitti --out kitti seen.jsonl", folder)
+    run("glint-export kitti --out kitti seen.jsonl", folder)
+    code = "import glint; print(sum(len(one['targets']) for one in glint.frames('list.jsonl.gz')))"
+    with_path = "PYTHONPATH=$(pkg-config --variable=datadir glint)/scripts"
+    assert int(run(f'{with_path} python3 -B -c "{code}"', folder)) > 0
+    assert "m/s" in run(f"python3 -B {data}/pipelines/live.py", folder)
+    refusal = run("glint-export kitti --out kitti seen.jsonl", folder, expected=73)
+    assert refusal.startswith("glint-export: --out 'kitti': is there already"), refusal
+    if shutil.which("gnuplot"):
+        run("glint-realism --draw . && [ -s realism.svg ]", folder)
+    else:
+        print("skipped  glint-realism draws: there is no gnuplot")
+
+
+def without_pages(check, folder):
+    """Runs a check while the folder of pages is away."""
+    pages_at = os.path.join(PREFIX, "share/doc")
+    os.rename(pages_at, pages_at + ".away")
+    try:
+        check(folder)
+    finally:
+        os.rename(pages_at + ".away", pages_at)
 
 
 check_programs()
 check_names()
 with tempfile.TemporaryDirectory() as place:
     check_headers(place)
-    check_scripts(place)
+    without_pages(check_scripts, place)
     build_stage(place)
     check_stage(place)
     build_plugins(place)

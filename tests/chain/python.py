@@ -6,6 +6,7 @@ import math
 import os
 import re
 import runpy
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -265,6 +266,14 @@ def columns_have_the_numbers_of_quality(folder):
     assert list(columns["snr_db"]) == [one["quality"]["snr_db"] for one in frame["targets"]] != []
 
 
+def frames_py_works_alone_as_a_copy_called_glint_py(folder):
+    shutil.copyfile(os.path.join(SCRIPTS, "glint", "frames.py"), os.path.join(folder, "glint.py"))
+    shell("glint-traffic cut-in >cut-in.jsonl", folder)
+    code = "import glint; print(glint.__file__, sum(1 for _ in glint.frames('cut-in.jsonl')))"
+    told = subprocess.run([sys.executable, "-c", code], cwd=folder, env={**ENVIRONMENT, "PYTHONPATH": folder}, capture_output=True, text=True)
+    assert told.stdout == f"{os.path.join(folder, 'glint.py')} 201\n", told
+
+
 def workers_share_the_shards_of_a_set(folder):
     for number in range(5):
         os.makedirs(os.path.join(folder, "set", "train", "lrr77"), exist_ok=True)
@@ -316,7 +325,7 @@ def main():
                  columns_have_the_numbers_of_quality, detections_are_placed_from_where_the_ego_was,
                  what_glint_refuses_the_tracker_refuses, bytes_that_glint_refuses_the_tracker_refuses,
                  faults_outside_the_input_have_a_line_and_a_status, scenes_of_two_seeds_share_no_tracks,
-                 workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected,
+                 frames_py_works_alone_as_a_copy_called_glint_py, workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected,
                  false_alarms_make_few_tracks):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)

@@ -12,6 +12,7 @@ import tempfile
 import zlib
 
 import glint
+from glint import command_line
 from glint.places import DATA, SCHEMAS
 from glint.progress import Progress
 from glint.sets import schema
@@ -211,8 +212,8 @@ def frames_of(streams):
     if len(without) == len(seen):
         raise Fault(BAD_DATA, "the inputs have no frame in which a sensor has measured")
     if without:
-        print("export: {} of {} scenes have no scan and are left out; the first is {} with seed {}, at {}".format(
-            len(without), len(seen), *without[0]), file=sys.stderr)
+        print("{}: {} of {} scenes have no scan and are left out; the first is {} with seed {}, at {}".format(
+            command_line.name(), len(without), len(seen), *without[0]), file=sys.stderr)
 
 
 def scans_of(frame):

@@ -13,6 +13,7 @@ import struct
 import sys
 from collections import namedtuple
 
+from glint import command_line
 from glint.recordings import statics
 
 Detection = namedtuple("Detection", "range_m azimuth_rad range_rate_mps snr_db rcs_dbsm", defaults=(None, None))
@@ -38,7 +39,7 @@ KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
 
 
 def refuse(text, code=os.EX_DATAERR):
-    print(f"realism: {text}", file=sys.stderr)
+    print(f"{command_line.name()}: {text}", file=sys.stderr)
     sys.exit(code)
 
 

@@ -4,6 +4,7 @@ import os
 import shlex
 import sys
 
+from glint import command_line
 from glint.places import SCRIPTS
 from glint.sets.documents import copies, copy_documents, described, files_of, files_of_chain, program_version, suite_name
 from glint.sets.durable import alone, canonical, digest_of, make_folder, remove_temporaries, sync_folder, write_whole
@@ -107,5 +108,5 @@ def prepare(plan, plan_folder, folder):
     with alone(os.path.join(folder, WORK)):
         check_folder(folder, layout)
         fill_folder(layout, copied, plan_folder, folder)
-    print(f"dataset: {folder}: {len(layout['shards'])} shards; make -C {shlex.quote(folder)} -jN", file=sys.stderr)
+    print(f"{command_line.name()}: {folder}: {len(layout['shards'])} shards; make -C {shlex.quote(folder)} -jN", file=sys.stderr)
     return layout

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 
+from glint import command_line
 from glint.progress import Progress
 from glint.sets import pace
 from glint.sets.documents import environment, program_version
@@ -145,7 +146,7 @@ def missing(layout, folder, by_digest=True):
             continue
         found.append(part)
         if reason != "missing":
-            print(f"dataset: part-{part}: {reason}: it is made again", file=sys.stderr)
+            print(f"{command_line.name()}: part-{part}: {reason}: it is made again", file=sys.stderr)
             os.remove(record_path(folder, part))
     return found
 

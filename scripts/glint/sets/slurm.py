@@ -5,6 +5,7 @@ import shlex
 import subprocess
 import sys
 
+from glint import command_line
 from glint.sets.durable import make_folder, write_whole
 from glint.sets.layout import WORK
 from glint.sets.plan import UNAVAILABLE, Fault, refuse, text_of
@@ -84,4 +85,4 @@ def submit(parts, folder, plan_folder):
     ids = [number_of_job(ask(array_words(folder, first, tasks))) for first, tasks in arrays(parts, most_tasks())]
     check = number_of_job(ask(["sbatch", "--parsable", f"--dependency=afterany:{':'.join(ids)}",
                                f"--output={place}/check.out", f"{place}/check.sh"]))
-    print(f"dataset: {len(parts)} shards in arrays {' '.join(ids)}; job {check} checks them: {place}/check.out")
+    print(f"{command_line.name()}: {len(parts)} shards in arrays {' '.join(ids)}; job {check} checks them: {place}/check.out")
