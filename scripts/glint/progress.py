@@ -9,7 +9,7 @@ has lasted for a second, and is gone at the end.
 
 The time left follows from the number of items, or from what they cost where they differ: seconds on some machine. While
 an item with a cost is at work, the line changes every second. Work inside it draws no line; if it has costs of its own,
-it tells its share of the item. A part of scripts/test tells it to the whole (GLINT_PROGRESS, tests/support/parts.sh).
+it tells its share of the item. A part of scripts/test tells it to the whole (GLINT_PROGRESS).
 """
 import os
 import sys

@@ -25,51 +25,6 @@ progress_tell() { # DONE EXPECTED
     esac
 }
 
-# The time left of parts by what they cost. Standard input has a line for each: alone or beside, its seconds by a table,
-# waits, runs or ended, the seconds for which it ran, and the share that it tells, or -. The pace of this machine is what
-# parts took beside what they should have taken; 10 s of the table count as kept, so that a first short part says little.
-# A part that runs for longer than it should counts, too, and is thought to last for a quarter of its time yet. A + behind
-# the seconds marks a part that builds: if it is fast, that says nothing of the others.
-progress_left() { # CORES TEXT
-    awk -v cores="$1" -v text="$2" '
-        {
-            how[NR] = $1; cost[NR] = $2 + 0; builds[NR] = $2 ~ /\+$/; state[NR] = $3; ran[NR] = $4; share[NR] = $5 + 0
-            spent += $1 == "alone" ? $4 : $4 / cores
-            if (state[NR] == "ended")
-                share[NR] = 1
-            if (share[NR] > 0)
-                count(share[NR] * cost[NR], ran[NR], builds[NR])
-        }
-        function count(seconds, took, building) {
-            if (building && took < seconds)
-                return
-            due_s += seconds
-            took_s += took
-        }
-        function pace() { return (10 + took_s) / (10 + due_s) }
-        END {
-            for (i = 1; i <= NR; i++)
-                if (state[i] == "runs" && share[i] == 0 && ran[i] > pace() * cost[i])
-                    count(cost[i], ran[i], 0)
-            for (i = 1; i <= NR; i++) {
-                if (state[i] == "ended")
-                    continue
-                rest = (1 - share[i]) * pace() * cost[i]
-                if (share[i] == 0)
-                    rest = rest - ran[i] > ran[i] / 4 ? rest - ran[i] : ran[i] / 4
-                left[how[i]] += rest
-                if (how[i] == "beside" && rest > longest)
-                    longest = rest
-            }
-            beside = left["beside"] / cores > longest ? left["beside"] / cores : longest
-            seconds = int(left["alone"] + beside + 0.5)
-            done = spent / (spent + seconds + 1e-9)
-            line = sprintf("[%-24s] %3d %%, %d:%02d:%02d left: %s", substr("########################", 1, 24 * done), 100 * done,
-                seconds / 3600, seconds / 60 % 60, seconds % 60, text)
-            printf "\r%-72s", substr(line, 1, 72)
-        }' >&2
-}
-
 progress_end() { # takes the line away
     [ ! -t 2 ] || printf '\r%72s\r' '' >&2
 }

@@ -47,7 +47,7 @@ def on_terminal(text):
 
 def simulated(costs, pace, draws):
     """States of a run whose parts take their costs times the pace, each with a scatter of a quarter, three parts alone and
-    then two beside each other: (seconds since the begin, seconds left, lines of progress_left)."""
+    then two beside each other: (seconds since the begin, seconds left, lines of parts_left)."""
     took = [pace * cost * draws.uniform(0.75, 1.25) for cost in costs]
     hows, begins, now, cores = ["alone"] * 3 + ["beside"] * (len(costs) - 3), [], 0, [0] * CORES
     for how, seconds in zip(hows, took):
@@ -65,7 +65,7 @@ def simulated(costs, pace, draws):
 
 def told(lines):
     """The seconds left that the line tells."""
-    done = subprocess.run(["bash", "-c", f". scripts/support/progress.sh; progress_left {CORES} names"], cwd=ROOT, input="\n".join(lines) + "\n",
+    done = subprocess.run(["bash", "-c", f". tests/support/parts.sh; parts_left {CORES} names"], cwd=ROOT, input="\n".join(lines) + "\n",
                           capture_output=True, text=True, check=True)
     hours, minutes, seconds = map(int, re.search(r"(\d+):(\d\d):(\d\d) left: names", done.stderr).groups())
     return 3600 * hours + 60 * minutes + seconds
