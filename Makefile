@@ -6,6 +6,7 @@
 #   make SAN=1 ...  the same under address and undefined-behaviour sanitizers, in build-san/
 #   make CC=clang BUILD=build-clang
 #   make install    PREFIX=/usr/local LIBDIR=/usr/local/lib DESTDIR=   make uninstall   with the same
+#   make CPPFLAGS=-DNDEBUG        for packages: without asserts, which check preconditions in all other builds
 #   make CPPFLAGS=-DPLAIN_POSIX   without the calls that Linux alone has; LDFLAGS=-static also works
 
 # No built-in rules: one of them would try to make a.d from a.d.o.

@@ -1,5 +1,6 @@
 #include "base/decimal.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -166,6 +167,7 @@ static uint64_t whole_between(wide low, wide value, wide high, int fraction)
  * interval: fewer than ten lie there, and at most one multiple of ten, which is then shorter. */
 struct decimal decimal_shortest(uint64_t bits)
 {
+    assert(bits > 0 && bits >> MANTISSA_BITS < 0x7ff);
     const int field = (int)(bits >> MANTISSA_BITS);
     const uint64_t one = UINT64_C(1) << MANTISSA_BITS, fraction = bits & (one - 1);
     const uint64_t mantissa = field > 0 ? one | fraction : fraction;

@@ -1,6 +1,7 @@
 #include "base/random.h"
 
 #include <Random123/philox.h>
+#include <assert.h>
 
 #include "base/elementary.h"
 
@@ -46,6 +47,7 @@ void random_gaussian_pair(const struct random_address *address, enum random_purp
 
 double random_gaussian_exceeded(double probability)
 {
+    assert(probability > 0 && probability < 1);
     double offset = 0.5 - probability;
     if (fabs(offset) <= 0.425) {
         double r = 0.180625 - offset * offset;
@@ -87,6 +89,7 @@ double random_sequence_between(struct random_sequence *sequence, double low, dou
 
 int64_t random_sequence_whole(struct random_sequence *sequence, int64_t least, int64_t most)
 {
+    assert(least <= most);
     double choices = (double)(most - least + 1);
     return least + (int64_t)elementary_min(choices * random_sequence_next(sequence), choices - 1);
 }
@@ -103,6 +106,7 @@ double random_sequence_sign(struct random_sequence *sequence)
 
 double random_gamma(struct random_sequence *sequence, double shape)
 {
+    assert(shape > 0);
     double most = (shape < 1 ? shape + 1 : shape) - 1.0 / 3;
     for (;;) {
         double deviation = random_gaussian_exceeded(random_sequence_next(sequence));
@@ -141,6 +145,7 @@ static struct beginning begin_below_the_mean(double mean)
 
 int64_t random_poisson(double mean, double uniform)
 {
+    assert(uniform > 0 && uniform < 1);
     if (!(mean > 0))
         return 0;
     mean = elementary_min(mean, 1e9);

@@ -1,5 +1,6 @@
 #include "base/text.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -117,6 +118,7 @@ void text_add_json(struct text *text, const char *bytes, size_t length)
 
 void text_add_base64(struct text *text, const unsigned char *bytes, size_t size)
 {
+    assert(size % 3 == 0);
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     char *out = text_room(text, size / 3 * 4);
     for (size_t i = 0; i < size; i += 3) {

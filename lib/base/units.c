@@ -1,5 +1,7 @@
 #include "base/units.h"
 
+#include <assert.h>
+
 #include "base/elementary.h"
 
 /* Doubles from here on are whole, and infinity is among them: there is nothing to round. */
@@ -7,11 +9,13 @@
 
 double units_amplitude_db(double amplitude)
 {
+    assert(amplitude >= 0);
     return 20 * elementary_log10(amplitude);
 }
 
 double units_shortfall_db(double threshold, double amplitude)
 {
+    assert(threshold > 0 && amplitude >= 0);
     double db = units_amplitude_db(threshold) - units_amplitude_db(amplitude);
     return elementary_min(elementary_max(db, 0), 1e4);
 }
@@ -28,6 +32,7 @@ double units_amplitude_logarithm(double db)
 
 double units_wavelength_m(double carrier_hz)
 {
+    assert(carrier_hz > 0);
     return SPEED_OF_LIGHT_MPS / carrier_hz;
 }
 

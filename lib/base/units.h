@@ -6,7 +6,7 @@
 #define PI 3.14159265358979323846
 #define SPEED_OF_LIGHT_MPS 299792458.0
 
-/* 20 log10: amplitude must be positive. */
+/* 20 log10 of amplitude >= 0; -infinity at 0. */
 double units_amplitude_db(double amplitude);
 
 /* The dB, at least 0, by which amplitude >= 0 falls short of a positive threshold; at most 1e4,

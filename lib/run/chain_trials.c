@@ -1,5 +1,7 @@
 #include "run/chain_trials.h"
 
+#include <assert.h>
+
 #include "base/random.h"
 #include "score/ensemble.h"
 #include "score/target_score.h"
@@ -191,6 +193,8 @@ static void compare_scan(const struct chain_trials *trials, const struct tried_c
 
 int chain_trials_run(struct chain_trials *trials, const struct tried_chains *chains, unsigned pass)
 {
+    assert((pass & TRIAL_EFFECTS) == 0 ||
+           chains->list.items[0]->trial == &trials->bench->whole[TRIAL_IDEAL]);
     size_t count = chains->list.count, first = 0;
     double **distances = arena_get(runner_arena(trials->bench->runner), count * sizeof *distances);
     begin_pass(trials, chains->list.items, count, pass);
@@ -234,6 +238,7 @@ static struct embedded_list spoil(const struct embedded_list *list, double lost,
 
 double chain_trials_spoiled(const struct chain_trials *trials, double lost, double off_cells)
 {
+    assert(lost >= 0 && lost <= 1);
     struct random_sequence draws = random_sequence_at((struct random_address){0}, RANDOM_SAMPLE);
     struct trial_lists lists[SEEDS] = {0};
     struct arena kept = {0};

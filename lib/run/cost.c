@@ -1,5 +1,6 @@
 #include "run/cost.h"
 
+#include <assert.h>
 #include <inttypes.h>
 
 #include "base/elementary.h"
@@ -282,6 +283,7 @@ int cost_measure(struct cost *cost)
 
 struct relative_error cost_added(const struct cost *cost, const struct tried_chain *chain)
 {
+    assert(cost_has_errors(cost));
     return relative_error_added(&chain->lists, &whole(cost)->lists, &ideal(cost)->lists,
                                 runner_arena(cost->runner));
 }

@@ -1,5 +1,6 @@
 #include "run/frame_sample.h"
 
+#include <assert.h>
 #include <inttypes.h>
 
 #include "base/random.h"
@@ -47,6 +48,7 @@ static size_t scene_of(struct frame_sample *sample, const struct frame *frame)
 
 int frame_sample_add(struct frame_sample *sample, const struct frame *frame, struct diag *diag)
 {
+    assert(sample->most >= 1);
     if (sample->seen == 0)
         sample->stride = 1;
     int64_t place = sample->seen++;
@@ -74,6 +76,7 @@ int frame_sample_add(struct frame_sample *sample, const struct frame *frame, str
 
 void frame_sample_thin(struct frame_sample *sample, int64_t most)
 {
+    assert(most >= 1);
     struct sampled_frame *frames = sample->list.items;
     int64_t count = (int64_t)sample->list.count;
     if (most >= count)

@@ -1,5 +1,6 @@
 #include "run/progress.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <time.h>
@@ -32,6 +33,7 @@ bool progress_step(struct progress *progress)
 void progress_write(const struct progress *progress, double elapsed_s, double share, char *line,
                     size_t size)
 {
+    assert(share > 0);
     share = share < 1 ? share : 1;
     double rate = (double)progress->count / elapsed_s;
     long left_s = lrint(elapsed_s / share - elapsed_s);

@@ -1,5 +1,6 @@
 #include "run/runner.h"
 
+#include <assert.h>
 #include <strings.h>
 #include <unistd.h>
 
@@ -287,6 +288,7 @@ int runner_frame_ascending(struct runner *runner, struct frame **frame)
 struct runner *runner_trial(struct runner *runner, const struct stage *stage,
                             const struct suite_choice *choice, struct effect_log *log)
 {
+    assert(choice == NULL || stage->options->size >= sizeof *choice);
     struct runner *trial = arena_get(&runner->arena, sizeof *trial);
     *list_add(&runner->tried, &runner->arena) = trial;
     *trial = (struct runner){.stage = stage, .log = log, .before = runner};

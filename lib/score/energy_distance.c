@@ -1,5 +1,7 @@
 #include "score/energy_distance.h"
 
+#include <assert.h>
+
 #include "base/elementary.h"
 #include "base/sort.h"
 
@@ -109,6 +111,7 @@ static double mean(const struct energy_sample *sample, struct range rows, struct
 
 double energy_distance_without(const struct energy_sample *sample, size_t list)
 {
+    assert(list == NONE || (list < sample->ones ? sample->ones : sample->others) >= 3);
     struct range ones = {0, sample->ones}, others = {sample->ones, sample->ones + sample->others};
     return 2 * mean(sample, ones, others, list) - mean(sample, ones, ones, list) -
            mean(sample, others, others, list);
@@ -116,5 +119,6 @@ double energy_distance_without(const struct energy_sample *sample, size_t list)
 
 double energy_distance_of(const struct energy_sample *sample)
 {
+    assert(sample->ones >= 2 && sample->others >= 2);
     return energy_distance_without(sample, NONE);
 }

@@ -1,5 +1,6 @@
 #include "score/gospa.h"
 
+#include <assert.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"
@@ -146,6 +147,7 @@ size_t gospa_pair(const double *distance, size_t truths, size_t listed, double c
 
 struct gospa gospa_of(double squares, size_t pairs, size_t truths, size_t listed, double cutoff)
 {
+    assert(pairs <= truths && pairs <= listed);
     double alone = cutoff * cutoff / 2;
     size_t longer = truths > listed ? truths : listed;
     struct gospa gospa = {

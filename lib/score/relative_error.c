@@ -1,9 +1,12 @@
 #include "score/relative_error.h"
 
+#include <assert.h>
+
 #include "base/elementary.h"
 
 double relative_error_student(double freedom)
 {
+    assert(freedom > 0);
     double z = 1.959964, square = z * z;
     double first = (square + 1) / 4;
     double second = ((5 * square + 16) * square + 3) / 96;
@@ -30,6 +33,8 @@ static double jackknife(const struct energy_sample *chain, const struct energy_s
 struct relative_error relative_error_of(const struct energy_sample *chain,
                                         const struct energy_sample *ideal)
 {
+    assert(chain->ones >= 3 && chain->others >= 3);
+    assert(ideal == NULL || (ideal->ones == chain->ones && ideal->others == chain->others));
     double value = energy_distance_of(chain) / (ideal != NULL ? energy_distance_of(ideal) : 1);
     double one = jackknife(chain, ideal, 0, chain->ones);
     double other = jackknife(chain, ideal, chain->ones, chain->others);
@@ -49,6 +54,7 @@ struct relative_error relative_error_added(const struct energy_sample *chain,
                                            const struct energy_sample *other,
                                            const struct energy_sample *ideal, struct arena *arena)
 {
+    assert(chain->ones == other->ones && chain->others == other->others);
     size_t all = chain->ones + chain->others;
     double *difference = arena_get(arena, all * all * sizeof *difference);
     for (size_t i = 0; i < all * all; i++)

@@ -1,5 +1,6 @@
 #include "score/score.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -199,6 +200,7 @@ void score_merge(struct score_tally *tally, const struct score_tally *other, str
 /* Sums over the sorted values, so that the order of the differences changes no bit. */
 struct score_differences score_statistics(double *differences, size_t count, struct arena *arena)
 {
+    assert(count > 0);
     double sum = 0, squares = 0;
     double *size = differences;
     sort_numbers(differences, count, arena);
@@ -220,6 +222,7 @@ struct score_differences score_statistics(double *differences, size_t count, str
 double score_wasserstein(double *one, size_t one_count, double *other, size_t other_count,
                          struct arena *arena)
 {
+    assert(one_count > 0 && other_count > 0);
     sort_numbers(one, one_count, arena);
     sort_numbers(other, other_count, arena);
     double area = 0, from = elementary_min(one[0], other[0]);

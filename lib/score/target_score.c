@@ -1,5 +1,7 @@
 #include "score/target_score.h"
 
+#include <assert.h>
+
 #include "base/sort.h"
 #include "base/units.h"
 #include "score/gospa.h"
@@ -35,6 +37,7 @@ bool target_score_has_cells(const struct sensor_view *view)
 double target_score_distance(const struct target *a, const struct target *b,
                              const struct target_cell *cell)
 {
+    assert(cell->range_m > 0 && cell->azimuth_rad > 0 && cell->range_rate_mps > 0);
     double range = (a->range_m - b->range_m) / cell->range_m;
     double rate = (a->range_rate_mps - b->range_rate_mps) / cell->range_rate_mps;
     double azimuth = units_wrap_rad(a->azimuth_rad - b->azimuth_rad) / cell->azimuth_rad;

@@ -1,5 +1,6 @@
 #include "text/csv_table.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #include <csv.h>
@@ -347,6 +348,7 @@ int csv_table_column(const struct csv_table *table, const char *name, size_t *co
 
 const char *csv_table_cell(const struct csv_table *table, size_t row, size_t column)
 {
+    assert(row < table->rows && column < table->columns);
     return table->cells[row * table->columns + column];
 }
 
@@ -381,6 +383,7 @@ int csv_table_number(const struct csv_table *table, size_t row, size_t column, d
 
 size_t csv_table_quote(const char *text, char *cell, size_t room)
 {
+    assert(room >= 2 * strlen(text) + 2);
     size_t length = 0; /* strcspn and memcpy take more instructions for short cells */
     for (; text[length] != '\0'; length++) {
         if (text[length] == ',' || text[length] == '"' || text[length] == '\r' ||

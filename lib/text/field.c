@@ -1,5 +1,6 @@
 #include "text/field.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -133,6 +134,7 @@ static int set_choice(const struct field *field, void *base, const char *text, s
 int field_add_to_set(const struct field *field, void *base, const char *text, size_t length,
                      struct diag *diag)
 {
+    assert(field->kind == FIELD_SET);
     int choice = choice_of(field, text, length, diag);
     if (choice < 0)
         return -1;
@@ -454,6 +456,7 @@ bool field_unchanged(const struct record *record, const struct field *field, con
 
 void *field_list_add(const struct field *field, void *base, struct arena *arena)
 {
+    assert(field->kind == FIELD_NAMES || field->kind == FIELD_LIST);
     size_t size = field->kind == FIELD_NAMES ? sizeof(const char *) : field->record->size;
     struct field_list list = field_list(field, base);
     list.items = list_room(arena, list.items, list.count, &list.room, size);

@@ -36,6 +36,7 @@ static void add_roadside(struct scene *scene)
     };
     for (size_t i = 0; i < sizeof strips / sizeof strips[0]; i++)
         *list_add(&scene->frame.roadside, &scene->arena) = strips[i];
+    scene->sensor.carrier_hz = 77e9;
     scene->sensor.threshold_db = 6;
     scene->sensor.calibration_ercs = 0.2;
     scene->sensor.calibration_range_m = 60;

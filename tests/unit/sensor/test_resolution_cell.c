@@ -11,6 +11,7 @@
 static struct sensor paper_sensor(enum antenna_phase phase)
 {
     struct sensor sensor = {.name = "s",
+                            .carrier_hz = 77e9,
                             .threshold_db = 20 * 0.30102999566398120,
                             .calibration_ercs = 0.8,
                             .calibration_range_m = 30,

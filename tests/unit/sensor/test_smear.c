@@ -13,6 +13,7 @@ enum { MOST = 8 };
 static struct sensor test_sensor(void)
 {
     struct sensor sensor = {.name = "s",
+                            .carrier_hz = 77e9,
                             .threshold_db = 6,
                             .calibration_ercs = 0.8,
                             .calibration_range_m = 30,
