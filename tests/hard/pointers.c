@@ -16,8 +16,6 @@
 #include "run/runner.h"
 #include "sensor/resolution_cell.h"
 
-#define DEGREE (PI / 180)
-
 enum { BITS = 400, SUM_BITS = 2000 };
 
 extern const struct stage stage_sensor, stage_noise_none;

@@ -17,8 +17,6 @@
 
 enum { PRECISION = 200 };
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static double from_bits(uint64_t bits)
 {
     double value;

@@ -16,8 +16,6 @@ enum { FRAMES = 1000000, PRECISION = 320 };
 
 static const double rates_hz[] = {20, 10, 25, 30, 17};
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static void write_file(const struct scratch *scratch, const char *text)
 {
     FILE *file = fopen(scratch->path, "w");

@@ -37,6 +37,12 @@ struct check_entry {
  * the setup made. */
 #define FIXTURE(setup, teardown) CHECK_ENTRY(setup##_and_##teardown, NULL, NULL, setup, teardown)
 
+/* Of an array, not of a pointer. */
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* In radians, with PI of base/units.h. */
+#define DEGREE (PI / 180)
+
 /* How many cases a test of random cases takes: so many, or what the environment has in CASES. */
 double check_cases(double usual);
 

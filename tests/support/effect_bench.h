@@ -10,7 +10,6 @@
 #include "effects/effect.h"
 
 #define EVERY_EFFECT (EFFECT_BIT(EFFECT_COUNT) - 1)
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 struct effect_bench {
     struct arena arena;

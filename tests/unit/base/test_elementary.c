@@ -415,7 +415,7 @@ TEST(every_result_is_within_its_bound)
     int points = (int)check_cases(POINTS), faults = 0;
     mpfr_t x, y, exact;
     mpfr_inits2(160, x, y, exact, (mpfr_ptr)NULL);
-    for (size_t i = 0; i < sizeof trials / sizeof trials[0]; i++) {
+    for (size_t i = 0; i < COUNT(trials); i++) {
         uint64_t random = i;
         double worst_ulp = 0;
         struct point worst = {0, 0};
@@ -521,7 +521,7 @@ TEST(special_angles_are_exact)
         {0, 0, 1}, {0.25, 1, 0},   {0.5, 0, -1},     {0.75, -1, 0},
         {1, 0, 1}, {-0.25, -1, 0}, {12345.25, 1, 0},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct elementary_sincos turned = elementary_sincos_turns(cases[i].turns);
         assert_close(turned.sin, cases[i].sin, 0);
         assert_close(turned.cos, cases[i].cos, 0);
@@ -562,7 +562,7 @@ TEST(special_places_have_their_angle)
         {1e308, -1e308, 3 * PI / 4},
         {5e-324, 1, 5e-324},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         assert_same_bits(elementary_atan2(cases[i].y, cases[i].x), cases[i].angle_rad);
     assert_true(isnan(elementary_atan2((double)NAN, 1)) && isnan(elementary_atan2(1, (double)NAN)));
     assert_same_bits(elementary_asin(1), PI / 2);

@@ -8,8 +8,6 @@
 #include "base/number.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static const char *text_of(double value, char text[NUMBER_SIZE + 1])
 {
     size_t length = number_write(value, text);

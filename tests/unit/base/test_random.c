@@ -27,7 +27,7 @@ TEST(draws_are_philox_blocks)
          {UINT64_C(0xa528f45403e61d95), UINT64_C(0x38c72dbd566e9788), UINT64_C(0xa5a1610e72fd18b5),
           UINT64_C(0x57bd43b5e52b7fe6)}},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct random_address address = {.seed = cases[i].key[0],
                                          .scene = cases[i].key[1],
                                          .frame = cases[i].counter[0],

@@ -3,8 +3,6 @@
 #include "base/random.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* The probability of k by its textbook form, or with an overdispersion that of a negative binomial
  * count with r = m^2/(s^2 - m) and p = m/s^2, from logarithms of gamma functions in extended
  * precision. */

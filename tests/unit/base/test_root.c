@@ -30,7 +30,7 @@ static struct root root_of(struct asked *asked, double low, double high, double 
 TEST(without_a_width_the_bounds_become_neighbours)
 {
     static const double bounds[] = {1e-9, 0.1, 2. / 3, 1, 1.5, 1.9999999};
-    for (size_t i = 0; i < sizeof bounds / sizeof bounds[0]; i++) {
+    for (size_t i = 0; i < COUNT(bounds); i++) {
         struct asked asked = {.bound = bounds[i]};
         struct root root = root_of(&asked, 0, 2, 0);
         assert_true(root.high == bounds[i]);

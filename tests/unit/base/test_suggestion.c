@@ -25,7 +25,7 @@ TEST(a_slip_of_a_letter_or_two_is_understood)
         {"effetcs", "effects"}, {"radius_m", "radius-m"}, {"seeed", "seed"},
         {"seet", "seed"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         char expected[64];
         snprintf(expected, sizeof expected, " (did you mean --%s?)", cases[i][1]);
         assert_string_equal(meant(cases[i][0], options), expected);

@@ -64,7 +64,7 @@ TEST(an_angle_wraps_into_one_turn)
         {-5, 2 * PI - 5, 1e-15},
         {100, 100 - 32 * PI, 1e-14},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         assert_close(units_wrap_rad(cases[i].angle), cases[i].wrapped, cases[i].tolerance);
 }
 
@@ -82,7 +82,7 @@ TEST(a_wrapped_angle_keeps_its_direction)
 TEST(every_finite_angle_wraps)
 {
     static const double angles[] = {1e8, -1e8, 1e17, -1e17, 1e300, -1.7976931348623157e308, 5e-324};
-    for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
+    for (size_t i = 0; i < COUNT(angles); i++) {
         double wrapped = units_wrap_rad(angles[i]);
         assert_true(wrapped > -PI && wrapped <= PI);
     }
@@ -110,6 +110,6 @@ TEST(steps_round_to_the_nearest_multiple)
                                       {1e6, 1000, 1e6},      {3, 1, 3},
                                       {1e6, 5e-324, 1e6},    {-0.3, 1e-320, -0.3},
                                       {0, 5e-324, 0},        {5e-324, 1e3, 0}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         assert_close(units_rounded(cases[i][0], cases[i][1]), cases[i][2], 0);
 }

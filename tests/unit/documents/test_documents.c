@@ -11,8 +11,6 @@
 #include "documents/vehicle.h"
 #include "traffic/scenario.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 struct scratch {
     char directory[64];
     char suite[96], table[96], pattern[96];

@@ -8,8 +8,6 @@
 #include "radar/monopulse.h"
 #include "radar/radar_equation.h"
 
-#define DEGREE (PI / 180)
-
 /* The cross section of 3GPP's vehicle in dBsm, seen level: the powers of its points add up. */
 static double vehicle_dbsm(double degrees)
 {

@@ -7,9 +7,6 @@
 #include "radar/radar_equation.h"
 #include "text/record_write.h"
 
-#define DEGREE (PI / 180)
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* The incoherent sum of all points, seen from a direction in the target's frame, far away. */
 static double cross_section_dbsm(enum sensing_target_3gpp target, double azimuth, double zenith)
 {

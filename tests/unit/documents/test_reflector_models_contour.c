@@ -10,7 +10,6 @@
 #include "radar/radar_equation.h"
 #include "text/record_write.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define FAR_M 1e7
 
 static const struct contour car = {15, 10.8, 13.6, 20.1, 7.1};

@@ -23,7 +23,7 @@ TEST(what_is_said_replaces_and_what_is_not_stays)
         {ROAD_UNSAID, 0, 0, ROAD_ASPHALT, 0, 0},
         {ROAD_CONCRETE, 1, 0.2, ROAD_CONCRETE, 1, 0.2},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct conditions changed = before, changes;
         field_clear(&conditions_changes_record, &changes);
         changes.road = cases[i].change;

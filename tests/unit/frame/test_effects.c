@@ -25,7 +25,7 @@ TEST(a_request_names_what_may_be_simulated)
         {"none,merging", EFFECT_BIT(EFFECT_MERGING), false},
     };
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct selection selection;
         struct diag diag = {0};
         assert_int_equal(effects_read(cases[i].text, &selection, &diag), 0);
@@ -39,7 +39,7 @@ TEST(an_unknown_effect_is_refused_by_name)
     static const char *const texts[] = {"",          "fog horn", "auto,all",   "all,",
                                         "merging,-", "-none",    "all,-mergin"};
     (void)state;
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+    for (size_t i = 0; i < COUNT(texts); i++) {
         struct selection selection;
         struct diag diag = {0};
         assert_int_equal(effects_read(texts[i], &selection, &diag), -1);

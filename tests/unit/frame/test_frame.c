@@ -6,8 +6,6 @@
 #include "check.h"
 #include "frame/frame_order.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 TEST(losses_are_grouped_by_sensor_stage_and_reason)
 {
     struct arena arena = {0};

@@ -4,8 +4,6 @@
 #include "check.h"
 #include "frame/frame_order.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 TEST(a_frame_without_contradictions_passes)
 {
     struct arena arena = {0};

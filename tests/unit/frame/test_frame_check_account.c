@@ -4,8 +4,6 @@
 #include "check.h"
 #include "frame/frame_order.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 TEST(a_whole_account_passes_in_any_order)
 {
     struct arena arena = {0};

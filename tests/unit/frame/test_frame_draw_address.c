@@ -69,7 +69,7 @@ TEST(addresses_are_these_on_every_machine)
          UINT64_C(0xed1dcd1308a3d5c0),
          UINT64_C(0x2ad856944850622b)},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct random_address address = frame_draw_address_of(&FRAME, cases[i].sensor, cases[i].id);
         assert_true(address.seed == 7 && address.frame == 3);
         assert_true(address.scene == UINT64_C(0x64f84b6fffa5f816));

@@ -28,7 +28,6 @@
 #include "sample.h"
 #include "text/json_scan.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define LOAD(type, member) (*(type *)memcpy(&(type){0}, (member), sizeof(type)))
 
 enum { LINE_SIZE = 1000 };

@@ -8,8 +8,6 @@
 #include "frame/frame_text.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static struct text written(const struct frame *frame)
 {
     struct text text = {0};

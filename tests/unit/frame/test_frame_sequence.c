@@ -76,7 +76,7 @@ TEST(gaps_repetitions_and_what_comes_after_the_end_are_refused)
          "frame: 0 of scene \"a\" with seed 1 comes behind frame 0; that scene began at a.jsonl:1"},
         {0, 1, true, "frame: 1 of scene \"a\" with seed 1 comes after its last one"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct bench bench = begin();
         if (follow(&bench, "a", cases[i].first, cases[i].last) == 0)
             assert_int_equal(follow(&bench, "a", cases[i].second, false), -1);
@@ -99,7 +99,7 @@ TEST(a_scene_without_its_end_is_told)
 TEST(two_seeds_of_a_name_are_two_scenes)
 {
     check *const checks[] = {frame_sequence_follow, frame_sequence_ascend, frame_sequence_once};
-    for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++) {
+    for (size_t i = 0; i < COUNT(checks); i++) {
         struct bench bench = begin();
         for (int64_t number = 0; number < 3; number++) {
             assert_int_equal(add(&bench, checks[i], 1, number), 0);
@@ -121,7 +121,7 @@ TEST(a_stream_joined_with_itself_is_refused_with_both_places)
         {frame_sequence_ascend, "comes behind frame 2; that scene began at a.jsonl:1"},
         {frame_sequence_once, "stands at a.jsonl:1 already"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct bench bench = begin();
         for (int64_t number = 0; number < 3; number++)
             assert_int_equal(add(&bench, cases[i].check, 7, number), 0);

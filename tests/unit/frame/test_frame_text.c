@@ -10,8 +10,6 @@
 #include "sample.h"
 #include "text/record_write.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* A frame with every member of every record, in the writer's own spelling. */
 #define HEAD                                                                                       \
     "{\"version\":0,\"scene\":\"cut-in\",\"frame\":7,\"time_s\":0.28,\"interval_s\":0.04,"         \

@@ -7,8 +7,6 @@
 #include "geometry/mirror.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* A car of 4 m by 2 m at (10, 20) that heads along y. */
 static const struct box northward = {
     .motion = {.position_m = {10, 20}}, .heading = {0, 1}, .length_m = 4, .width_m = 2};

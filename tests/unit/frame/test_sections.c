@@ -3,8 +3,6 @@
 #include "check.h"
 #include "frame/frame.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* The choice of a frame after a text of --sections. */
 static uint64_t after(const char *text, uint64_t before, int64_t number)
 {

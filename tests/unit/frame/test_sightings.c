@@ -3,8 +3,6 @@
 #include "check.h"
 #include "frame/frame.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 TEST(levels_begin_at_their_lower_border)
 {
     static const struct {

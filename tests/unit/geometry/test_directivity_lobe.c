@@ -3,8 +3,6 @@
 #include "base/units.h"
 #include "geometry/directivity.h"
 
-#define DEGREE (PI / 180)
-
 static const struct lobe front = {40.54 * DEGREE, 71.75 * DEGREE, 29.13 * DEGREE, 14.91};
 
 static double drop_db(const struct lobe *lobe, double off, double zenith)

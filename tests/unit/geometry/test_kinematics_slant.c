@@ -4,8 +4,6 @@
 #include "geometry/kinematics.h"
 #include "sample.h"
 
-#define DEGREE (PI / 180)
-
 /* The example of MODEL 14.2: half a metre of difference in height. */
 TEST(slant_ranges_are_those_of_the_model)
 {
@@ -15,7 +13,7 @@ TEST(slant_ranges_are_those_of_the_model)
                 {5, 0.024938, 0.995037},
                 {10, 0.012492, 0.998752},
                 {30, 0.004166, 0.999861}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+    for (size_t i = 0; i < COUNT(rows); i++)
         for (int sign = -1; sign <= 1; sign += 2) {
             struct slant elevation = kinematics_slant(rows[i].distance_m, 0.5 * sign);
             assert_close(elevation.range_m - rows[i].distance_m, rows[i].extra_m, 5.1e-7);

@@ -3,8 +3,6 @@
 #include "geometry/mirror.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* The example of MODEL 14.1: the wall y = 4, mirroring downwards. */
 static struct mirror mirror_between(struct vec2 a, struct vec2 b)
 {

@@ -4,9 +4,6 @@
 #include "geometry/mirror.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-#define DEGREE (PI / 180)
-
 /* A sensor, an object and a wall, each with its own motion. */
 struct scene {
     struct motion sensor;

@@ -61,7 +61,7 @@ TEST(a_line_above_the_top_all_along_is_free)
         {{{7, 0}, {9, 2}, 0, 2}, 0.9, 0.1},   /* through a corner */
     };
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         assert_close(obstruction_clear_m(car, 4, UP_TO(cases[i].top_m), &cases[i].line),
                      cases[i].above_m, 1e-14);
         assert_close(obstruction_of(car, 4, UP_TO(cases[i].top_m), &cases[i].line, 0).factor,
@@ -118,7 +118,7 @@ TEST(a_line_passes_under_a_body_with_a_bottom)
         {0.25, -1, 0.6, 0.1},  /* -0.5 where it leaves */
         {0, 0, 0, -2},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct obstruction_line line = {
             {0, 0}, {20, 0}, cases[i].from_height_m, cases[i].to_height_m};
         struct obstruction_heights body = {cases[i].bottom_m, 2};

@@ -10,7 +10,7 @@ TEST(losses_are_as_published)
     static const struct {
         double parameter, loss_db, exact_db;
     } rows[] = {{0, 6.032852, 6.020600}, {1, 13.925729, 13.864105}, {2, 19.042860, 19.090962}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         assert_close(knife_edge_db(rows[i].parameter), rows[i].loss_db, 5.1e-7);
         assert_close(knife_edge_exact_db(rows[i].parameter), rows[i].exact_db, 5.1e-7);
     }

@@ -55,7 +55,7 @@ TEST(a_box_before_another_overlaps_it_and_a_wider_one_covers_it)
     };
     static const double turned_rad[] = {0, PI / 2, 2.5, -1};
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         for (int j = 0; j < 4; j++) {
             struct vec2 turn = vec2_heading(turned_rad[j]);
             struct box front = {vec2_turn(cases[i].front_m, turn), cases[i].front_half_m, turn};

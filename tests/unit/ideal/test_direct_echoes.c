@@ -110,7 +110,7 @@ SCENE_TEST(every_loss_has_its_reason)
                  {0.05, 0, PI, LOSS_OUT_OF_RANGE}, {10, 10.001, -3 * PI / 4, LOSS_OUT_OF_VIEW},
                  {-10, 0, 0, LOSS_OUT_OF_VIEW},    {0, 0, 0, LOSS_OUT_OF_RANGE},
                  {500, 0, 0, LOSS_FACING_AWAY}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         void *place;
         make_scene(&place);
         struct scene *scene = place;
@@ -237,7 +237,7 @@ SCENE_TEST(a_margin_is_the_distance_from_another_answer)
         {28.25, 0, 30, LOSS_BLOCKED, 0.25}, /* 0.25 m behind its rear at 28 m */
         {27.5, 0, 30, -1, 0.5},             /* 0.5 m before it */
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         void *place;
         make_scene(&place);
         struct scene *scene = place;
@@ -280,7 +280,7 @@ SCENE_TEST(an_echo_from_under_a_truck_can_change_in_two_ways)
         {-1.5, 3, 0.5},  /* the line passes the truck at 0.5 m */
         {0, 0.75, 0.25}, /* the wall blocks the line, 0.25 m deep */
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         void *place;
         make_scene(&place);
         struct scene *scene = place;

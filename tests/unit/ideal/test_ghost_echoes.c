@@ -12,8 +12,6 @@
 #include "propagation/reflection.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-#define DEGREE (PI / 180)
 #define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
 
 /* A scene with a sensor at the origin that looks along +x over a half plane. */

@@ -12,8 +12,6 @@
 #include "propagation/reflection.h"
 #include "radar/radar_equation.h"
 
-#define DEGREE (PI / 180)
-
 static const struct vec2 ahead = {1, 0}, origin = {0, 0}, still = {0, 0};
 
 /* A ghost's power beside that of the direct echo, in dB. */

@@ -3,8 +3,6 @@
 #include "base/units.h"
 #include "ideal/line_of_sight.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* The box from (-2, -1) to (2, 1). */
 static const struct vec2 outline[4] = {{2, 1}, {-2, 1}, {-2, -1}, {2, -1}};
 

@@ -34,7 +34,7 @@ static void add_roadside(struct scene *scene)
          .rcs_dbsm = -8,
          .spread_db = 9},
     };
-    for (size_t i = 0; i < sizeof strips / sizeof strips[0]; i++)
+    for (size_t i = 0; i < COUNT(strips); i++)
         *list_add(&scene->frame.roadside, &scene->arena) = strips[i];
     scene->sensor.carrier_hz = 77e9;
     scene->sensor.threshold_db = 6;

@@ -2,8 +2,6 @@
 
 #include "noise/detection_quality.h"
 
-#define DEGREE (PI / 180)
-
 static struct contributor parts[] = {
     {.id = {.object = "a", .reflector = "r"}, .range_rate_mps = -40, .weight = 0.4},
     {.id = {.object = "a", .reflector = "r"}, .range_rate_mps = -60, .weight = 0.6},

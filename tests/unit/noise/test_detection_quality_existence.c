@@ -5,8 +5,6 @@
 #include "noise/detection_quality.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* By hand: with one echo of mean power 9 and 1/2 false alarm from 4 on, a power of 4 has the
  * densities exp(-0.4)/10 and 1/2, one of 14 has exp(-1.4)/10 and exp(-10)/2. */
 TEST(probabilities_are_those_of_bayes_rule)

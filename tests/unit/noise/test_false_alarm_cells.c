@@ -3,8 +3,6 @@
 #include "effects/effect.h"
 #include "noise/false_alarm_cells.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static struct range_limit limits[] = {{0, 25}, {1, 10}};
 
 static const struct sensor radar = {

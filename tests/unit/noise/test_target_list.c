@@ -7,8 +7,6 @@
 #include "noise/target_list.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 struct list {
     struct arena arena;
     struct frame frame;

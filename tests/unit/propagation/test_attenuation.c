@@ -3,8 +3,6 @@
 #include "base/units.h"
 #include "propagation/attenuation.h"
 
-#define DEGREE (PI / 180)
-
 static double db(double factor)
 {
     return -units_amplitude_db(factor);
@@ -19,7 +17,7 @@ TEST(the_law_is_as_published)
     } rows[] = {{24.125e9, {0.144280, 1.008722}, {0.142002, 0.955221}},
                 {76.5e9, {1.125295, 0.718767}, {1.120821, 0.708211}},
                 {79e9, {1.157913, 0.713496}, {1.154056, 0.703764}}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         struct attenuation_law horizontal =
             attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_HORIZONTAL);
         struct attenuation_law vertical =
@@ -48,7 +46,7 @@ TEST(the_law_is_the_table_of_the_recommendation)
         {80, 1e-4, {1.1704, 0.7115}, {1.1668, 0.7021}},
         {100, 1e-4, {1.3671, 0.6815}, {1.3680, 0.6765}},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         struct attenuation_law horizontal =
             attenuation_rain_law(rows[i].ghz * 1e9, POLARIZATION_HORIZONTAL);
         struct attenuation_law vertical =
@@ -68,7 +66,7 @@ TEST(attenuation_is_as_published)
     } rows[] = {{24.125e9, 25, 3.073520, 100, 0.614704},
                 {76.5e9, 25, 10.954021, 100, 2.190804},
                 {76.5e9, 50, 17.896432, 250, 8.948216}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         struct attenuation_law law =
             attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_VERTICAL);
         double dbpkm = attenuation_rain_dbpkm(law, rows[i].rate_mmph);

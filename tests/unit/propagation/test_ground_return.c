@@ -6,9 +6,6 @@
 #include "propagation/ground_return.h"
 #include "sample.h"
 
-#define DEGREE (PI / 180)
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 TEST(places_are_even_over_the_area)
 {
     assert_near(ground_return_area_m2(0, 10, 2 * PI), 100 * PI, 1e-15);

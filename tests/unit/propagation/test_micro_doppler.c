@@ -5,8 +5,6 @@
 #include "propagation/micro_doppler.h"
 #include "sample.h"
 
-#define DEGREE (PI / 180)
-
 enum { STEPS = 100000 };
 
 static double rate_at(double rolling_mps, double fraction, int step)

@@ -4,9 +4,6 @@
 #include "propagation/reflection.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-#define DEGREE (PI / 180)
-
 static double size(double _Complex reflection)
 {
     return hypot(creal(reflection), cimag(reflection));

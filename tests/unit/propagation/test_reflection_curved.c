@@ -5,8 +5,6 @@
 #include "radar/radar_equation.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static double dbsm(double cross_section_m2)
 {
     return 10 * log10(cross_section_m2);

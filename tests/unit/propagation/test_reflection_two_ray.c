@@ -4,8 +4,6 @@
 #include "propagation/reflection.h"
 #include "sample.h"
 
-#define DEGREE (PI / 180)
-
 static const struct two_ray_road ASPHALT = {{5, 0.25}, 1e-3};
 static const struct two_ray_road SMOOTH = {{5, 0.25}, 0};
 
@@ -40,7 +38,7 @@ TEST(fading_is_as_published)
         {-1, 24.125e9, 5, 11.689836},  {-1, 24.125e9, 15, 3.828826},
         {-1, 24.125e9, 30, 10.998261},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+    for (size_t i = 0; i < COUNT(rows); i++)
         assert_close(point_db(rows[i].reflection, rows[i].carrier_hz, rows[i].distance_m),
                      rows[i].factor_db, 1e-6);
 }
@@ -102,7 +100,7 @@ TEST(reflection_is_fresnels)
                 {5, 0.916676, 0.642440},
                 {20, 0.711851, 0.085697},
                 {90, 0.382432, 0.382432}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         double sine = sin(rows[i].grazing_deg * DEGREE);
         assert_close(size(reflection_road(&SMOOTH, POLARIZATION_HORIZONTAL, 0.004, sine)),
                      rows[i].horizontal, 5.1e-7);
@@ -181,7 +179,7 @@ TEST(the_mean_is_as_published)
     static const struct {
         double reflection, mean_db;
     } rows[] = {{1, 7.781513}, {0.9, 6.898503}, {0.7, 5.051635}, {0.5, 3.143940}, {0, 0}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+    for (size_t i = 0; i < COUNT(rows); i++)
         assert_close(units_amplitude_db(reflection_two_ray_mean_factor(rows[i].reflection)),
                      rows[i].mean_db, 5.1e-7);
 }

@@ -6,9 +6,6 @@
 #include "radar/antenna.h"
 #include "sample.h"
 
-#define DEGREE (PI / 180)
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static const long double PI_LONG = 3.14159265358979323846264338327950288L;
 
 static const struct antenna CENTRE = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_CENTRE};

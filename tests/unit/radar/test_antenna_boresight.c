@@ -5,9 +5,6 @@
 #include "radar/antenna.h"
 #include "sample.h"
 
-#define DEGREE (PI / 180)
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static const struct boresight_error ONE_DEGREE = {.yaw_error_rad = DEGREE};
 
 /* MODEL 14.8: one degree of yaw error puts what is straight ahead aside by this much. */

@@ -3,8 +3,6 @@
 #include "radar/cfar.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 TEST(factors_are_those_of_the_published_formulas)
 {
     static const struct {

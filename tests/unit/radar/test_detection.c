@@ -3,7 +3,6 @@
 #include "base/random.h"
 #include "radar/detection.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define NOISE_THRESHOLD2 9.2103403719761836 /* -ln 1e-4 */
 
 static double amplitude_of(double db)

@@ -33,7 +33,7 @@ TEST(detections_are_as_likely_as_published)
         {FLUCTUATION_SWERLING_3, {0.006564, 0.140198, 0.491042, 0.761637, 0.876107, 0.982573}},
     };
     double threshold = -log(1e-4);
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         int hits[6] = {0};
         for (uint32_t draw = 0; draw < DRAWS; draw++) {
             double power = power_at(rows[i].law, 0, draw);
@@ -58,7 +58,7 @@ TEST(the_printed_probabilities_are_the_closed_forms)
     } rows[] = {{0, 0.010000, 0.006564},  {6, 0.157384, 0.140198},  {10, 0.432876, 0.491042},
                 {13, 0.644307, 0.761637}, {15, 0.754026, 0.876107}, {20, 0.912843, 0.982573}};
     double threshold = -log(1e-4);
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         double chi = pow(10, rows[i].snr_db / 10), a = 1 + chi / 2;
         assert_close(exp(-threshold / (1 + chi)), rows[i].swerling_1, 5.1e-7);
         assert_close(exp(-threshold / a) * (1 + chi / 2 * threshold / (a * a)), rows[i].swerling_3,
@@ -156,7 +156,7 @@ TEST(no_draw_is_beyond_the_extreme_ones)
     };
     static const double extremes[] = {RANDOM_LEAST, 3 * RANDOM_LEAST,     0.25,       0.5,
                                       0.75,         1 - 3 * RANDOM_LEAST, RANDOM_MOST};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         double least = HUGE_VAL, most = 0;
         for (int k = 0; k < 49; k++) {
             double uniform[4] = {extremes[k / 7], extremes[k % 7]};

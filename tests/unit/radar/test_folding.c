@@ -34,7 +34,7 @@ TEST(what_lies_inside_comes_back_bit_by_bit)
         assert_same_bits(folding_range_m(fabs(rate), unambiguous), fabs(rate));
     }
     static const double edges[] = {0.0, -0.0, 0x1p-1074, -0x1p-1074, -24.5, 1e-300};
-    for (size_t i = 0; i < sizeof edges / sizeof edges[0]; i++)
+    for (size_t i = 0; i < COUNT(edges); i++)
         assert_same_bits(folding_range_rate_mps(edges[i], 0, 24.5), edges[i]);
     assert_same_bits(folding_range_rate_mps(nextafter(24.5, 0), 0, 24.5), nextafter(24.5, 0));
     assert_same_bits(folding_range_rate_mps(1e9, 0, (double)INFINITY), 1e9);

@@ -11,7 +11,7 @@ TEST(received_power_is_as_published)
     } rows[] = {{33, 20, 76.5e9, 10, -37.1210},   {33, 20, 76.5e9, 50, -51.1004},
                 {33, 20, 76.5e9, 100, -57.1210},  {20, 13, 24.125e9, 10, -47.0971},
                 {20, 13, 24.125e9, 50, -61.0765}, {20, 13, 24.125e9, 100, -67.0971}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+    for (size_t i = 0; i < COUNT(rows); i++)
         assert_close(interferer_power_dbm(rows[i].eirp_dbm, rows[i].gain_db,
                                           units_wavelength_m(rows[i].carrier_hz), rows[i].range_m),
                      rows[i].power_dbm, 5.1e-5);
@@ -36,7 +36,7 @@ TEST(the_floor_rises_as_published)
     static const struct {
         double hit_share, rise_db;
     } rows[] = {{1, 29.1192}, {0.05, 16.2088}, {0, 0}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         double ratio = interferer_ratio(power_dbm, noise_dbm, overlap, rows[i].hit_share);
         assert_close(units_amplitude_db(interferer_noise_factor(ratio)), rows[i].rise_db, 6e-5);
         assert_near(interferer_noise_factor(ratio), pow(10, rows[i].rise_db / 20), 3e-5);

@@ -26,7 +26,7 @@ static double on_turn(uint64_t item, double x, double y, int64_t turn)
 TEST(a_level_is_standard_normal_at_every_place)
 {
     static const double places[] = {0, 0.1, 0.5, 0.9, 1, 17.3, -2.6, 1e9 + 0.25};
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
+    for (size_t i = 0; i < COUNT(places); i++)
         for (int plane = 0; plane < 2; plane++) {
             double mean = 0, square = 0, fourth = 0;
             for (uint64_t item = 0; item < LINES; item++) {
@@ -52,7 +52,7 @@ TEST(places_are_as_alike_as_weights_overlap)
 {
     static const double apart[] = {0.05, 0.5, 1, 1.5, 2, 5};
     assert_close(correlation(1), 1 / PI, 1e-15);
-    for (size_t i = 0; i < sizeof apart / sizeof apart[0]; i++) {
+    for (size_t i = 0; i < COUNT(apart); i++) {
         double line = 0, plane = 0, both = 0;
         for (uint64_t item = 0; item < LINES; item++) {
             double uniform[4];

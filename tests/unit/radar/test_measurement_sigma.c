@@ -5,9 +5,6 @@
 #include "radar/measurement_sigma.h"
 #include "sample.h"
 
-#define DEGREE (PI / 180)
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static const double CRAMER_RAO = 0.389848401;
 static const double RULE_OF_THUMB = 0.70710678118654752;
 

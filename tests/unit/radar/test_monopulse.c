@@ -7,8 +7,6 @@
 #include "radar/antenna.h"
 #include "radar/monopulse.h"
 
-#define DEGREE (PI / 180)
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define DRAWS 40000
 
 static const struct antenna CENTRE = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_CENTRE};

@@ -6,8 +6,6 @@
 #include "radar/point_response.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static const enum point_response all[] = {POINT_RESPONSE_HANN, POINT_RESPONSE_RECTANGULAR,
                                           POINT_RESPONSE_PULSE};
 
@@ -464,7 +462,7 @@ TEST(level_and_width_are_those_of_a_chirp)
                  {POINT_RESPONSE_RECTANGULAR, 9.3, -18.7},
                  {POINT_RESPONSE_HANN, 4, -2.5},
                  {POINT_RESPONSE_HANN, 9.3, -7.8}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         assert_close(20 * log10(point_response_of_walk(cases[i].window, cases[i].cells).level),
                      cases[i].level_db, 0.35);
     assert_close(2 * (1 + point_response_of_walk(POINT_RESPONSE_HANN, 9.3).widening), 4.75, 0.1);

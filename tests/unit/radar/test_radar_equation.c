@@ -4,8 +4,6 @@
 #include "radar/antenna.h"
 #include "radar/radar_equation.h"
 
-#define DEGREE (PI / 180)
-
 static const struct antenna DIPOLE_PAIR = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
 
 static const struct radar_row ROWS[] = {{1, 1000}, {2, 300}, {5, 100}, {20, 5}};
@@ -48,7 +46,7 @@ TEST(detection_areas_are_those_of_the_paper)
     };
     static const double azimuth_deg[5] = {0, 20, 35, 50, 60};
     struct radar_equation law = paper_law();
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         for (size_t k = 0; k < 5; k++)
             assert_close(range_at(&law, rows[i].ercs, azimuth_deg[k] * DEGREE), rows[i].range_m[k],
                          0.00501);
@@ -137,7 +135,7 @@ TEST(other_exponents_move_the_detection_ranges)
         {1, 30, {7.5, 11.25, 15, 18.75, 22.5, 26.25}},
         {2, 39.3, {19.7, 24.1, 27.8, 31.1, 34.0, 36.8}},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         for (int k = 0; k < 6; k++) {
             struct radar_equation law = paper_law();
             law.exponent = cases[i].exponent;
@@ -212,7 +210,7 @@ TEST(an_ercs_is_the_root_of_a_cross_section_over_ten)
         double ercs, cross_section_m2, dbsm;
     } rows[] = {{0.2, 0.40, -4.0}, {0.3, 0.90, -0.5}, {0.4, 1.6, 2.0}, {0.5, 2.5, 4.0},
                 {0.6, 3.6, 5.6},   {0.7, 4.9, 6.9},   {0.8, 6.4, 8.1}, {1.0, 10, 10}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         assert_near(radar_cross_section_m2(rows[i].ercs), rows[i].cross_section_m2, 1e-15);
         assert_near(radar_ercs(rows[i].cross_section_m2), rows[i].ercs, 1e-15);
         assert_close(10 * log10(radar_cross_section_m2(rows[i].ercs)), rows[i].dbsm, 0.0501);

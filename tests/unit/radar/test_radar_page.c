@@ -12,8 +12,6 @@
 #include "radar/point_response.h"
 #include "radar/radar_equation.h"
 
-#define DEGREE (PI / 180)
-
 static const struct antenna dipoles = {.pattern = ANTENNA_DIPOLE_PAIR};
 
 /* The paper's radar. */

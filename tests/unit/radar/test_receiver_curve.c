@@ -4,8 +4,6 @@
 #include "radar/antenna.h"
 #include "radar/receiver_curve.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* Slopes that rise and fall; 0 is within a gap, at 1.5 dB. */
 static const struct receiver_curve_row ROWS[] = {{-0.4, -12}, {-0.2, 1},  {-0.1, 1},
                                                  {0.1, 2},    {0.15, -3}, {0.5, -3.5}};

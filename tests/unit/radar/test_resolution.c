@@ -80,7 +80,7 @@ TEST(the_border_is_decided_by_the_doubles)
         double leader_m, echo_m;
         size_t cells;
     } cases[] = {{12.55, 12.40, 2}, {12.70, 12.55, 1}, {0.45, 0.30, 2}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct resolution_echo echoes[] = {{cases[i].leader_m, 0, 2, 0, 0},
                                            {cases[i].echo_m, 0, 1, 0, 0}};
         size_t cell[2];
@@ -385,7 +385,7 @@ TEST(weights_may_be_huge_or_tiny)
         {{1e300, 1e-300, 1e-300}, 10},
         {{1.7e308, 1.7e308, 1e308}, (17 * 10 + 17 * 11 + 10 * 12) / 44.0},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         assert_near(resolution_mean((double[]){10, 11, 12}, cases[i].weights, 3), cases[i].mean,
                     1e-15);
 }

@@ -407,7 +407,7 @@ TEST(neighbours_are_those_within_the_radius)
         text_format(&text, "%02d,0,0,car,%.17g,%.17g,0,0\n", i, places[i].x, places[i].y);
     }
     text_add(&text, "", 1);
-    for (size_t r = 0; r < sizeof radii_m / sizeof radii_m[0]; r++) {
+    for (size_t r = 0; r < COUNT(radii_m); r++) {
         struct recording_options options;
         options_for(&options, "all");
         options.radius_m = radii_m[r];
@@ -467,7 +467,7 @@ TEST(damaged_recordings_are_refused)
          "timestep_time, vehicle_id, vehicle_x, vehicle_angle"},
         {HEADER, "--ego: \"1\" is no track_id"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct recording_options options;
         struct played *played = play(*state, cases[i].text, options_for(&options, "1"));
         const char *text = strstr(played->diag.text, "tracks.csv: ");

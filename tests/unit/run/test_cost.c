@@ -203,7 +203,7 @@ TEST(the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found)
     set_chain(chain_at(&bench, 1), 10, 0.25);
     set_chain(chain_at(&bench, 2), 40, 0.01);
     set_chain(chain_at(&bench, 3), 90, 0.02);
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         const struct tried_chain *found = cost_search(&bench.cost, cases[i].bound, cases[i].most);
         assert_non_null(found);
         assert_string_equal(found->row.chain, cases[i].found);

@@ -9,9 +9,6 @@
 #include "documents/suite_file.h"
 #include "run/datasheet.h"
 
-#define DEGREE (PI / 180)
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* A steady sensor of the paper's antenna without noise. */
 static struct sensor quiet_sensor(void)
 {

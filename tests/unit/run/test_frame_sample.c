@@ -36,7 +36,7 @@ TEST(exactly_as_many_frames_are_kept_as_are_asked_for)
         int frames, most, kept;
     } cases[] = {{201, 64, 64}, {64, 64, 64}, {63, 64, 63}, {127, 64, 64},  {128, 64, 64},
                  {5000, 7, 7},  {9, 1, 1},    {1, 1, 1},    {300, 299, 299}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct arena arena = {0};
         struct frame_sample sample = sample_of(cases[i].frames, 1, cases[i].most, &arena);
         frame_sample_thin(&sample, cases[i].most);

@@ -6,8 +6,6 @@
 #include "run/stage.h"
 #include "run/tool.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 struct choice {
     const char *where;
     double radius_m;

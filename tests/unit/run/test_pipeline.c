@@ -9,8 +9,6 @@
 #include "run/pipeline.h"
 #include "sample.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static int parse(const char *text, struct pipeline *pipeline, struct arena *arena,
                  struct diag *diag)
 {

@@ -70,7 +70,7 @@ TEST(programs_out_of_place_are_refused)
         {"./glint-noise", "glint: -c:1: ./glint-noise is no stage or tool of this build (did you "
                           "mean glint-noise?); run it with bash\n"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         expect_refused(cases[i][0], 64, cases[i][1]);
 }
 

@@ -16,7 +16,7 @@ TEST(the_line_tells_share_rate_and_time_left)
         {20, 2, 0.01, "[                        ]   1 %, 10 frames/s, 0:03:18 left"},
         {3600, 3600, 0.2, "[####                    ]  20 %, 1.0 frames/s, 4:00:00 left"},
     };
-    for (size_t i = 0; i < sizeof moments / sizeof moments[0]; i++) {
+    for (size_t i = 0; i < COUNT(moments); i++) {
         struct progress progress = {.unit = "frames", .count = moments[i].count};
         char line[100];
         progress_write(&progress, moments[i].elapsed_s, moments[i].share, line, sizeof line);

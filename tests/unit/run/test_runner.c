@@ -6,8 +6,6 @@
 #include "run/extraction.h"
 #include "run_bench.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static void begin(struct runner *runner, const struct stage *stage, size_t count,
                   const char *const *words)
 {

@@ -156,7 +156,7 @@ static int write_schemas(void **state)
 static int remove_schemas(void **state)
 {
     struct scratch *scratch = *state;
-    for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
+    for (size_t i = 0; i < COUNT(written); i++) {
         char path[128];
         snprintf(path, sizeof path, "%s/%s.json", scratch->directory, written[i]);
         assert_int_equal(unlink(path), 0);
@@ -183,7 +183,7 @@ TEST(every_schema_says_what_its_field_table_says)
                    {"scenario", &scenario_record},
                    {"sensors", &suite_record},
                    {"vehicle", &vehicle_record}};
-    for (size_t i = 0; i < sizeof schemas / sizeof schemas[0]; i++) {
+    for (size_t i = 0; i < COUNT(schemas); i++) {
         json_t *schema = schema_of(schemas[i].name, *state);
         assert_string_equal(word(schema, "$schema"),
                             "https://json-schema.org/draft/2020-12/schema");
@@ -218,7 +218,7 @@ TEST(a_suite_that_extends_another_needs_nothing_but_its_name)
 /* `make schemas` writes them; they are kept so that a change shows. */
 TEST(the_files_in_schemas_are_up_to_date)
 {
-    for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
+    for (size_t i = 0; i < COUNT(written); i++) {
         char path[64];
         snprintf(path, sizeof path, "schemas/%s.json", written[i]);
         json_t *file = json_load_file(path, 0, NULL), *printed = schema_of(written[i], *state);

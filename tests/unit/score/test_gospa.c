@@ -93,7 +93,7 @@ TEST(ten_targets_give_the_figures_of_the_definitions)
         {0, 9, 10, 10, 0.632, 2.000},  {0, 5, 10, 5, 1.414, 3.162}, {0, 0, 0, 1, 2.000, 1.414},
         {0, 0, 0, 10, 2.000, 4.472},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < COUNT(rows); i++) {
         struct gospa gospa =
             gospa_of(rows[i].squares, rows[i].pairs, rows[i].truths, rows[i].listed, 2);
         assert_close(gospa.value, rows[i].gospa, 5e-4);

@@ -72,7 +72,7 @@ TEST(classes_are_whole_words)
     } cases[] = {{"truck", true},   {"car,truck", true},  {"truck,car", true},
                  {"trucks", false}, {"tru", false},       {"car", false},
                  {",", false},      {"a,,truck,b", true}, {"car,trucks", false}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         assert_int_equal(track_score_counts(&frame, &objects[1], TRACK_TRUTH_ALL, cases[i].classes),
                          cases[i].counts);
 }
@@ -203,7 +203,7 @@ TEST(a_covariance_is_positive_definite)
         int status;
     } cases[] = {{1, 0, 1, 0},  {4, 1.9, 1, 0}, {1e-9, 0, 1e9, 0}, {4, 2, 1, -1}, {4, -2, 1, -1},
                  {0, 0, 1, -1}, {1, 0, 0, -1},  {0, 0, 0, -1},     {4, 3, 1, -1}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct arena arena = {0};
         struct diag diag = {0};
         struct track track = {.id = "1",

@@ -6,8 +6,6 @@
 #include "radar/monopulse.h"
 #include "radar/point_response.h"
 
-#define DEGREE (PI / 180)
-
 /* The power of two echoes in quadrature, ratio and d bins apart. */
 static double power(enum point_response response, double d, double ratio, double at)
 {

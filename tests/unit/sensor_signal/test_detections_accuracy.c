@@ -4,8 +4,6 @@
 #include "sensor_signal/detections.h"
 #include "support/array_sensor.h"
 
-#define DEGREE (PI / 180)
-
 static struct arena arena;
 
 /* A radar of cells of 2 m and 0.25 m/s that sees 100 m and 90 degrees. */

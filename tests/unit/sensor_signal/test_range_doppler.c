@@ -111,7 +111,7 @@ TEST(a_close_pair_has_its_peak_at_the_published_place)
     } cases[] = {{0.5, 0, 0.333333}, {0.5, 90, 0.6},      {0.5, 150, 1.953254}, {0.5, 180, 3},
                  {0.9, 0, 0.052632}, {0.9, 90, 0.104972}, {0.9, 150, 0.756507}};
     const double half = 0.005;
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct sky sky;
         struct range_doppler_peak *peaks;
         begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);

@@ -7,7 +7,6 @@
 #include "support/array_sensor.h"
 
 #define PI 3.14159265358979323846
-#define DEGREE (PI / 180)
 
 enum { SAMPLES = 32, REPETITIONS = 16 };
 
@@ -330,7 +329,7 @@ TEST(noise_has_the_sensors_rms_after_windows_and_transforms)
                  {WAVEFORM_CHIRP, POINT_RESPONSE_RECTANGULAR, 0},
                  {WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 4},
                  {WAVEFORM_PULSE, POINT_RESPONSE_HANN, 0}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct bench bench;
         double power = 0;
         size_t count = 0;

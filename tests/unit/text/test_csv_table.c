@@ -43,7 +43,7 @@ TEST(every_spelling_of_a_table_is_the_same_table)
         "a , b\n 1,\t2\n3 ,4 \n",
         "\"a\",\"b\"\n\"1\",2\n3,\"4\"\n",
     };
-    for (size_t i = 0; i < sizeof spellings / sizeof spellings[0]; i++) {
+    for (size_t i = 0; i < COUNT(spellings); i++) {
         struct csv_table table = table_of(*state, spellings[i]);
         assert_int_equal(table.columns, 2);
         assert_int_equal(table.rows, 2);
@@ -174,7 +174,7 @@ TEST(a_table_of_numbers_has_the_names_that_it_lacks)
         {"7,1,2\n8,2,5\n", "2: 7=8 1=2\n"},
         {"7 1\n8\n", "1: id=7 x=1\nrow 2: 1 cell; expected 2 as in the header"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         char rows[256];
         rows_of(*state, cases[i].text, &other_form, rows, sizeof rows);
         assert_string_equal(rows, cases[i].rows);
@@ -221,7 +221,7 @@ TEST(rows_have_the_numbers_that_a_spreadsheet_shows)
         {"\n\na,b\n \t\n1,2\n3,4\n", {5, 6}},
         {"a,b\n\"1\n\n\n\",2\n3,4\n", {2, 3}},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct csv_table table = table_of(*state, cases[i].text);
         assert_int_equal(table.rows, 2);
         assert_int_equal(table.numbers[0], cases[i].numbers[0]);
@@ -249,7 +249,7 @@ TEST(damaged_tables_are_refused)
         {"a,b\n\n\"1\" 2,3\n", "row 3: " QUOTE_MESSAGE},
         {"a,b\n1\n\"1\" 2,3\n", "row 2: 1 cell; expected 2 as in the header"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < COUNT(cases); i++) {
         struct csv_table table;
         struct diag diag;
         assert_int_equal(read_bytes(*state, cases[i].text, strlen(cases[i].text), &table, &diag),
@@ -268,7 +268,7 @@ TEST(a_table_that_is_cut_is_refused)
         "id;x\n1;1.85\n33;\n",
         "id x\n1  1.85\n33 4\n",
     };
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+    for (size_t i = 0; i < COUNT(texts); i++)
         for (size_t cut = 1; texts[i][cut - 1] != '\0'; cut++) {
             char part[64], rows[256];
             snprintf(part, sizeof part, "%.*s", (int)cut, texts[i]);
@@ -331,7 +331,7 @@ TEST(numbers_are_read_to_the_last_digit)
     static const double values[] = {0,   -0.0, 12.5,         -7.25e-3,
                                     100, 0.1,  5335123.4567, 0x0.fffffffffffffp-1022};
     struct diag diag = {0};
-    assert_int_equal(table.rows, sizeof values / sizeof values[0]);
+    assert_int_equal(table.rows, COUNT(values));
     for (size_t i = 0; i < table.rows; i++) {
         double value;
         assert_int_equal(csv_table_number(&table, i, 0, -1e9, 1e9, &value, &diag), 0);
@@ -345,7 +345,7 @@ TEST(cells_that_are_not_numbers_are_refused)
                                         "inf",    "-inf",   "Infinity", "0x10",   "0x1p3", "1e",
                                         "1.",     ".5",     "+1",       "-",      "--1",   "1 2",
                                         "\" 1\"", "\"1 \"", "\"1,5\"",  "1e5000", "007",   "1_000"};
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++) {
+    for (size_t i = 0; i < COUNT(cells); i++) {
         char text[64], message[96], bare[32] = "";
         snprintf(text, sizeof text, "id,x\n7,%s\n", cells[i]);
         struct csv_table table = table_of(*state, text);

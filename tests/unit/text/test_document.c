@@ -11,8 +11,6 @@
 #include "text/document.h"
 #include "traffic/scenario.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 struct scratch {
     char directory[64];
     char path[128];

@@ -143,7 +143,7 @@ TEST(a_wrong_distribution_is_refused_by_its_member)
         "{\"choice\":[1],\"weights\":[1]}",
         "{\"uniform\":[1,2],\"a\":1}",
     };
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    for (size_t i = 0; i < COUNT(wrong); i++) {
         char line[128];
         snprintf(line, sizeof line, "{\"a\":[{\"b\":%s}]}", wrong[i]);
         bench->diag = (struct diag){0};

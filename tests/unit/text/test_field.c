@@ -7,8 +7,6 @@
 #include "text/record_read.h"
 #include "text/record_write.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 enum colour { RED, GREEN, BLUE };
 static const char *const colours[] = {"red", "green", "blue", NULL};
 

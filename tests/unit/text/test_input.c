@@ -14,8 +14,6 @@
 #include "sample.h"
 #include "text/input.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 struct scratch {
     char directory[64];
     char path[96];

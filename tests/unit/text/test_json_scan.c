@@ -9,8 +9,6 @@
 #include "sample.h"
 #include "text/json_scan.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* True if the text is one value with nothing but white space around it. */
 static bool is_json(const char *text, size_t length, struct json_string *bytes)
 {

@@ -12,7 +12,7 @@ SCRATCH_TEST(a_path_may_stand_for_a_descriptor)
                  {"/dev/fd/", -1},   {"/proc/self/fd/0", 0},  {"/proc/thread-self/fd/7", 7},
                  {"/dev/fd/1a", -1}, {"/dev/fd/1/more", -1},  {"dev/fd/1", -1},
                  {"", -1},           {"/dev/stdout.txt", -1}, {"/dev/null", -1}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < COUNT(cases); i++)
         assert_int_equal(path_descriptor(cases[i].path), cases[i].descriptor);
 }
 

@@ -10,8 +10,6 @@
 #include "text/record_read.h"
 #include "traffic/road_traffic.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 struct bench {
     struct arena arena, scratch;
     struct diag diag;

@@ -2,8 +2,6 @@
 
 #include "traffic/road_traffic.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* Table I of the publication. */
 static const struct road_driver PUBLISHED = {
     .speed_mps = 120 / 3.6,

@@ -6,8 +6,6 @@
 #include "text/record_write.h"
 #include "traffic/scenario.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static struct actor driver(struct segment *segments, size_t count)
 {
     struct actor actor = {.id = "a", .class = "car"};
