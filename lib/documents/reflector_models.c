@@ -1,5 +1,7 @@
 #include "documents/reflector_models.h"
 
+#include <assert.h>
+
 #include "base/elementary.h"
 #include "base/units.h"
 #include "radar/radar_equation.h"
@@ -89,6 +91,7 @@ static struct post_row row_of(const struct face *face, double oblique_dbsm, doub
 void reflector_models_of_contour(const struct contour *contour, double length_m, double width_m,
                                  double spacing_m, struct reflector_set *set, struct arena *arena)
 {
+    assert(length_m >= 0.01 && width_m >= 0.01 && spacing_m >= 0.02);
     const struct face faces[] = {
         {"front", 0.5, -0.5, 0.5, 0.5, 0, width_m, contour->front_dbsm},
         {"left", 0.5, 0.5, -0.5, 0.5, PI / 2, length_m, contour->side_dbsm},

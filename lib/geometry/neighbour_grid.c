@@ -1,5 +1,7 @@
 #include "geometry/neighbour_grid.h"
 
+#include <assert.h>
+
 #include "base/hash.h"
 #include "base/sort.h"
 
@@ -24,6 +26,7 @@ static uint32_t *head_of(const struct neighbour_grid *grid, struct cell cell)
 struct neighbour_grid neighbour_grid_of(const struct vec2 *places, size_t count, double radius_m,
                                         struct arena *arena)
 {
+    assert(count <= INT32_MAX);
     struct neighbour_grid grid = {.places = places, .radius_m = radius_m, .room = 64};
     grid.cell_m = radius_m > 1 ? radius_m : 1;
     while (grid.room < 2 * count)

@@ -1,5 +1,7 @@
 #include "propagation/attenuation.h"
 
+#include <assert.h>
+
 #include "base/elementary.h"
 #include "base/units.h"
 
@@ -60,6 +62,7 @@ static double curve_at(const struct curve *curve, double lg_ghz)
 
 struct attenuation_law attenuation_rain_law(double carrier_hz, enum polarization polarization)
 {
+    assert(carrier_hz >= 1e9 && carrier_hz <= 1e12);
     double lg_ghz = elementary_log10(carrier_hz / 1e9);
     return (struct attenuation_law){
         elementary_pow(10, curve_at(&lg_k_curves[polarization], lg_ghz)),
@@ -68,12 +71,14 @@ struct attenuation_law attenuation_rain_law(double carrier_hz, enum polarization
 
 double attenuation_rain_dbpkm(struct attenuation_law law, double rate_mmph)
 {
+    assert(rate_mmph >= 0);
     return law.k * elementary_pow(rate_mmph, law.alpha);
 }
 
 /* The names are those of ITU-R P.840. */
 double attenuation_fog_dbpkm(double carrier_hz, double temperature_c, double water_gpm3)
 {
+    assert(water_gpm3 >= 0);
     double ghz = carrier_hz / 1e9;
     double theta_less_1 = 300 / (273.15 + temperature_c) - 1;
     double epsilon_0 = 77.66 + 103.3 * theta_less_1, epsilon_1 = 0.0671 * epsilon_0;
@@ -91,6 +96,7 @@ double attenuation_fog_dbpkm(double carrier_hz, double temperature_c, double wat
 /* Scattering by flakes smaller than the wave, and absorption (Gunn and East 1954). */
 double attenuation_snow_dbpkm(double carrier_hz, double rate_mmph)
 {
+    assert(rate_mmph >= 0);
     double wave_cm = 100 * units_wavelength_m(carrier_hz), square = wave_cm * wave_cm;
     double scattered = 0.00349 * elementary_pow(rate_mmph, 1.6) / (square * square);
     return scattered + 0.00224 * rate_mmph / wave_cm;

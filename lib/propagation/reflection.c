@@ -1,5 +1,6 @@
 #include "propagation/reflection.h"
 
+#include <assert.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"
@@ -23,6 +24,7 @@ static const struct {
 
 struct material_permittivity reflection_permittivity(enum material material, double carrier_hz)
 {
+    assert(carrier_hz > 0);
     double carrier_ghz = carrier_hz / 1e9;
     double conductivity_spm =
         table[material].conductivity_spm * elementary_pow(carrier_ghz, table[material].exponent);

@@ -1,5 +1,7 @@
 #include "propagation/roadside.h"
 
+#include <assert.h>
+
 #include "base/hash.h"
 #include "base/units.h"
 #include "radar/level.h"
@@ -74,6 +76,7 @@ void roadside_shift(struct roadside_strip *strip, struct vec2 by_m)
 
 const char *roadside_name(const struct roadside_strip *strip, size_t number, struct arena *arena)
 {
+    assert(number >= 1);
     if (strip->id != NULL)
         return strip->id;
     return arena_format(arena, "%s_%zu", roadside_kinds[strip->kind], number);

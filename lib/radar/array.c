@@ -1,5 +1,7 @@
 #include "radar/array.h"
 
+#include <assert.h>
+
 #include "base/elementary.h"
 #include "base/root.h"
 #include "base/units.h"
@@ -174,6 +176,8 @@ static void set_places(struct array *array, const struct array_layout *layout)
 
 struct array array_of(const struct array_layout *layout)
 {
+    assert(layout->transmit.count >= 1 && layout->receive.count >= 1);
+    assert(layout->transmit.count * layout->receive.count <= ARRAY_MOST_ELEMENTS);
     struct array array = {.count = 0};
     set_places(&array, layout);
     set_weights(&array, layout->taper);

@@ -1,5 +1,6 @@
 #include "radar/detection.h"
 
+#include <assert.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"
@@ -150,6 +151,7 @@ static double levelled_probability(const struct detection_law *detection,
 
 double detection_probability(const struct detection_law *detection, double amplitude)
 {
+    assert(amplitude > 0);
     double sigma_db = detection->fluctuation_sigma_db;
     struct power_law echo = {detection->fluctuation, level_mean_db(sigma_db), sigma_db, CUT};
     struct power_law body = {FLUCTUATION_LOG_NORMAL, detection->level_mean_db,
@@ -175,6 +177,7 @@ static bool is_detected_less(const void *of, double amplitude_db)
 
 double detection_amplitude(const struct detection_law *detection, double probability)
 {
+    assert(probability > 0 && probability < 1);
     const struct amplitude_search search = {detection, probability};
     double highest = elementary_max(detection->threshold, detection->final_threshold);
     double highest_db = units_amplitude_db(highest);

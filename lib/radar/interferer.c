@@ -1,5 +1,7 @@
 #include "radar/interferer.h"
 
+#include <assert.h>
+
 #include "base/elementary.h"
 #include "base/units.h"
 
@@ -8,17 +10,20 @@
 
 double interferer_noise_dbm(double bandwidth_hz, double noise_figure_db)
 {
+    assert(bandwidth_hz > 0);
     double milliwatts = 1e3 * BOLTZMANN_JPK * REFERENCE_K * bandwidth_hz;
     return 10 * elementary_log10(milliwatts) + noise_figure_db;
 }
 
 double interferer_power_dbm(double eirp_dbm, double gain_db, double wavelength_m, double range_m)
 {
+    assert(wavelength_m > 0 && range_m > 0);
     return eirp_dbm + gain_db + units_amplitude_db(wavelength_m / (4 * PI * range_m));
 }
 
 double interferer_overlap(double band_hz, double slope_difference_hzps, double chirp_s)
 {
+    assert(band_hz > 0 && chirp_s > 0);
     return elementary_min(band_hz / (fabs(slope_difference_hzps) * chirp_s), 1);
 }
 

@@ -1,5 +1,6 @@
 #include "traffic/random_traffic.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -217,6 +218,7 @@ static struct object draw_ego(struct random_sequence *sequence, double top_mps, 
 
 void random_traffic_fill(const struct random_traffic *traffic, int64_t number, struct frame *frame)
 {
+    assert(number >= 0);
     const struct random_traffic_density *density = traffic->density;
     struct random_address address = random_traffic_address(traffic, frame->seed, number);
     struct random_sequence sequence = random_sequence_at(address, RANDOM_TRAFFIC);

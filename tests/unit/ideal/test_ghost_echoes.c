@@ -29,6 +29,7 @@ static void clear_scene(struct scene *scene)
         (struct frame){.scene = "s", .ego = "e", .time_s = 10, .sections = CARRY_ACCOUNT};
     scene->frame.arena = &scene->arena;
     scene->sensor = (struct sensor){.name = "front",
+                                    .carrier_hz = 77e9,
                                     .range_min_m = 0.1,
                                     .range_max_m = 100,
                                     .field_of_view_rad = PI,
@@ -349,8 +350,11 @@ SCENE_TEST(limits_hold_for_the_ghost_and_its_last_leg)
             fail_msg("case %zu has the paths %x", i, paths_of(scene));
     }
     /* The antenna has no pattern behind the sensor. */
-    scene->sensor =
-        (struct sensor){.name = "front", .range_max_m = 100, .field_of_view_rad = PI, .bounces = 3};
+    scene->sensor = (struct sensor){.name = "front",
+                                    .carrier_hz = 77e9,
+                                    .range_max_m = 100,
+                                    .field_of_view_rad = PI,
+                                    .bounces = 3};
     scene->sensor.mount_yaw_rad = 100 * DEGREE;
     assert_int_equal(paths_of(scene), BOTH);
 }
