@@ -21,6 +21,9 @@ import tempfile
 import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(ROOT, "tests", "support"))
+from sizes import quick  # noqa: E402
+
 CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
 # Streams, and the options with which glint-check recomputes their labels.
 SOUND = [
@@ -33,7 +36,7 @@ SOUND = [
      "reflectors | glint-ideal --sensors corner77-uncompensated | glint-sensor | glint-noise", ""),
 ]
 PLANTED = "glint-traffic side-crossing | " + CHAIN.format("srr24-pair --sections account,visibility")
-FLIPS = 300
+FLIPS = quick(100, 300)
 faults, checks = [], 0
 
 

@@ -20,6 +20,7 @@ sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.append(os.path.join(ROOT, "tests", "support"))
 import suites  # noqa: E402
+from sizes import quick  # noqa: E402
 
 PATIENCE_S = 300
 def without_distributions(member):
@@ -277,7 +278,7 @@ def one(bench, number, seed):
 def main():
     if len(sys.argv) not in (2, 3, 4):
         sys.exit(__doc__)
-    cases, seed = [int(word) for word in sys.argv[2:] + ["800", "1"][len(sys.argv) - 2:]]
+    cases, seed = [int(word) for word in sys.argv[2:] + [str(quick(300, 800)), "1"][len(sys.argv) - 2:]]
     ends, faults = {}, []
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(folder, os.path.abspath(sys.argv[1]))

@@ -11,12 +11,15 @@ import json
 import math
 import subprocess
 import sys
+from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from model import ego, sensor, suite_of, thing  # noqa: E402
+from sizes import quick  # noqa: E402
 
-DRAWS = 20000
+DRAWS = quick(6000, 20000)
 THRESHOLD = 10 ** (6 / 20)
 QUIET = {"pointer_sigma": 0, "range_sigma_m": 0, "range_rate_sigma_mps": 0, "final_threshold": False}
 PLACE = ("range_m", "azimuth_rad", "range_rate_mps")

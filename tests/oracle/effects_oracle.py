@@ -16,10 +16,12 @@ import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 import oracle  # noqa: E402
 import oracle_effects  # noqa: E402
 import random_scenes  # noqa: E402
+from sizes import quick  # noqa: E402
 
 QUIET = ["angle_noise", "range_noise", "false_alarms", "fluctuation", "level", "wheels", "limbs", "clutter", "coherence"]
 EFFECTS_OFF = [[], ["diffraction"], ["elevation", "range_migration"], ["height", "curvature"], ["ghosts", "latency"],
@@ -315,7 +317,7 @@ CLEARANCES = {"car": 0.15, "van": 0.25, "truck": 0.9, "bus": 0.3, "articulated_t
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    frames = int(sys.argv[2]) if len(sys.argv) == 3 else 6
+    frames = int(sys.argv[2]) if len(sys.argv) == 3 else quick(2, 6)
     with tempfile.TemporaryDirectory() as scratch:
         bench = model.Bench(sys.argv[1], scratch)
         for title, document in suites():

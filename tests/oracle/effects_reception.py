@@ -10,13 +10,16 @@ import json
 import math
 import subprocess
 import sys
+from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from effects_noise import QUIET, THRESHOLD, check_even, check_share, frames_of, targets_of  # noqa: E402
 from model import ego, sensor, suite_of, thing  # noqa: E402
+from sizes import quick  # noqa: E402
 
-FRAMES = 12000
+FRAMES = quick(5000, 12000)
 C_MPS = 299792458
 
 

@@ -10,14 +10,17 @@ import json
 import math
 import subprocess
 import sys
+from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from model import ROOT, ego, everywhere, sensor, suite_of, thing  # noqa: E402
+from sizes import quick  # noqa: E402
 
 LIGHT_MPS = 299792458.0
 APART = "all,-merging,-threshold"
-DRAWS = 6000
+DRAWS = quick(3000, 6000)
 OURS = ["wheels", "limbs", "clutter", "two_ray"]
 FLAT = "azimuth_rad,sum,delta\n-1.57,1,-1\n1.57,1,1\n"
 GAZE = {"antenna_pattern": "table", "antenna_table": "flat.csv", "phase_reference": "centre",

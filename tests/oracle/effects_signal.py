@@ -15,15 +15,17 @@ import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from effects_noise import QUIET, frames_of, rms  # noqa: E402
 from model import ego, sensor, suite_of, thing  # noqa: E402
+from sizes import quick  # noqa: E402
 
 CRAMER_RAO = 0.389848401
 SNR = 100.0  # signal to noise in a cell, after windows and transforms: 20 dB
 BINS = 32  # of range
 RATES = 64
-DRAWS = 1200
+DRAWS = quick(700, 1200)
 PLAIN = "glint-sensor | glint-noise-none"
 SIGNAL = "glint-sensor-signal"
 CELL_M, CELL_MPS = 1.0, 0.25
@@ -268,9 +270,9 @@ def lost(bench):
 
 
 def shipped(bench):
-    """Every shipped suite with a signal gives the same bytes fused, piped and in pieces."""
+    """Every shipped suite with a signal (in the quick run, a small one) gives the same bytes fused, piped and in pieces."""
     root = Path(__file__).resolve().parents[2]
-    for suite in sorted((root / "data/sensors").glob("*-signal*.json")):
+    for suite in sorted((root / "data/sensors").glob(quick("*-signal-small.json", "*-signal*.json"))):
         source = f"glint-traffic {root}/data/scenarios/cut-in.json | glint-extract | glint-ideal --sensors {suite} --sections account"
         frames = 2 if "large" in suite.stem else 12
         piped = subprocess.run(["bash", "-c", f"{source} | head -{frames} >{bench.scratch}/echoes.jsonl; cd {bench.scratch};"

@@ -14,15 +14,19 @@ import random
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import data_sheet  # noqa: E402
 import model  # noqa: E402
 from effects_noise import frames_of, listen, rms  # noqa: E402
+from sizes import quick  # noqa: E402
+from suites import whole  # noqa: E402
 
 SCRIPT = model.ROOT / "scripts" / "make-radar"
 PLAIN = {"range_max_m": 150, "view_half_width_deg": 30, "range_resolution_m": 1, "speed_resolution_mps": 0.2}
-DRAWS = 1500
+DRAWS = quick(600, 1500)
 
 
 def shipped_suites():
@@ -345,7 +349,7 @@ def random_sheets(bench):
     generator, accepted = random.Random(37), 0
     suites = shipped_suites()[::3]
     for path in suites:
-        sheet = random_sheet(generator, path.stem, json.loads(path.read_text())["sensors"])
+        sheet = random_sheet(generator, path.stem, whole(path.stem)["sensors"])
         out = bench.scratch / "made.json"
         out.unlink(missing_ok=True)
         done, out = made(bench, sheet)

@@ -16,8 +16,10 @@ from itertools import combinations
 from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 import oracle  # noqa: E402
+from sizes import quick  # noqa: E402
 
 DENSITIES = ["sparse", "medium", "dense", "adversarial"]
 SUITES = ["srr24-pair-every-frame", "lrr77-every-frame", "corner77-every-frame"]
@@ -168,7 +170,7 @@ def check_oracle(bench):
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    frames = int(sys.argv[2]) if len(sys.argv) == 3 else 2000
+    frames = int(sys.argv[2]) if len(sys.argv) == 3 else quick(600, 2000)
     with tempfile.TemporaryDirectory() as scratch:
         bench = model.Bench(sys.argv[1], scratch)
         check_shards(bench)
