@@ -22,7 +22,7 @@ import data_sheet  # noqa: E402
 import model  # noqa: E402
 from effects_noise import frames_of, listen, rms  # noqa: E402
 from sizes import quick  # noqa: E402
-from suites import whole  # noqa: E402
+from suites import whole as whole_suite  # noqa: E402
 
 SCRIPT = model.ROOT / "scripts" / "make-radar"
 PLAIN = {"range_max_m": 150, "view_half_width_deg": 30, "range_resolution_m": 1, "speed_resolution_mps": 0.2}
@@ -349,7 +349,7 @@ def random_sheets(bench):
     generator, accepted = random.Random(37), 0
     suites = shipped_suites()[::3]
     for path in suites:
-        sheet = random_sheet(generator, path.stem, whole(path.stem)["sensors"])
+        sheet = random_sheet(generator, path.stem, whole_suite(path.stem)["sensors"])
         out = bench.scratch / "made.json"
         out.unlink(missing_ok=True)
         done, out = made(bench, sheet)
