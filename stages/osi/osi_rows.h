@@ -7,4 +7,4 @@
  * id of the host vehicle in the first message, or NULL; format is NULL after a message. Ids and
  * classes of a trace of glint-osi are glint's own. */
 struct recorded_reader osi_rows_open(struct input *input, bool rear_axle, const char **host,
-                                         struct arena *arena, struct diag *diag);
+                                     struct arena *arena, struct diag *diag);

@@ -1,6 +1,6 @@
 /* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs, or as a table. */
-#include "sumo_rows.h"
 #include "run/recording_source.h"
+#include "sumo_rows.h"
 #include "sumo_types.h"
 
 struct traffic_sumo {
