@@ -36,7 +36,7 @@ static int check_output(struct runner *runner)
     if (runner_output_ends(runner, ".svg"))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--output: a page is HTML, expected .html; " PICTURES);
-    return runner_require_ending(runner, (const char *const[]){".html", NULL});
+    return runner_require_ending(runner, ".html");
 }
 
 static int view_start(void *state, struct runner *runner)

@@ -345,26 +345,18 @@ bool runner_output_ends(const struct runner *runner, const char *ending)
     return length > end && strncasecmp(path + length - end, ending, end) == 0;
 }
 
-int runner_require_ending(struct runner *runner, const char *const *endings)
+int runner_require_ending(struct runner *runner, const char *ending)
 {
     const char *path = runner->common.output != NULL ? runner->common.output : "";
     const char *name = strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path;
     size_t length = plain_length(name);
-    bool known = length < 2 || memchr(name + 1, '.', length - 1) == NULL;
-    struct text expected = {0};
-    for (size_t i = 0; endings[i] != NULL; i++) {
-        known = known || runner_output_ends(runner, endings[i]);
-        text_format(&expected, i > 0 ? ", %s" : "%s", endings[i]);
-    }
-    text_add(&expected, "", 1);
-    if (!known)
-        diag_fail(
-            &runner->diag, DIAG_USAGE,
-            "--output: the ending of \"%s\" is unknown; expected one of %s, with .gz behind it "
-            "or without",
-            path, expected.bytes);
-    text_free(&expected);
-    return known ? 0 : -1;
+    bool has_ending = length > 1 && memchr(name + 1, '.', length - 1) != NULL;
+    if (!has_ending || runner_output_ends(runner, ending))
+        return 0;
+    return diag_fail(&runner->diag, DIAG_USAGE,
+                     "--output: the ending of \"%s\" is unknown; expected %s, with .gz behind it "
+                     "or without",
+                     path, ending);
 }
 
 bool runner_output_is_terminal(const struct runner *runner)

@@ -119,9 +119,9 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
 /* True if the name that --output gives ends in this, or in this and .gz, in letters of any case. */
 bool runner_output_ends(const struct runner *runner, const char *ending);
 
-/* Refuses (64) a name that --output gives if it has an ending, and none of these, with .gz behind
- * it or without. The list ends with NULL. */
-int runner_require_ending(struct runner *runner, const char *const *endings);
+/* Refuses (64) a name that --output gives if it has another ending than this, with .gz behind it or
+ * without. */
+int runner_require_ending(struct runner *runner, const char *ending);
 
 /* True if nothing is given by --output, and standard output is a terminal. */
 bool runner_output_is_terminal(const struct runner *runner);
