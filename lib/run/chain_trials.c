@@ -96,13 +96,20 @@ static void weigh_scans(struct chain_trials *trials)
     }
 }
 
+static int run_frames(struct chain_trials *trials, uint64_t first)
+{
+    for (size_t i = 0; i < trials->sample->list.count; i++)
+        if (run_seeds(trials, &trials->sample->list.items[i], first) != 0)
+            return -1;
+    progress_end(&trials->progress);
+    return 0;
+}
+
 int chain_trials_begin(struct chain_trials *trials, struct tried_chain *reference)
 {
     begin_pass(trials, &reference, 1, TRIAL_ALONE);
-    for (size_t i = 0; i < trials->sample->list.count; i++)
-        if (run_seeds(trials, &trials->sample->list.items[i], 1) != 0)
-            return -1;
-    progress_end(&trials->progress);
+    if (run_frames(trials, 1) != 0)
+        return -1;
     if (trials->scans.count == 0)
         return diag_fail(runner_diag(trials->bench->runner), DIAG_DATA,
                          "no sensor of the suite measures in these frames");
@@ -219,6 +226,13 @@ int chain_trials_run(struct chain_trials *trials, const struct tried_chains *cha
         chains->list.items[i]->row.targets_per_scan /= (double)(SEEDS * trials->scans.count);
     }
     return 0;
+}
+
+int chain_trials_time(struct chain_trials *trials, struct tried_chain *chain)
+{
+    begin_pass(trials, &chain, 1, TRIAL_ALONE | TRIAL_TIMED);
+    trials->bench->collect = NULL;
+    return run_frames(trials, 2);
 }
 
 static struct embedded_list spoil(const struct embedded_list *list, double lost, double off_cells,

@@ -60,6 +60,9 @@ int chain_trials_begin(struct chain_trials *trials, struct tried_chain *referenc
  * trials without an effect are among them, the first is the whole chain. */
 int chain_trials_run(struct chain_trials *trials, const struct tried_chains *chains, unsigned pass);
 
+/* Runs a chain in turns with the whole one for its time alone: its lists are not kept. */
+int chain_trials_time(struct chain_trials *trials, struct tried_chain *chain);
+
 /* The energy distance of the reference from itself after its lists lost this share of all targets,
  * and the others were moved by so many cells in range; a list is not compared with its own. */
 double chain_trials_spoiled(const struct chain_trials *trials, double lost, double off_cells);

@@ -167,8 +167,8 @@ static void set_errors(struct cost *cost, struct tried_chain *chain)
     row->present |= COST_ERROR;
 }
 
-/* Completes a chain that ran beside the whole one. */
-static void set_row(struct cost *cost, struct tried_chain *chain)
+/* Sets the time of a chain that ran beside the whole one. */
+static void set_time(struct cost *cost, struct tried_chain *chain)
 {
     struct trial_bench *bench = &cost->bench;
     bool paper =
@@ -180,7 +180,6 @@ static void set_row(struct cost *cost, struct tried_chain *chain)
     else
         cost_table_chain(&chain->row, chain->trial, time, chain->saved, paper || chain->automatic,
                          runner_arena(cost->runner));
-    set_errors(cost, chain);
 }
 
 /* Runs all chains in turns, and keeps those that leave out nothing, or what the frames call for. Of
@@ -203,8 +202,10 @@ static int run_chains(struct cost *cost)
             all->list.items[kept++] = all->list.items[i];
     }
     all->list.count = kept;
-    for (size_t i = 0; i < kept; i++)
-        set_row(cost, all->list.items[i]);
+    for (size_t i = 0; i < kept; i++) {
+        set_time(cost, all->list.items[i]);
+        set_errors(cost, all->list.items[i]);
+    }
     for (enum effect_id i = 0; i < EFFECT_COUNT; i++) {
         bool needed = (bench->allowed & EFFECT_BIT(i)) != 0 && trial_simulated(bench, i);
         bool paper = effect_table[i]->of_paper;
@@ -288,28 +289,34 @@ struct relative_error cost_added(const struct cost *cost, const struct tried_cha
                                 runner_arena(cost->runner));
 }
 
-const struct tried_chain *cost_try_without(struct cost *cost, uint64_t left_out, bool beside)
+struct tried_chain *cost_chain_without(struct cost *cost, uint64_t left_out)
 {
     struct arena *arena = runner_arena(cost->runner);
-    struct tried_chains chains = {0};
     struct tried_chain *chain = arena_get(arena, sizeof *chain);
     struct trial trial = {.effects = trial_request(cost->bench.allowed & ~left_out, arena),
                           .programs = {SENSOR, NOISE}};
     prepare(cost, chain, name_without(cost, left_out), trial);
     chain->automatic = true;
     chain->left_out = left_out;
-    if (beside)
-        *list_add(&chains.list, arena) = whole(cost);
-    *list_add(&chains.list, arena) = chain;
-    if (chain_trials_run(&cost->trials, &chains, TRIAL_ALONE | (beside ? TRIAL_TIMED : 0)) != 0)
-        return NULL;
-    if (!beside) {
-        set_errors(cost, chain);
-        return chain;
-    }
-    set_row(cost, chain);
-    *list_add(&cost->chains.list, arena) = chain;
     return chain;
+}
+
+int cost_measure_error(struct cost *cost, struct tried_chain *chain)
+{
+    struct tried_chains chains = {0};
+    *list_add(&chains.list, runner_arena(cost->runner)) = chain;
+    if (chain_trials_run(&cost->trials, &chains, TRIAL_ALONE) != 0)
+        return -1;
+    set_errors(cost, chain);
+    return 0;
+}
+
+int cost_measure_time(struct cost *cost, struct tried_chain *chain)
+{
+    if (chain_trials_time(&cost->trials, chain) != 0)
+        return -1;
+    set_time(cost, chain);
+    return 0;
 }
 
 static void write_head(const struct cost *cost, const char *mark, struct text *text)

@@ -38,9 +38,14 @@ bool cost_has_errors(const struct cost *cost);
 /* The squared error of a chain less that of the whole chain; only where chains have errors. */
 struct relative_error cost_added(const struct cost *cost, const struct tried_chain *chain);
 
-/* Measures the whole chain without these effects: alone, for its error, or beside the whole chain,
- * for both, and adds it to the chains. NULL after a message. */
-const struct tried_chain *cost_try_without(struct cost *cost, uint64_t left_out, bool beside);
+/* Sets up the whole chain without these effects. */
+struct tried_chain *cost_chain_without(struct cost *cost, uint64_t left_out);
+
+/* Measures such a chain alone, for its error. 0, or -1 after a message. */
+int cost_measure_error(struct cost *cost, struct tried_chain *chain);
+
+/* Measures such a chain beside the whole one, for its time. 0, or -1 after a message. */
+int cost_measure_time(struct cost *cost, struct tried_chain *chain);
 
 /* Writes the table under lines that say what was measured; with a chosen chain a script of these as
  * comments, with the effects that it leaves out, and of its pipeline. */

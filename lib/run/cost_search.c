@@ -54,8 +54,9 @@ static struct savings savings_of(const struct cost *cost, enum cost_search_bound
     struct savings savings = {0};
     for (size_t i = 0; i < cost->chains.list.count; i++) {
         const struct tried_chain *chain = cost->chains.list.items[i];
-        if (chain->trial->effect == EFFECT_NONE || !saves_time(chain) ||
-            (bound == COST_SEARCH_ERROR && bounded(chain, bound) > most))
+        if (chain->trial->effect == EFFECT_NONE || !saves_time(chain))
+            continue;
+        if (bound == COST_SEARCH_ERROR && bounded(chain, bound) > most)
             continue;
         savings.items[savings.count++] = (struct saving){
             chain->left_out, elementary_max(cost_added(cost, chain).value, 0) / chain->saved.us};
@@ -65,45 +66,64 @@ static struct savings savings_of(const struct cost *cost, enum cost_search_bound
     return savings;
 }
 
-/* Leaves out all of these effects as well if the error holds, or else as many of each half. */
+/* Leaves out all of these effects as well if the error holds, or else as many of each half. found
+ * is the chain that leaves out the most so far; NULL: there is none. */
 static int leave_out(struct cost *cost, const struct saving *savings, size_t count, double most,
-                     uint64_t *left_out)
+                     struct tried_chain **found)
 {
-    uint64_t all = *left_out;
     if (count == 0)
         return 0;
+    uint64_t all = *found != NULL ? (*found)->left_out : 0;
     for (size_t i = 0; i < count; i++)
         all |= savings[i].effect;
-    const struct tried_chain *chain = cost_try_without(cost, all, false);
-    if (chain == NULL)
+    struct tried_chain *chain = cost_chain_without(cost, all);
+    if (cost_measure_error(cost, chain) != 0)
         return -1;
     if (bounded(chain, COST_SEARCH_ERROR) <= most) {
-        *left_out = all;
+        *found = chain;
         return 0;
     }
     if (count == 1)
         return 0;
-    if (leave_out(cost, savings, count / 2, most, left_out) != 0)
+    if (leave_out(cost, savings, count / 2, most, found) != 0)
         return -1;
-    return leave_out(cost, savings + count / 2, count - count / 2, most, left_out);
+    return leave_out(cost, savings + count / 2, count - count / 2, most, found);
 }
 
-/* Measures chains without several effects; for a time, until one is fast enough. */
+/* Leaves out one effect after the other until the chain is fast enough. */
+static int speed_up(struct cost *cost, const struct savings *savings, double most_us,
+                    struct tried_chain **found)
+{
+    uint64_t left_out = 0;
+    for (size_t i = 0; i < savings->count; i++) {
+        left_out |= savings->items[i].effect;
+        *found = cost_chain_without(cost, left_out);
+        if (cost_measure_time(cost, *found) != 0)
+            return -1;
+        if (bounded(*found, COST_SEARCH_US) <= most_us)
+            break;
+    }
+    return 0;
+}
+
+/* Adds the chain without several effects that was found for the bound, with its error and time. */
 static int try_fewer_effects(struct cost *cost, enum cost_search_bound bound, double most)
 {
     struct savings savings = savings_of(cost, bound, most);
-    uint64_t left_out = 0;
+    struct tried_chain *found = NULL;
     if (bound == COST_SEARCH_ERROR) {
-        if (leave_out(cost, savings.items, savings.count, most, &left_out) != 0)
+        if (leave_out(cost, savings.items, savings.count, most, &found) != 0)
             return -1;
-        return left_out == 0 || cost_try_without(cost, left_out, true) != NULL ? 0 : -1;
+        if (found != NULL && cost_measure_time(cost, found) != 0)
+            return -1;
+    } else {
+        if (speed_up(cost, &savings, most, &found) != 0)
+            return -1;
+        if (found != NULL && cost_measure_error(cost, found) != 0)
+            return -1;
     }
-    for (size_t i = 0; i < savings.count; i++) {
-        left_out |= savings.items[i].effect;
-        const struct tried_chain *chain = cost_try_without(cost, left_out, true);
-        if (chain == NULL || bounded(chain, bound) <= most)
-            return chain == NULL ? -1 : 0;
-    }
+    if (found != NULL)
+        *list_add(&cost->chains.list, runner_arena(cost->runner)) = found;
     return 0;
 }
 
@@ -117,16 +137,20 @@ const struct tried_chain *cost_search(struct cost *cost, enum cost_search_bound 
                   energy->value, energy->low, energy->high);
         return NULL;
     }
-    if (bounded(cost->chains.list.items[COST_WHOLE], bound) > most || bound == COST_SEARCH_ERROR)
-        if (try_fewer_effects(cost, bound, most) != 0)
-            return NULL;
-    const struct tried_chain *best = NULL, *nearest = cost->chains.list.items[COST_IDEAL];
+    bool holds = bounded(cost->chains.list.items[COST_WHOLE], bound) <= most;
+    if ((bound == COST_SEARCH_ERROR || !holds) && try_fewer_effects(cost, bound, most) != 0)
+        return NULL;
+    const struct tried_chain *best = NULL;
+    const struct tried_chain *nearest = cost->chains.list.items[COST_IDEAL];
     for (size_t i = 0; i < cost->chains.list.count; i++) {
         const struct tried_chain *chain = cost->chains.list.items[i];
-        if (saves_time(chain) && bounded(chain, bound) < bounded(nearest, bound))
+        if (!saves_time(chain))
+            continue;
+        if (bounded(chain, bound) < bounded(nearest, bound))
             nearest = chain;
-        if (saves_time(chain) && bounded(chain, bound) <= most &&
-            (best == NULL || rival(cost, chain, bound) < rival(cost, best, bound)))
+        if (bounded(chain, bound) > most)
+            continue;
+        if (best == NULL || rival(cost, chain, bound) < rival(cost, best, bound))
             best = chain;
     }
     if (best == NULL) {
