@@ -278,7 +278,7 @@ lint: $(plugin_archives)
 # Programs in Python are installed as glint-NAME: links to their files, beside which Python finds their package.
 scripts = dataset check-set export make-radar realism tracker
 script_programs = $(scripts:%=$(BUILD)/scripts/glint-%)
-package = $(filter-out scripts/glint/drawings/%,$(wildcard scripts/glint/*.py scripts/glint/*/*.py)) scripts/glint/drawings/gnuplot.py
+package = $(wildcard scripts/glint/*.py scripts/glint/*/*.py)
 $(script_programs): $(BUILD)/scripts/glint-%: scripts/%
 	@mkdir -p $(@D)
 	$(Q)ln -sfn $(abspath $<) $@
