@@ -1,6 +1,7 @@
 #include "check.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "frame/frame_text.h"
@@ -35,69 +36,82 @@ static int read_points(struct frame *frame, const char *points, struct diag *dia
     return result;
 }
 
-TEST(the_same_text_is_the_same_list)
+/* A reader and a writer of frames with one cache. */
+struct bench {
+    struct arena arena;
+    struct list_cache cache;
+    struct frame frame;
+    struct diag diag;
+    struct text line;
+};
+
+static int make_bench(void **state)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
+    struct bench *bench = calloc(1, sizeof *bench);
+    assert_non_null(bench);
+    bench->frame = (struct frame){.arena = &bench->arena, .list_cache = &bench->cache};
+    *state = bench;
+    return 0;
+}
+
+static int remove_bench(void **state)
+{
+    struct bench *bench = *state;
+    text_free(&bench->line);
+    arena_free(&bench->cache.arena);
+    arena_free(&bench->arena);
+    free(bench);
+    return 0;
+}
+
+#define CACHE_TEST(name) TEST_WITH(make_bench, remove_bench, name)
+
+CACHE_TEST(the_same_text_is_the_same_list)
+{
+    struct bench *bench = *state;
     char one[512], other[512];
     snprintf(one, sizeof one, "[%s]", point_of("a", 0.25));
     snprintf(other, sizeof other, "[%s ]", point_of("a", 0.5));
     for (int i = 0; i < 6; i++) {
-        assert_int_equal(read_points(&frame, i % 2 ? other : one, &diag), 0);
-        assert_int_equal(frame.reflectors.items[0].points.count, 1);
-        const struct point_reflector *point = &frame.reflectors.items[0].points.items[0];
+        assert_int_equal(read_points(&bench->frame, i % 2 ? other : one, &bench->diag), 0);
+        assert_int_equal(bench->frame.reflectors.items[0].points.count, 1);
+        const struct point_reflector *point = &bench->frame.reflectors.items[0].points.items[0];
         assert_string_equal(point->name, "a");
         assert_close(point->x, i % 2 ? 0.5 : 0.25, 0);
     }
-    assert_int_equal(cache.kept.count, 2);
-    arena_free(&cache.arena);
-    arena_free(&arena);
+    assert_int_equal(bench->cache.kept.count, 2);
 }
 
-TEST(a_faulty_list_is_refused_every_time)
+CACHE_TEST(a_faulty_list_is_refused_every_time)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
+    struct bench *bench = *state;
     char wrong[512];
     snprintf(wrong, sizeof wrong, "[%s,%s]", point_of("a", 0.25), "{\"name\":\"\"}");
     for (int i = 0; i < 3; i++) {
         struct diag diag = {0};
-        assert_int_equal(read_points(&frame, wrong, &diag), -1);
+        assert_int_equal(read_points(&bench->frame, wrong, &diag), -1);
         assert_string_equal(diag.text, "reflectors[0].points[1].name: a name of 0 bytes; expected "
                                        "1 to 1024");
     }
-    assert_int_equal(cache.kept.count, 0);
-    arena_free(&cache.arena);
-    arena_free(&arena);
+    assert_int_equal(bench->cache.kept.count, 0);
 }
 
-TEST(lists_that_do_not_repeat_are_kept_up_to_a_limit)
+CACHE_TEST(lists_that_do_not_repeat_are_kept_up_to_a_limit)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
+    struct bench *bench = *state;
     for (int i = 0; i < 3 * LIST_CACHE_MOST; i++) {
         char points[512];
         snprintf(points, sizeof points, "[%s]", point_of("a", i * 0.001));
-        assert_int_equal(read_points(&frame, points, &diag), 0);
-        assert_close(frame.reflectors.items[0].points.items[0].x, i * 0.001, 1e-9);
+        assert_int_equal(read_points(&bench->frame, points, &bench->diag), 0);
+        assert_close(bench->frame.reflectors.items[0].points.items[0].x, i * 0.001, 1e-9);
     }
-    assert_int_equal(cache.kept.count, LIST_CACHE_MOST);
-    arena_free(&cache.arena);
-    arena_free(&arena);
+    assert_int_equal(bench->cache.kept.count, LIST_CACHE_MOST);
 }
 
 /* A stream's memory stays bounded whatever its lines hold. */
-TEST(long_lists_are_kept_up_to_a_limit_too)
+CACHE_TEST(long_lists_are_kept_up_to_a_limit_too)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
+    struct bench *bench = *state;
     struct text points = {0};
     for (int i = 0; i < 40; i++) {
         points.length = 0;
@@ -108,33 +122,26 @@ TEST(long_lists_are_kept_up_to_a_limit_too)
             text_format(&points, ",%s", point_of(name, 0.25));
         }
         text_add(&points, "]", 2);
-        assert_int_equal(read_points(&frame, points.bytes, &diag), 0);
-        assert_int_equal(frame.reflectors.items[0].points.count, 1001);
+        assert_int_equal(read_points(&bench->frame, points.bytes, &bench->diag), 0);
+        assert_int_equal(bench->frame.reflectors.items[0].points.count, 1001);
     }
-    assert_true(cache.size >= LIST_CACHE_SIZE && cache.size < 2 * LIST_CACHE_SIZE);
-    assert_true(cache.kept.count < 40);
+    assert_true(bench->cache.size >= LIST_CACHE_SIZE && bench->cache.size < 2 * LIST_CACHE_SIZE);
+    assert_true(bench->cache.kept.count < 40);
     text_free(&points);
-    arena_free(&cache.arena);
-    arena_free(&arena);
 }
 
-TEST(a_list_that_grows_leaves_the_kept_one_alone)
+CACHE_TEST(a_list_that_grows_leaves_the_kept_one_alone)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
+    struct bench *bench = *state;
     char points[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
     for (int i = 0; i < 3; i++) {
-        assert_int_equal(read_points(&frame, points, &diag), 0);
-        struct reflector_set *set = &frame.reflectors.items[0];
+        assert_int_equal(read_points(&bench->frame, points, &bench->diag), 0);
+        struct reflector_set *set = &bench->frame.reflectors.items[0];
         assert_int_equal(set->points.count, 1);
         if (i > 0)
-            *list_add(&set->points, &arena) = (struct point_reflector){.name = "b"};
+            *list_add(&set->points, &bench->arena) = (struct point_reflector){.name = "b"};
     }
-    arena_free(&cache.arena);
-    arena_free(&arena);
 }
 
 /* The line of a frame with this set's reflectors, with and without a cache. */
@@ -162,143 +169,107 @@ static struct reflector_set document_of(struct point_reflector *points, size_t c
     return document;
 }
 
-TEST(the_text_of_a_documents_list_is_kept)
+CACHE_TEST(the_text_of_a_documents_list_is_kept)
 {
-    struct list_cache cache = {0};
-    struct text line = {0};
+    struct bench *bench = *state;
     struct point_reflector points[] = {{.name = "a", .x = 0.25}, {.name = "b", .x = 0.5}};
     struct reflector_set document = document_of(points, 2), set = document;
     set.document = &document;
     for (int i = 0; i < 3; i++) {
-        write_set(&cache, &set, &line);
-        assert_int_equal(cache.kept.count, 1);
-        assert_int_equal(cache.size, cache.kept.items[0].written.length);
+        write_set(&bench->cache, &set, &bench->line);
+        assert_int_equal(bench->cache.kept.count, 1);
+        assert_int_equal(bench->cache.size, bench->cache.kept.items[0].written.length);
     }
-    text_free(&line);
-    arena_free(&cache.arena);
 }
 
 /* In the next frame the same address may hold another list. */
-TEST(a_frames_own_list_is_written_every_time)
+CACHE_TEST(a_frames_own_list_is_written_every_time)
 {
-    struct list_cache cache = {0};
-    struct text line = {0};
+    struct bench *bench = *state;
     struct point_reflector own[] = {{.name = "a"}, {.name = "b"}}, read[] = {{.name = "a"}};
     struct reflector_set document = document_of(read, 1), set = document_of(own, 2);
     for (int i = 0; i < 6; i++) {
         own[1].x = 0.125 * i;
         set.points.count = 1 + (size_t)i % 2;
         set.document = i < 4 ? &document : NULL;
-        write_set(&cache, &set, &line);
+        write_set(&bench->cache, &set, &bench->line);
     }
-    assert_int_equal(cache.kept.count, 0);
-    text_free(&line);
-    arena_free(&cache.arena);
+    assert_int_equal(bench->cache.kept.count, 0);
 }
 
-TEST(a_list_of_a_document_that_changed_is_written_anew)
+CACHE_TEST(a_list_of_a_document_that_changed_is_written_anew)
 {
-    struct list_cache cache = {0};
-    struct text line = {0};
+    struct bench *bench = *state;
     struct point_reflector points[] = {{.name = "a"}, {.name = "b"}}, other[] = {{.name = "c"}};
     struct reflector_set document = document_of(points, 2), set = document;
     set.document = &document;
-    write_set(&cache, &set, &line);
+    write_set(&bench->cache, &set, &bench->line);
     set.points.count = 1;
-    write_set(&cache, &set, &line);
+    write_set(&bench->cache, &set, &bench->line);
     set.points.items = other;
-    write_set(&cache, &set, &line);
-    assert_int_equal(cache.kept.count, 1);
-    text_free(&line);
-    arena_free(&cache.arena);
+    write_set(&bench->cache, &set, &bench->line);
+    assert_int_equal(bench->cache.kept.count, 1);
 }
 
-TEST(a_list_that_was_read_is_written_in_canonical_form)
+CACHE_TEST(a_list_that_was_read_is_written_in_canonical_form)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
-    struct text line = {0};
+    struct bench *bench = *state;
     char points[512], loose[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
     snprintf(loose, sizeof loose, "[ %s ]", point_of("a", 25e-2));
     for (int i = 0; i < 4; i++) {
-        assert_int_equal(read_points(&frame, i % 2 ? points : loose, &diag), 0);
-        write_set(&cache, &frame.reflectors.items[0], &line);
-        line.bytes[line.length - 1] = '\0';
-        assert_non_null(strstr(line.bytes, points));
+        assert_int_equal(read_points(&bench->frame, i % 2 ? points : loose, &bench->diag), 0);
+        write_set(&bench->cache, &bench->frame.reflectors.items[0], &bench->line);
+        bench->line.bytes[bench->line.length - 1] = '\0';
+        assert_non_null(strstr(bench->line.bytes, points));
     }
-    assert_int_equal(cache.kept.count, 2);
-    text_free(&line);
-    arena_free(&cache.arena);
-    arena_free(&arena);
+    assert_int_equal(bench->cache.kept.count, 2);
 }
 
 /* A document's list that was written is known by its address alone. */
-TEST(a_list_that_was_only_written_is_found_in_no_line)
+CACHE_TEST(a_list_that_was_only_written_is_found_in_no_line)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
-    struct text line = {0};
+    struct bench *bench = *state;
     struct point_reflector points[] = {{.name = "a", .x = 0.25}};
     struct reflector_set document = document_of(points, 1), set = document;
     char other[512];
     snprintf(other, sizeof other, "[%s]", point_of("b", 0.5));
     set.document = &document;
-    write_set(&cache, &set, &line);
-    assert_int_equal(read_points(&frame, other, &diag), 0);
-    assert_int_equal(frame.reflectors.items[0].points.count, 1);
-    assert_string_equal(frame.reflectors.items[0].points.items[0].name, "b");
-    text_free(&line);
-    arena_free(&cache.arena);
-    arena_free(&arena);
+    write_set(&bench->cache, &set, &bench->line);
+    assert_int_equal(read_points(&bench->frame, other, &bench->diag), 0);
+    assert_int_equal(bench->frame.reflectors.items[0].points.count, 1);
+    assert_string_equal(bench->frame.reflectors.items[0].points.items[0].name, "b");
 }
 
-TEST(a_line_that_ends_within_a_kept_list_does_not_have_it)
+CACHE_TEST(a_line_that_ends_within_a_kept_list_does_not_have_it)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
+    struct bench *bench = *state;
     char points[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
-    assert_int_equal(read_points(&frame, points, &diag), 0);
-    const struct record *record = cache.kept.items[0].record;
+    assert_int_equal(read_points(&bench->frame, points, &bench->diag), 0);
+    const struct record *record = bench->cache.kept.items[0].record;
     const char *end = points + strlen(points);
-    assert_non_null(list_cache_find(&cache, record, points, end));
-    assert_null(list_cache_find(&cache, record, points, end - 1));
-    arena_free(&cache.arena);
-    arena_free(&arena);
+    assert_non_null(list_cache_find(&bench->cache, record, points, end));
+    assert_null(list_cache_find(&bench->cache, record, points, end - 1));
 }
 
-TEST(the_text_of_points_is_no_list_of_planes)
+CACHE_TEST(the_text_of_points_is_no_list_of_planes)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
+    struct bench *bench = *state;
     char points[512], both[1100];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
     snprintf(both, sizeof both, "%s,\"planes\":%s", points, points);
-    assert_int_equal(read_points(&frame, points, &diag), 0);
-    assert_int_equal(read_points(&frame, both, &diag), -1);
+    assert_int_equal(read_points(&bench->frame, points, &bench->diag), 0);
+    assert_int_equal(read_points(&bench->frame, both, &bench->diag), -1);
     static const char message[] = "reflectors[0].planes[0].x: unknown key";
-    assert_memory_equal(diag.text, message, sizeof message - 1);
-    arena_free(&cache.arena);
-    arena_free(&arena);
+    assert_memory_equal(bench->diag.text, message, sizeof message - 1);
 }
 
 /* The list's text in the line that was read has filled the memory already. */
-TEST(a_list_that_fills_the_memory_is_written_every_time)
+CACHE_TEST(a_list_that_fills_the_memory_is_written_every_time)
 {
-    struct arena arena = {0};
-    struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .list_cache = &cache};
-    struct diag diag = {0};
-    struct text points = {0}, line = {0};
+    struct bench *bench = *state;
+    struct text points = {0};
     text_add(&points, "[", 1);
     for (int i = 0; points.length < LIST_CACHE_SIZE; i++) {
         char name[16];
@@ -306,33 +277,27 @@ TEST(a_list_that_fills_the_memory_is_written_every_time)
         text_format(&points, "%s%s", i == 0 ? "" : ",", point_of(name, 0.25));
     }
     text_add(&points, "]", 2);
-    assert_int_equal(read_points(&frame, points.bytes, &diag), 0);
-    size_t size = cache.size;
+    assert_int_equal(read_points(&bench->frame, points.bytes, &bench->diag), 0);
+    size_t size = bench->cache.size;
     for (int i = 0; i < 2; i++)
-        write_set(&cache, &frame.reflectors.items[0], &line);
-    assert_true(size >= LIST_CACHE_SIZE && cache.size == size);
-    assert_null(cache.kept.items[0].written.bytes);
+        write_set(&bench->cache, &bench->frame.reflectors.items[0], &bench->line);
+    assert_true(size >= LIST_CACHE_SIZE && bench->cache.size == size);
+    assert_null(bench->cache.kept.items[0].written.bytes);
     text_free(&points);
-    text_free(&line);
-    arena_free(&cache.arena);
-    arena_free(&arena);
 }
 
-TEST(text_that_was_written_is_kept_up_to_a_limit)
+CACHE_TEST(text_that_was_written_is_kept_up_to_a_limit)
 {
+    struct bench *bench = *state;
     enum { MANY = 1000, DOCUMENTS = 40 };
     static struct point_reflector points[DOCUMENTS][MANY];
-    struct list_cache cache = {0};
-    struct text line = {0};
     for (int i = 0; i < 2 * DOCUMENTS; i++) {
         for (int j = 0; j < MANY; j++)
             points[i % DOCUMENTS][j] = (struct point_reflector){.name = "a", .x = j * 0.001};
         struct reflector_set document = document_of(points[i % DOCUMENTS], MANY), set = document;
         set.document = &document;
-        write_set(&cache, &set, &line);
+        write_set(&bench->cache, &set, &bench->line);
     }
-    assert_true(cache.size >= LIST_CACHE_SIZE && cache.size < 2 * LIST_CACHE_SIZE);
-    assert_true(cache.kept.count < DOCUMENTS);
-    text_free(&line);
-    arena_free(&cache.arena);
+    assert_true(bench->cache.size >= LIST_CACHE_SIZE && bench->cache.size < 2 * LIST_CACHE_SIZE);
+    assert_true(bench->cache.kept.count < DOCUMENTS);
 }

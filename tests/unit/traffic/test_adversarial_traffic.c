@@ -5,9 +5,9 @@
 
 #include "base/units.h"
 #include "documents/suite_file.h"
-#include "documents/vehicle.h"
 #include "soundness/adversarial_traffic.h"
 #include "traffic/scenario.h"
+#include "traffic_models.h"
 
 #define SNAPSHOTS 4000
 #define DRAWS 100000
@@ -29,14 +29,7 @@ static int make_bench(void **state)
     bench->frame.arena = &bench->scratch;
     bench->frame.seed = 1;
     bench->scene.density = &adversarial_traffic_density;
-    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
-        const struct vehicle *vehicle =
-            vehicle_load(random_traffic_class_name(class), NULL, &bench->documents, &diag);
-        if (vehicle == NULL)
-            fail_msg("%s", diag.text);
-        bench->scene.models[class] = (struct random_traffic_model){
-            vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
-    }
+    load_traffic_models(bench->scene.models, &bench->documents);
     bench->suite = suite_file_load("srr24-pair-every-frame", &bench->documents, &diag);
     if (bench->suite == NULL)
         fail_msg("%s", diag.text);

@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "documents/suite_file.h"
-#include "documents/vehicle.h"
 #include "effects/effect.h"
 #include "traffic/random_traffic.h"
 #include "traffic/scenario.h"
+#include "traffic_models.h"
 
 #define SNAPSHOTS 400
 
@@ -24,15 +24,7 @@ static int make_bench(void **state)
     struct bench *bench = calloc(1, sizeof *bench);
     assert_non_null(bench);
     bench->frame.arena = &bench->scratch;
-    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
-        struct diag diag = {0};
-        const struct vehicle *vehicle =
-            vehicle_load(random_traffic_class_name(class), NULL, &bench->documents, &diag);
-        if (vehicle == NULL)
-            fail_msg("%s", diag.text);
-        bench->scene.models[class] = (struct random_traffic_model){
-            vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
-    }
+    load_traffic_models(bench->scene.models, &bench->documents);
     *state = bench;
     return 0;
 }
