@@ -163,9 +163,9 @@ TEST(pointers_keep_their_digits_from_boresight_to_the_side)
             double azimuth_rad = azimuth_at(i, count, cases[k].least);
             set_pattern(&pattern, azimuth_rad);
             cases[k].exact(exact, &pattern);
-            naive = hard_worse(naive, hard_ulp(cases[k].naive(azimuth_rad), exact));
+            naive = hard_worse(naive, error_ulp(cases[k].naive(azimuth_rad), exact));
             cases[k].exact(exact, &pattern);
-            ours = hard_worse(ours, hard_ulp(cases[k].ours(azimuth_rad), exact));
+            ours = hard_worse(ours, error_ulp(cases[k].ours(azimuth_rad), exact));
         }
         hard_case(cases[k].number, cases[k].title, "ulp", naive, ours, cases[k].bound);
     }
@@ -237,9 +237,9 @@ TEST(the_pair_is_inverted_up_to_the_side)
         double delta, sum;
         round_pair(&pattern, azimuth_at(i, count, 1e-300), &delta, &sum);
         set_azimuth(exact, delta, sum);
-        naive = hard_worse(naive, hard_ulp(naive_azimuth(delta, sum), exact));
+        naive = hard_worse(naive, error_ulp(naive_azimuth(delta, sum), exact));
         set_azimuth(exact, delta, sum);
-        ours = hard_worse(ours, hard_ulp(antenna_azimuth_rad(&CENTRE, delta, sum), exact));
+        ours = hard_worse(ours, error_ulp(antenna_azimuth_rad(&CENTRE, delta, sum), exact));
     }
     hard_case("7", "the angle up to the side", "ulp", naive, ours, 4);
     mpfr_clear(exact);
@@ -310,9 +310,9 @@ TEST(the_angle_survives_the_pipe)
             double delta = elementary_hypot(sent->delta_re, sent->delta_im);
             double asr = (delta - sum) / (delta + sum);
             set_azimuth(exact, delta, sum);
-            naive = hard_worse(naive, hard_ulp(asin(0.5 + 2 / PI * atan(asr)), exact));
+            naive = hard_worse(naive, error_ulp(asin(0.5 + 2 / PI * atan(asr)), exact));
             set_azimuth(exact, delta, sum);
-            ours = hard_worse(ours, hard_ulp(cell_azimuth(&received.cells.items[i]), exact));
+            ours = hard_worse(ours, error_ulp(cell_azimuth(&received.cells.items[i]), exact));
         }
     }
     hard_case("8", "the angle after the pipe, naive by ASR", "ulp", naive, ours, 4);
@@ -398,9 +398,9 @@ TEST(si_needs_no_series)
         double logarithm = sample_between(&sample, -300, 0);
         double x = i % 2 == 0 ? 3.0 * i / count : 3 * pow(10, logarithm);
         set_si(exact, x);
-        naive = hard_worse(naive, hard_ulp(sin(x) / x, exact));
+        naive = hard_worse(naive, error_ulp(sin(x) / x, exact));
         set_si(exact, x);
-        ours = hard_worse(ours, hard_ulp(units_si(x), exact));
+        ours = hard_worse(ours, error_ulp(units_si(x), exact));
     }
     hard_case("10", "sin(x)/x from 0 to 3", "ulp", naive, ours, 2);
     mpfr_clear(exact);

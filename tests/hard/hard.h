@@ -8,6 +8,7 @@
 
 #include "support/check.h"
 #include "support/sample.h"
+#include "support/ulp.h"
 
 #include <stdlib.h>
 
@@ -35,16 +36,4 @@ static inline void hard_case(const char *number, const char *title, const char *
     print_message("hard\t%s\t%s\t%s\t%.2g\t%.2g\t%.2g\n", number, title, unit, naive, ours, bound);
     if (!(ours <= bound))
         fail_msg("case %s, %s: %.17g %s, at most %.17g allowed", number, title, ours, unit, bound);
-}
-
-/* The error of a result in units in the last place of the exact one, which is used up; subnormal
- * results share one unit. */
-static inline double hard_ulp(double result, mpfr_t exact)
-{
-    if (mpfr_zero_p(exact))
-        return result == 0 ? 0 : (double)INFINITY;
-    long exponent = mpfr_get_exp(exact) < -1021 ? -1021 : (long)mpfr_get_exp(exact);
-    mpfr_sub_d(exact, exact, result, MPFR_RNDN);
-    mpfr_mul_2si(exact, exact, 53 - exponent, MPFR_RNDN);
-    return fabs(mpfr_get_d(exact, MPFR_RNDN));
 }

@@ -16,26 +16,13 @@ enum {
     LARGEST_FIELD = 2046
 };
 
-static double from_bits(uint64_t bits)
-{
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static uint64_t any_word(uint64_t *random)
-{
-    uint64_t high = sample_bits(random) << 32;
-    return high ^ sample_bits(random);
-}
-
 /* Bits of a finite double greater than 0: powers of two first, then any, and some with few bits. */
 static uint64_t point_bits(uint64_t *random, int i)
 {
     if (i <= LARGEST_FIELD)
         return i == 0 ? 1 : (uint64_t)i << 52;
     uint64_t field = sample_bits(random) % (LARGEST_FIELD + 1);
-    uint64_t fraction = any_word(random) >> 12;
+    uint64_t fraction = sample_word(random) >> 12;
     if (i % 3 == 0)
         fraction &= UINT64_MAX << sample_bits(random) % 52;
     return field << 52 | fraction | (field == 0);
@@ -47,13 +34,13 @@ static bool reads_back(const mpfr_t decimal, uint64_t bits)
 {
     mpfr_t midpoint;
     mpfr_init2(midpoint, PRECISION);
-    const double value = from_bits(bits);
+    const double value = sample_from_bits(bits);
     const bool last = bits == ((uint64_t)LARGEST_FIELD << 52 | UINT64_MAX >> 12);
-    mpfr_set_d(midpoint, from_bits(bits - 1), MPFR_RNDN);
+    mpfr_set_d(midpoint, sample_from_bits(bits - 1), MPFR_RNDN);
     mpfr_add_d(midpoint, midpoint, value, MPFR_RNDN);
     mpfr_div_2ui(midpoint, midpoint, 1, MPFR_RNDN);
     const int below = mpfr_cmp(decimal, midpoint);
-    mpfr_set_d(midpoint, last ? value : from_bits(bits + 1), MPFR_RNDN);
+    mpfr_set_d(midpoint, last ? value : sample_from_bits(bits + 1), MPFR_RNDN);
     mpfr_add_d(midpoint, midpoint, value, MPFR_RNDN);
     mpfr_div_2ui(midpoint, midpoint, 1, MPFR_RNDN);
     const int above = last ? -1 : mpfr_cmp(decimal, midpoint);
@@ -79,7 +66,7 @@ static void set_decimal(mpfr_t decimal, double value, size_t digits, mpfr_rnd_t 
  */
 static void set_shortest(mpfr_t nearest, uint64_t bits)
 {
-    const double value = from_bits(bits);
+    const double value = sample_from_bits(bits);
     bool below = false, above = false;
     mpfr_t lower;
     mpfr_init2(lower, DECIMAL_PRECISION);
@@ -120,7 +107,7 @@ TEST(the_shortest_decimals_of_all_sizes_are_written)
     mpfr_inits2(DECIMAL_PRECISION, nearest, plain, (mpfr_ptr)0);
     for (int i = 0; i < points; i++) {
         const uint64_t bits = point_bits(&random, i);
-        const double value = from_bits(bits);
+        const double value = sample_from_bits(bits);
         char text[64];
         snprintf(text, sizeof text, "%.17g", value);
         mpfr_set_str(plain, text, 10, MPFR_RNDN);
@@ -138,8 +125,8 @@ static void put_midway(uint64_t bits, const char *more, char *text)
 {
     mpfr_t midpoint;
     mpfr_init2(midpoint, PRECISION);
-    mpfr_set_d(midpoint, from_bits(bits), MPFR_RNDN);
-    mpfr_add_d(midpoint, midpoint, from_bits(bits + 1), MPFR_RNDN);
+    mpfr_set_d(midpoint, sample_from_bits(bits), MPFR_RNDN);
+    mpfr_add_d(midpoint, midpoint, sample_from_bits(bits + 1), MPFR_RNDN);
     mpfr_div_2ui(midpoint, midpoint, 1, MPFR_RNDN);
     mpfr_exp_t exponent;
     char digits[TEXT_SIZE];
@@ -161,7 +148,7 @@ static void put_less(uint64_t bits, char *text)
 
 static bool reads_as(const char *text, uint64_t bits)
 {
-    const double expected = from_bits(bits);
+    const double expected = sample_from_bits(bits);
     double value;
     return number_read(text, text + strlen(text), &value) &&
            memcmp(&value, &expected, sizeof value) == 0;

@@ -200,9 +200,10 @@ TEST(lone_targets_stay_where_they_are)
             double azimuth_rad = side * pow(10, -9 - 130.0 * i / count);
             mpfr_set_d(exact, azimuth_rad, MPFR_RNDN);
             ours_ahead =
-                hard_worse(ours_ahead, hard_ulp(lone_azimuth(&bench, azimuth_rad, 1), exact));
+                hard_worse(ours_ahead, error_ulp(lone_azimuth(&bench, azimuth_rad, 1), exact));
             mpfr_set_d(exact, azimuth_rad, MPFR_RNDN);
-            naive_ahead = hard_worse(naive_ahead, hard_ulp(naive_lone_azimuth(azimuth_rad), exact));
+            naive_ahead =
+                hard_worse(naive_ahead, error_ulp(naive_lone_azimuth(azimuth_rad), exact));
             azimuth_rad = side * (PI / 2 - (i < 10 ? 0 : pow(10, -6 - 10.0 * i / count)));
             double back = lone_azimuth(&bench, azimuth_rad, 1e70);
             ours_side = hard_worse(ours_side, fabs(back - azimuth_rad));
@@ -305,9 +306,9 @@ TEST(equal_echoes_meet_where_their_closed_form_says)
             double plain = naive_pair(azimuth_rad, strength, strength, k >= 2);
             if (literal) {
                 set_equal_pair(exact, azimuth_rad);
-                ours = hard_worse(ours, flagged ? hard_ulp(cell.azimuth_rad, exact) : HUGE_VAL);
+                ours = hard_worse(ours, flagged ? error_ulp(cell.azimuth_rad, exact) : HUGE_VAL);
                 set_equal_pair(exact, azimuth_rad);
-                naive = hard_worse(naive, hard_ulp(plain, exact));
+                naive = hard_worse(naive, error_ulp(plain, exact));
             } else {
                 ours_middle = hard_worse(ours_middle, flagged ? fabs(cell.azimuth_rad) : HUGE_VAL);
                 naive_middle = hard_worse(naive_middle, fabs(plain));
@@ -466,9 +467,9 @@ TEST(a_weak_target_outlives_strong_ones_that_cancel)
         set_delta(exact, sizes, &bench.sensor, received_echoes, ALL);
         assert_true(mpfr_get_d(sizes, MPFR_RNDN) < 1e15 * fabs(mpfr_get_d(exact, MPFR_RNDN)));
         double plain = cimag(naive_pointers(&bench.sensor, received_echoes, ALL).delta);
-        naive = hard_worse(naive, hard_ulp(plain, exact));
+        naive = hard_worse(naive, error_ulp(plain, exact));
         set_delta(exact, sizes, &bench.sensor, received_echoes, ALL);
-        ours = hard_worse(ours, hard_ulp(cell.delta_im, exact));
+        ours = hard_worse(ours, error_ulp(cell.delta_im, exact));
     }
     hard_case("13 cell", "a weak target where strong ones cancel", "ulp", naive, ours, 2);
     mpfr_clears(exact, sizes, (mpfr_ptr)0);

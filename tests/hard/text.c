@@ -17,24 +17,11 @@
 
 enum { PRECISION = 200 };
 
-static double from_bits(uint64_t bits)
-{
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static uint64_t any_word(uint64_t *random)
-{
-    uint64_t high = sample_bits(random) << 32;
-    return high ^ sample_bits(random);
-}
-
 static double any_finite(uint64_t *random)
 {
     double value = (double)NAN;
     while (!isfinite(value))
-        value = from_bits(any_word(random));
+        value = sample_from_bits(sample_word(random));
     return value;
 }
 
@@ -61,9 +48,9 @@ TEST(every_double_comes_back)
         naive += memcmp(&plain, &value, sizeof value) != 0;
         ours += memcmp(&back, &value, sizeof value) != 0;
         mpfr_set_d(exact, value, MPFR_RNDN);
-        naive_ulp = fmax(naive_ulp, isfinite(plain) ? hard_ulp(plain, exact) : 0);
+        naive_ulp = fmax(naive_ulp, isfinite(plain) ? error_ulp(plain, exact) : 0);
         mpfr_set_d(exact, value, MPFR_RNDN);
-        ours_ulp = fmax(ours_ulp, hard_ulp(back, exact));
+        ours_ulp = fmax(ours_ulp, error_ulp(back, exact));
     }
     mpfr_clear(exact);
     hard_case("54", "doubles changed by text (naive: %.15g)", "wrong", naive, ours, 0);
@@ -301,7 +288,7 @@ TEST(the_ends_of_the_doubles_are_exact_or_refused)
         ours += count_misread(small[i].text, small[i].value);
     uint64_t random = 59;
     for (int i = 0; i < hard_points(100000); i++) {
-        double value = from_bits(any_word(&random) & UINT64_C(0x800fffffffffffff));
+        double value = sample_from_bits(sample_word(&random) & UINT64_C(0x800fffffffffffff));
         double back = through_text(value);
         ours += memcmp(&back, &value, sizeof value) != 0;
     }
@@ -352,7 +339,7 @@ TEST(seeds_keep_all_their_bits)
     for (int i = 0; i < points; i++) {
         uint64_t seed = i == 0   ? UINT64_C(9007199254740993)
                         : i == 1 ? UINT64_MAX
-                                 : any_word(&random);
+                                 : sample_word(&random);
         mpfr_t number;
         mpfr_init2(number, 53);
         naive += mpfr_set_uj(number, seed, MPFR_RNDN) != 0;

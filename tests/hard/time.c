@@ -80,10 +80,10 @@ SCRATCH_TEST(a_million_frames_stand_at_their_times)
             frame_of(scene, i, &frame);
             mpfr_set_sj(exact, i, MPFR_RNDN);
             mpfr_div_d(exact, exact, rates_hz[r], MPFR_RNDN);
-            ours = fmax(ours, hard_ulp(frame.time_s, exact));
+            ours = fmax(ours, error_ulp(frame.time_s, exact));
             mpfr_set_sj(exact, i, MPFR_RNDN);
             mpfr_div_d(exact, exact, rates_hz[r], MPFR_RNDN);
-            naive = fmax(naive, hard_ulp(clock_s, exact));
+            naive = fmax(naive, error_ulp(clock_s, exact));
         }
     }
     mpfr_clear(exact);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stdint.h>
+#include <string.h>
 
 /* 48 bits of a linear congruential generator modulo 2^64; the weak low bits are dropped. */
 static inline uint64_t sample_bits(uint64_t *state)
@@ -21,4 +22,26 @@ static inline double sample_between(uint64_t *state, double low, double high)
 static inline int64_t sample_integer(uint64_t *state, int64_t bound)
 {
     return (int64_t)(sample_bits(state) % (uint64_t)(2 * bound + 1)) - bound;
+}
+
+/* All 64 bits. */
+static inline uint64_t sample_word(uint64_t *state)
+{
+    uint64_t high = sample_bits(state) << 32;
+    return high ^ sample_bits(state);
+}
+
+/* The double of these bits. */
+static inline double sample_from_bits(uint64_t bits)
+{
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static inline uint64_t sample_to_bits(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
 }

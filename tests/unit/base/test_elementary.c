@@ -10,6 +10,7 @@
 #include "base/elementary.h"
 #include "base/units.h"
 #include "sample.h"
+#include "ulp.h"
 
 #define POINTS 30000
 #define HALF_PI_LONG 1.57079632679489661923132169163975144L
@@ -398,17 +399,6 @@ static const struct trial trials[] = {
     {"hypot, any size", ours_hypot, exact_hypot, place_of_any_size, 1.2},
     {"hypot, on a map", ours_hypot, exact_hypot, place_on_a_map, 1.2},
 };
-
-/* The error in units in the last place of the exact result; subnormal results share one. */
-static double error_ulp(double result, mpfr_t exact)
-{
-    if (mpfr_zero_p(exact))
-        return result == 0 ? 0 : (double)INFINITY;
-    long exponent = mpfr_get_exp(exact) < -1021 ? -1021 : (long)mpfr_get_exp(exact);
-    mpfr_sub_d(exact, exact, result, MPFR_RNDN);
-    mpfr_mul_2si(exact, exact, 53 - exponent, MPFR_RNDN);
-    return fabs(mpfr_get_d(exact, MPFR_RNDN));
-}
 
 TEST(every_result_is_within_its_bound)
 {

@@ -21,13 +21,6 @@ static bool reads(const char *text, double *value)
     return number_read(text, text + strlen(text), value);
 }
 
-static double from_bits(uint64_t bits)
-{
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* The significant digits of a text: without leading zeros, point, sign, exponent, and zeros that
  * only hold a place. */
 static size_t digits_in(const char *text)
@@ -46,7 +39,7 @@ TEST(a_million_bit_patterns_come_back)
 {
     uint64_t random = 1;
     for (int i = 0; i < 1000000; i++) {
-        double value = from_bits(sample_bits(&random) << 16 ^ sample_bits(&random)), back;
+        double value = sample_from_bits(sample_bits(&random) << 16 ^ sample_bits(&random)), back;
         if (!isfinite(value))
             continue;
         char text[NUMBER_SIZE + 1];
@@ -60,7 +53,7 @@ TEST(no_shorter_decimal_would_do)
 {
     uint64_t random = 2;
     for (int i = 0; i < 100000; i++) {
-        double value = i % 2 ? from_bits(sample_bits(&random) << 16 ^ sample_bits(&random))
+        double value = i % 2 ? sample_from_bits(sample_bits(&random) << 16 ^ sample_bits(&random))
                              : (double)sample_integer(&random, 1000000) / 1000;
         if (!isfinite(value) || value == 0)
             continue;
@@ -102,12 +95,12 @@ static double usual_number(uint64_t *random, int kind)
     case 2: /* few bits: many lie midway between two decimals of 17 digits */
         return 65536 + (double)(sample_bits(random) % (1 << 24)) * 0x1p-12;
     case 3: /* beside the powers of two, where the doubles' spacing changes */
-        return from_bits((uint64_t)(1014 + sample_bits(random) % 25) << 52) *
+        return sample_from_bits((uint64_t)(1014 + sample_bits(random) % 25) << 52) *
                (1 + (double)sample_integer(random, 3) * 0x1p-52);
     default:
-        return from_bits((uint64_t)(1014 + sample_bits(random) % 25) << 52 |
-                         (sample_bits(random) << 4 & UINT64_MAX << sample_bits(random) % 52 &
-                          UINT64_C(0x000fffffffffffff)));
+        return sample_from_bits((uint64_t)(1014 + sample_bits(random) % 25) << 52 |
+                                (sample_bits(random) << 4 & UINT64_MAX << sample_bits(random) % 52 &
+                                 UINT64_C(0x000fffffffffffff)));
     }
 }
 
@@ -173,7 +166,7 @@ TEST(subnormals_and_the_ends_of_the_range_come_back)
             UINT64_C(0x8000000000000000) + near, UINT64_C(0x3ff0000000000000) - 1000 + near};
         for (size_t i = 0; i < COUNT(places); i++) {
             char text[NUMBER_SIZE + 1];
-            double value = from_bits(places[i]), back;
+            double value = sample_from_bits(places[i]), back;
             assert_true(reads(text_of(value, text), &back));
             assert_memory_equal(&back, &value, sizeof value);
         }
@@ -201,9 +194,9 @@ TEST(too_large_numbers_are_refused_and_too_small_ones_are_zero)
         assert_true(value == 0 && signbit(value));
     }
     assert_true(reads("1.7976931348623158e308", &value) && value == DBL_MAX);
-    assert_true(reads("3e-324", &value) && value == from_bits(1));
+    assert_true(reads("3e-324", &value) && value == sample_from_bits(1));
     assert_true(reads("2.2250738585072011e-308", &value) &&
-                value == from_bits(UINT64_C(0x000fffffffffffff)));
+                value == sample_from_bits(UINT64_C(0x000fffffffffffff)));
 }
 
 TEST(decimals_round_to_the_nearest_double)

@@ -18,26 +18,6 @@ const char *digits_read(const char *at, const char *end, double *value) __attrib
 
 enum { TEXT_SIZE = 256 };
 
-static double from_bits(uint64_t bits)
-{
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static uint64_t bits_of(double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static uint64_t any_word(uint64_t *random)
-{
-    uint64_t high = sample_bits(random) << 32;
-    return high ^ sample_bits(random);
-}
-
 static void compare_written(double value)
 {
     if (!isfinite(value) || value == 0)
@@ -58,7 +38,7 @@ static void compare_read(const char *text)
     theirs = strtod(text, NULL);
     if (read != isfinite(theirs))
         fail_msg("%s was %s", text, read ? "read" : "refused");
-    if (read && bits_of(ours) != bits_of(theirs))
+    if (read && sample_to_bits(ours) != sample_to_bits(theirs))
         fail_msg("%s became %.17g, expected %.17g", text, ours, theirs);
     if (read && isnormal(ours) && (digits_read(text, end, &theirs) != end || theirs != ours))
         fail_msg("%s became %.17g, expected %.17g", text, ours, theirs);
@@ -68,8 +48,8 @@ static void compare_read(const char *text)
 static void compare_around(uint64_t bits)
 {
     for (uint64_t near = bits - (bits > 1); near <= bits + 1; near++) {
-        compare_written(from_bits(near));
-        compare_written(-from_bits(near));
+        compare_written(sample_from_bits(near));
+        compare_written(-sample_from_bits(near));
     }
 }
 
@@ -87,32 +67,34 @@ TEST(powers_of_two_and_ten_and_their_neighbours_are_written_alike)
         for (int digits = 1; digits < 100; digits++) {
             char text[TEXT_SIZE];
             snprintf(text, sizeof text, "%de%d", digits, exponent);
-            compare_around(bits_of(strtod(text, NULL)));
+            compare_around(sample_to_bits(strtod(text, NULL)));
         }
 }
 
 /* A double of one of many kinds. */
 static double number_of_kind(uint64_t *random, int kind)
 {
-    uint64_t word = any_word(random);
-    double digits = (double)(word >> word % 64), power = pow(10, (double)(any_word(random) % 40));
+    uint64_t word = sample_word(random);
+    double digits = (double)(word >> word % 64),
+           power = pow(10, (double)(sample_word(random) % 40));
     switch (kind) {
     case 0: /* any double */
-        return from_bits(word);
+        return sample_from_bits(word);
     case 1: /* few bits */
-        return from_bits(word & UINT64_MAX << any_word(random) % 52);
+        return sample_from_bits(word & UINT64_MAX << sample_word(random) % 52);
     case 2: /* subnormal */
-        return from_bits(word >> (12 + any_word(random) % 52));
+        return sample_from_bits(word >> (12 + sample_word(random) % 52));
     case 3: /* whole, and halves and quarters of whole numbers */
-        return ldexp(digits, -(int)(any_word(random) % 4));
+        return ldexp(digits, -(int)(sample_word(random) % 4));
     case 4: /* few digits */
         return (double)(word % 1000000) / power;
     case 5: /* many digits */
         return digits / power;
     case 6: /* whole and beyond 2^53, where decimals end with zeros */
-        return (double)(word >> any_word(random) % 12) * (double)(1 + any_word(random) % 5000);
+        return (double)(word >> sample_word(random) % 12) *
+               (double)(1 + sample_word(random) % 5000);
     default: /* as coordinates and amplitudes are */
-        return sample_between(random, -300, 300) / (double)(1 + any_word(random) % 1000);
+        return sample_between(random, -300, 300) / (double)(1 + sample_word(random) % 1000);
     }
 }
 
