@@ -848,7 +848,7 @@ def suite_of(name):
 
 
 def well_formed(folder):
-    for path in PIPELINES:
+    for path in quick(PIPELINES[::4], PIPELINES):
         for command, data in hops_of(path):
             for line in data.splitlines()[::quick(10, 2)]:
                 frame = json.loads(line, parse_float=finite, parse_constant=finite)

@@ -271,7 +271,7 @@ def full_searches(chain, long):
     the mean."""
     draw, off = np.random.default_rng(SEED), []
     for taper in TAPERS if long else ("hann",):
-        for levels in LEVELS:
+        for levels in quick(LEVELS[:1], LEVELS):
             array = Array(8, taper)
             for apart in APART:
                 found = np.zeros(2)
@@ -474,7 +474,7 @@ def account(chain, _):
 def lone_echoes(chain, long):
     """Lone echoes have their own azimuth, with the errors of the taper: normalised squared errors of 0.9 to 1.1, and
     no bias of 0.05 degrees from 20 dB on."""
-    draw, count = np.random.default_rng(SEED), 20000 if long else 4000
+    draw, count = np.random.default_rng(SEED), 20000 if long else quick(2000, 4000)
     for taper in TAPERS:
         for elements in COUNTS:
             array, told = Array(elements, taper), []
@@ -503,7 +503,7 @@ def lone_echoes(chain, long):
 def coverage(chain, long):
     """Of several points, up to 3 lambda/D apart and of 20 to 40 dB, 0.94 to 0.96 of the intervals of 95 % hold the
     nearest maximum without noise."""
-    draw, count, every, same = np.random.default_rng(SEED), 10000 if long else 800, [], []
+    draw, count, every, same = np.random.default_rng(SEED), 10000 if long else quick(400, 800), [], []
     for taper in TAPERS:
         for elements in COUNTS:
             array = Array(elements, taper)
