@@ -864,7 +864,7 @@ def schema(folder):
     from jsonschema import Draft202012Validator
     Draft202012Validator.check_schema(SCHEMA)
     validator, count = Draft202012Validator(SCHEMA), 0
-    for path in PIPELINES:
+    for path in quick(PIPELINES[::4], PIPELINES):
         for command, data in hops_of(path):
             for frame in map(json.loads, data.splitlines()[::67]):
                 count += 1
