@@ -1,5 +1,5 @@
-/* A library to preload that makes one call of a program fail. tests/tools/faults builds and preloads
- * it.
+/* A library to preload that makes one call of a program fail. tests/tools/faults builds and
+ * preloads it.
  *
  *     FAILING_CALL     malloc (with calloc and realloc), write, fsync, rename or close
  *     FAILING_NUMBER   which of these calls fails, from 1; absent: none
