@@ -69,13 +69,15 @@ static int complain(const struct diag *diag)
     return (int)diag->code;
 }
 
-/* A program that is named by a path may be another one of the same name. */
+/* A path may lead to another program of that name; where the system does not tell ours, it does. */
 static bool is_own(const char *program, struct arena *arena)
 {
-    const char *slash = strrchr(program, '/');
+    const char *slash = strrchr(program, '/'), *folder = document_own_folder(arena);
     if (slash == NULL)
         return true;
-    const char *own = arena_format(arena, "%s%s", document_own_folder(arena), slash + 1);
+    if (*folder == '\0')
+        return false;
+    const char *own = arena_format(arena, "%s%s", folder, slash + 1);
     return access(own, X_OK) == 0 && path_same_file(program, own);
 }
 
