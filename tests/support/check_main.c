@@ -4,7 +4,7 @@
  *     PROGRAM FILE            those of a file, as test_field
  *     PROGRAM FILE TEST       one test
  *
- * The exit status is 1 if a test fails, 64 if there is no such test. */
+ * The exit status is 1 if a test or a fixture fails, 64 if there is no such test. */
 #include "check.h"
 
 #include <stdbool.h>
@@ -61,8 +61,32 @@ static bool is_wanted(const struct check_entry *entry, int count, char **words)
     return count < 3 || is_fixture(entry) || strcmp(entry->test.name, words[2]) == 0;
 }
 
+/* cmocka prints that a teardown of a group failed, but does not count it. A teardown that ends by
+ * a failed assertion does not return. */
+static CMFixtureFunction group_teardown;
+static bool group_is_torn_down;
+
+static int counted_teardown(void **state)
+{
+    group_is_torn_down = false;
+    int status = group_teardown(state);
+    group_is_torn_down = status == 0;
+    return status;
+}
+
+/* Runs tests between a setup and a teardown, which may be NULL; gives the number of failures. */
+static int run_between(const struct CMUnitTest *tests, size_t count, CMFixtureFunction setup,
+                       CMFixtureFunction teardown)
+{
+    group_teardown = teardown;
+    group_is_torn_down = true;
+    int failed = _cmocka_run_group_tests("tests", tests, count, setup,
+                                         teardown != NULL ? counted_teardown : NULL);
+    return failed + !group_is_torn_down;
+}
+
 /* Runs the tests that come next, to the next fixture or file. Sets the number of their entries;
- * gives that of the tests that failed. */
+ * gives that of the failures. */
 static int run_group(const struct check_entry *const *entries, size_t count, size_t *taken)
 {
     struct CMUnitTest *tests = calloc(count, sizeof *tests);
@@ -84,7 +108,7 @@ static int run_group(const struct check_entry *const *entries, size_t count, siz
     struct name name = name_of(entries[0]->file);
     if (found > 0)
         print_message("[   FILE   ] %.*s\n", name.length, name.text);
-    int failed = found > 0 ? _cmocka_run_group_tests("tests", tests, found, setup, teardown) : 0;
+    int failed = found > 0 ? run_between(tests, found, setup, teardown) : 0;
     free(tests);
     return failed;
 }
