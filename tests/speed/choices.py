@@ -1,8 +1,8 @@
 """scripts/bench --sections: what each choice of --sections takes, and each form in which the frames of the default choice
 are written, in bytes and microseconds per frame.
 
-The frames of two scenes go from a file through the fused chain to files. Bytes are the same in every run; time is
-CPU time, the least of several runs, of which each reads the file several times.
+The frames of two scenarios, several scenes of each, go from a file through the fused chain to files. Bytes are the same
+in every run; time is CPU time, the least of several runs.
 """
 import os
 import subprocess
@@ -13,9 +13,9 @@ from glint.progress import say
 
 CHOICES = ("none", "objects", "quality", "visibility", "account:every=10", "account", "margins",
            "reflectors,echoes,cells", "all")
-# What makes the frames, the suite, and how often the file is read.
-SCENES = {"intersection": ("glint-traffic intersection", "srr24-pair-every-frame", 4),
-          "highway": ("glint-traffic highway-straight", "lrr77-every-frame", 4)}
+# What makes the frames, and the suite.
+SCENES = {"intersection": ("glint-traffic intersection --scenes 0:4", "srr24-pair-every-frame"),
+          "highway": ("glint-traffic highway-straight --scenes 0:4", "lrr77-every-frame")}
 RUNS = 3
 DEFAULT = "objects"
 # Ends of the chain that write its frames into the folder "out".
@@ -28,17 +28,17 @@ class Scene:
 
     def __init__(self, glint, name, folder):
         self.glint, self.name, self.folder = glint, name, folder
-        source, self.suite, self.reads = SCENES[name]
+        source, self.suite = SCENES[name]
         self.frames = os.path.join(folder, name + ".jsonl")
         subprocess.run([glint, "-c", f"{source} -o {self.frames}"], check=True)
         with open(self.frames, "rb") as file:
-            self.count = self.reads * sum(1 for _ in file)
+            self.count = sum(1 for _ in file)
 
     def measure(self, choice, form):
         """Bytes and microseconds per frame, as cells."""
         with tempfile.TemporaryDirectory(dir=self.folder) as out:
             end = FORMS[form].replace("out", out)
-            chain = (f"glint-extract {' '.join([self.frames] * self.reads)} | glint-ideal --sensors {self.suite}"
+            chain = (f"glint-extract {self.frames} | glint-ideal --sensors {self.suite}"
                      f" --sections {choice} | glint-sensor | {end}")
             took = min(sum(timing.part_times(self.glint, chain, self.folder).values()) for _ in range(RUNS))
             size = sum(entry.stat().st_size for entry in os.scandir(out))
