@@ -251,7 +251,7 @@ static void add_accuracy(const struct datasheet *sheet, struct text *text)
             text_format(text, "\n  SNR %5.1f dB       ", accuracy->snr_db);
         else
             text_format(text, "\n  threshold + %2d dB  ", 10 * i);
-        text_format(text, "  %12.2g %12.2g%22s", accuracy->range_sigma_m,
+        text_format(text, "%12.2g %12.2g%23s", accuracy->range_sigma_m,
                     accuracy->range_rate_sigma_mps, "");
         for (int k = 0; k < DATASHEET_AZIMUTHS; k++)
             if (isfinite(accuracy->azimuth_sigma_rad[k]))

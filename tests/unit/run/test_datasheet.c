@@ -304,8 +304,8 @@ TEST(without_noise_rows_of_accuracy_say_how_strong_an_echo_is)
     suite_derive(&sensor);
     datasheet_add(&suite, &text);
     text_add(&text, "", 1);
-    assert_non_null(strstr(text.bytes, "\n  threshold +  0 dB             0.1         0.01"));
-    assert_non_null(strstr(text.bytes, "\n  threshold + 20 dB             0.1         0.01"));
+    assert_non_null(strstr(text.bytes, "\n  threshold +  0 dB           0.1         0.01"));
+    assert_non_null(strstr(text.bytes, "\n  threshold + 20 dB           0.1         0.01"));
     assert_null(strstr(text.bytes, "inf"));
     text_free(&text);
 }
