@@ -107,7 +107,6 @@ static double range_error_m(double range_m, struct utm one, struct utm other, mp
  * the ego. */
 SCRATCH_TEST(utm_places_keep_a_nanometre)
 {
-    struct scratch *scratch = *state;
     int steps = hard_points(100000) / TRACKS;
     struct utm *places = arena_get(&scratch->arena, (size_t)(steps * TRACKS) * sizeof *places);
     assert_int_equal(write_tracks(scratch->path, places, steps), 0);

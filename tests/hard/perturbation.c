@@ -350,9 +350,8 @@ FIXTURE(make_bench, remove_runs);
 
 /* Ordinary scenes have hardly any margin so small, or the answer would be cheap; adversarial scenes
  * must change lists and leave signs undecided, or nothing was tried. */
-TEST(lists_change_only_where_a_margin_said_so)
+TEST_OF(bench, lists_change_only_where_a_margin_said_so)
 {
-    struct bench *bench = *state;
     for (int density = 0; density < TRAFFIC_DENSITIES; density++)
         run_density(bench, &random_traffic_densities[density]);
     assert_true(bench->near <= 1e-5 * bench->entries);
@@ -363,9 +362,8 @@ TEST(lists_change_only_where_a_margin_said_so)
     hard_case("margins", "one ulp changes lists", "of margin", (double)NAN, bench->farthest, 1);
 }
 
-TEST(values_move_no_farther_than_their_condition_lets_them)
+TEST_OF(bench, values_move_no_farther_than_their_condition_lets_them)
 {
-    const struct bench *bench = *state;
     assert_true(bench->values > 0);
     for (int i = 0; i < QUANTITIES; i++)
         hard_case("margins", quantity_names[i], "of condition", (double)NAN, bench->worst[i], 1);

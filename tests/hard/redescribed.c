@@ -536,25 +536,22 @@ static void run_change(struct bench *bench, const char *what)
 
 FIXTURE(make_bench, remove_runs);
 
-TEST(a_roadside_is_the_same_in_any_description)
+TEST_OF(bench, a_roadside_is_the_same_in_any_description)
 {
-    struct bench *bench = *state;
     bench->subject = ROADSIDE;
     for (bench->change = FAR_STRIP; bench->change < CHANGES; bench->change++)
         run_change(bench, "roadside");
 }
 
-TEST(slow_wheels_and_limbs_are_the_same_in_any_description)
+TEST_OF(bench, slow_wheels_and_limbs_are_the_same_in_any_description)
 {
-    struct bench *bench = *state;
     bench->subject = SLOW_PARTS;
     for (bench->change = LAST_PLACE; bench->change < CHANGES; bench->change++)
         run_change(bench, "slow wheels");
 }
 
-TEST(parked_cars_that_creep_have_the_list_of_those_that_stand)
+TEST_OF(bench, parked_cars_that_creep_have_the_list_of_those_that_stand)
 {
-    struct bench *bench = *state;
     bench->subject = PARKED_CARS;
     bench->change = CREEPING;
     run_change(bench, "ghosts");

@@ -439,7 +439,6 @@ static bool set_german(const char *folder)
 
 SCRATCH_TEST(the_locale_is_not_consulted)
 {
-    struct scratch *scratch = *state;
     char command[256];
     uint64_t random = 62;
     double naive = 0, ours = 0;

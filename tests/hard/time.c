@@ -72,7 +72,7 @@ SCRATCH_TEST(a_million_frames_stand_at_their_times)
     mpfr_t exact;
     mpfr_init2(exact, PRECISION);
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        const struct scenario *scene = open_scene(*state, rates_hz[r]);
+        const struct scenario *scene = open_scene(scratch, rates_hz[r]);
         double clock_s = 0;
         for (int64_t i = 0; i < FRAMES; i++, clock_s += 1 / rates_hz[r]) {
             if (i % frame_step() != 0)
@@ -97,7 +97,7 @@ SCRATCH_TEST(a_frame_is_found_again_from_its_time)
     struct frame frame = {.arena = &arena};
     double naive = 0, ours = 0;
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        const struct scenario *scene = open_scene(*state, rates_hz[r]);
+        const struct scenario *scene = open_scene(scratch, rates_hz[r]);
         for (int64_t i = 0; i < FRAMES; i += frame_step()) {
             frame_of(scene, i, &frame);
             double interval_s = 1 / rates_hz[r];
@@ -117,7 +117,7 @@ SCRATCH_TEST(scans_fall_on_their_frames)
     struct frame frame = {.arena = &arena};
     double naive = 0, ours = 0;
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        const struct scenario *scene = open_scene(*state, rates_hz[r]);
+        const struct scenario *scene = open_scene(scratch, rates_hz[r]);
         double cycle_s = 2 / rates_hz[r];
         for (int64_t i = 0; i < FRAMES; i += frame_step()) {
             double instant_s = -1;
@@ -137,7 +137,6 @@ SCRATCH_TEST(scans_fall_on_their_frames)
 
 SCRATCH_TEST(unix_times_keep_their_intervals)
 {
-    struct scratch *scratch = *state;
     const int64_t epoch_ms = INT64_C(1700000000000);
     int steps = hard_points(10000);
     FILE *file = fopen(scratch->path, "w");
@@ -193,7 +192,7 @@ SCRATCH_TEST(straight_motion_does_not_drift)
     mpfr_cos(cosine, sine, MPFR_RNDN);
     mpfr_sin(sine, sine, MPFR_RNDN);
     for (size_t r = 0; r < COUNT(rates); r++) {
-        const struct scenario *scene = open_scene(*state, rates[r]);
+        const struct scenario *scene = open_scene(scratch, rates[r]);
         struct object car = {.x_m = START_X_M, .y_m = START_Y_M};
         drifting.objects.items = &car;
         for (int64_t i = 0; i < FRAMES; i++) {

@@ -24,18 +24,33 @@ struct check_entry {
     static const struct check_entry *const entry##_listed                                          \
         __attribute__((section("check_entries"), used)) = &entry
 
-/* TEST(a_sentence_about_behaviour) { ... } is a test, in which *state is what the setup made. */
-#define TEST(name) TEST_WITH(NULL, NULL, name)
+/* TEST(a_sentence_about_behaviour) { ... } is a test. */
+#define TEST(name)                                                                                 \
+    static void name(void);                                                                        \
+    static void name##_alone(void **state __attribute__((unused)))                                 \
+    {                                                                                              \
+        name();                                                                                    \
+    }                                                                                              \
+    CHECK_ENTRY(name##_entry, #name, name##_alone, NULL, NULL);                                    \
+    static void name(void)
 
-/* A test with a setup and a teardown of its own. */
-#define TEST_WITH(setup, teardown, name)                                                           \
-    static void name(void **state);                                                                \
-    CHECK_ENTRY(name##_entry, #name, name, setup, teardown);                                       \
-    static void name(void **state __attribute__((unused)))
-
-/* FIXTURE(setup, teardown); holds for the tests that follow it in its file: their *state is what
+/* A test with a setup and a teardown of its own. Its subject, as struct scratch *scratch, is what
  * the setup made. */
+#define TEST_WITH(setup, teardown, subject, name)                                                  \
+    static void name(subject);                                                                     \
+    static void name##_of_state(void **state)                                                      \
+    {                                                                                              \
+        name(*state);                                                                              \
+    }                                                                                              \
+    CHECK_ENTRY(name##_entry, #name, name##_of_state, setup, teardown);                            \
+    static void name(subject __attribute__((unused)))
+
+/* FIXTURE(setup, teardown); holds for the tests that follow it in its file. */
 #define FIXTURE(setup, teardown) CHECK_ENTRY(setup##_and_##teardown, NULL, NULL, setup, teardown)
+
+/* TEST_OF(scratch, a_sentence) { ... } is a test of what the fixture's setup made, a
+ * struct scratch *scratch. */
+#define TEST_OF(subject, name) TEST_WITH(NULL, NULL, struct subject *subject, name)
 
 /* Of an array, not of a pointer. */
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

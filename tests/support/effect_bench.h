@@ -117,4 +117,5 @@ static inline void effect_bench_draw(const struct effect_bench *bench, const str
     random_uniform(&address, purpose, index, uniform);
 }
 
-#define EFFECT_TEST(name) TEST_WITH(make_effect_bench, remove_effect_bench, name)
+#define EFFECT_TEST(name)                                                                          \
+    TEST_WITH(make_effect_bench, remove_effect_bench, struct effect_bench *bench, name)

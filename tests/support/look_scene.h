@@ -21,10 +21,10 @@ static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) 
 static const struct selection automatic = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1,
                                            .automatic = true};
 
-static inline int make_scene(void **state)
+/* Makes the scene anew, without an object but the ego. */
+static inline void clear_scene(struct scene *scene)
 {
-    struct scene *scene = calloc(1, sizeof *scene);
-    assert_non_null(scene);
+    arena_clear(&scene->arena);
     scene->frame = (struct frame){
         .scene = "s", .ego = "e", .time_s = 10, .interval_s = 1, .sections = CARRY_ACCOUNT};
     scene->frame.arena = &scene->arena;
@@ -32,6 +32,13 @@ static inline int make_scene(void **state)
         .name = "front", .range_max_m = 100, .field_of_view_rad = PI, .range_min_m = 0.1};
     *list_add(&scene->frame.objects, &scene->arena) =
         (struct object){.id = "e", .class = "car", .length_m = 4, .width_m = 2};
+}
+
+static inline int make_scene(void **state)
+{
+    struct scene *scene = calloc(1, sizeof *scene);
+    assert_non_null(scene);
+    clear_scene(scene);
     *state = scene;
     return 0;
 }
@@ -120,4 +127,4 @@ static inline void add_random_bodies(struct scene *scene, uint64_t *random)
     }
 }
 
-#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, name)
+#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, struct scene *scene, name)

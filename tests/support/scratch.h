@@ -37,4 +37,4 @@ static inline int remove_scratch(void **state)
     return 0;
 }
 
-#define SCRATCH_TEST(name) TEST_WITH(make_scratch, remove_scratch, name)
+#define SCRATCH_TEST(name) TEST_WITH(make_scratch, remove_scratch, struct scratch *scratch, name)

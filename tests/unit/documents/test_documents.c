@@ -159,9 +159,8 @@ static const struct suite *suite_of(struct scratch *scratch, const char *documen
     return suite_file_load(scratch->suite, &scratch->arena, diag);
 }
 
-TEST(tables_are_found_beside_the_document_and_read)
+TEST_OF(scratch, tables_are_found_beside_the_document_and_read)
 {
-    struct scratch *scratch = *state;
     struct diag diag;
     const struct suite *suite =
         suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES)), levels, pattern, &diag);
@@ -181,9 +180,8 @@ TEST(tables_are_found_beside_the_document_and_read)
     assert_close(suite->sensors.items[0].half_range_m, 0.3, 0);
 }
 
-TEST(the_digest_covers_every_value_of_document_and_tables)
+TEST_OF(scratch, the_digest_covers_every_value_of_document_and_tables)
 {
-    struct scratch *scratch = *state;
 #define MORE TABLES "\"azimuth_curve\":\"levels.csv\","
 #define CURVE "azimuth_rad,range_m,level_db\n-1.55,10,8\n1.55,20,2.5\n"
 #define REVERSED                                                                                   \
@@ -226,9 +224,8 @@ TEST(the_digest_covers_every_value_of_document_and_tables)
     }
 }
 
-TEST(range_limits_are_straight_between_their_azimuths)
+TEST_OF(scratch, range_limits_are_straight_between_their_azimuths)
 {
-    struct scratch *scratch = *state;
     struct diag diag;
 #define LIMITS(from, to, far)                                                                      \
     "\"range_limits\":[{\"azimuth_rad\":" from ",\"range_max_m\":25},{\"azimuth_rad\":" to         \
@@ -247,9 +244,8 @@ TEST(range_limits_are_straight_between_their_azimuths)
     }
 }
 
-TEST(the_floor_of_azimuths_follows_its_curve_from_boresight)
+TEST_OF(scratch, the_floor_of_azimuths_follows_its_curve_from_boresight)
 {
-    struct scratch *scratch = *state;
     struct diag diag;
     static const char rows[] = "range_m,azimuth_rad,level_db\n1,-1,-30\n10,0,-40\n20,0.5,-20\n";
     const struct suite *suite =
@@ -270,9 +266,8 @@ TEST(the_floor_of_azimuths_follows_its_curve_from_boresight)
     }
 }
 
-TEST(suites_with_contradictory_members_are_refused)
+TEST_OF(scratch, suites_with_contradictory_members_are_refused)
 {
-    struct scratch *scratch = *state;
 #define POWER "\"calibration_ercs\":0.8,\"calibration_range_m\":30,"
 #define PAIR "\"antenna_pattern\":\"dipole_pair\","
 #define BEAM "\"elevation_curve\":\"levels.csv\","
@@ -374,9 +369,8 @@ TEST(suites_with_contradictory_members_are_refused)
     }
 }
 
-TEST(vehicles_with_contradictory_members_are_refused)
+TEST_OF(scratch, vehicles_with_contradictory_members_are_refused)
 {
-    struct scratch *scratch = *state;
     static const char *const faults[] = {
         "\"points\":[{\"name\":\"p\",\"x\":0,\"y\":0,\"facing_rad\":0,\"full_rad\":1,"
         "\"zero_rad\":0.5,\"ercs\":1}]",
@@ -398,9 +392,8 @@ TEST(vehicles_with_contradictory_members_are_refused)
     }
 }
 
-TEST(scenarios_are_checked_and_named)
+TEST_OF(scratch, scenarios_are_checked_and_named)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     write_file(scratch->suite, "{\"origin\":\"a test\",\"ego\":\"e\",\"rate_hz\":10,"
                                "\"duration_s\":1,\"objects\":[]}");

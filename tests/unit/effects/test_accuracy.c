@@ -30,7 +30,6 @@ static struct effect_measurement measure_cell(struct effect_bench *bench, uint64
 /* by_snr: sigma^2 = (window_factor cell)^2 / snr + floor^2, at most cell^2 / 12. */
 EFFECT_TEST(sigmas_follow_the_law_of_the_sensor)
 {
-    struct effect_bench *bench = *state;
     static const struct {
         enum sigma_law law;
         double amplitude, interference, range_m, range_rate_mps;
@@ -57,7 +56,6 @@ EFFECT_TEST(sigmas_follow_the_law_of_the_sensor)
 
 EFFECT_TEST(without_noise_on_the_pointers_sigmas_are_their_floor)
 {
-    struct effect_bench *bench = *state;
     prepare(bench);
     bench->sensor.sigma_law = SIGMA_BY_SNR;
     bench->sensor.pointer_sigma = 0;
@@ -68,7 +66,6 @@ EFFECT_TEST(without_noise_on_the_pointers_sigmas_are_their_floor)
 
 EFFECT_TEST(accuracy_scales_the_same_draws)
 {
-    struct effect_bench *bench = *state;
     prepare(bench);
     bench->sensor.sigma_law = SIGMA_BY_SNR;
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_ACCURACY);
@@ -83,7 +80,6 @@ EFFECT_TEST(accuracy_scales_the_same_draws)
 
 EFFECT_TEST(without_range_noise_accuracy_changes_nothing)
 {
-    struct effect_bench *bench = *state;
     prepare(bench);
     bench->sensor.sigma_law = SIGMA_BY_SNR;
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_RANGE_NOISE);

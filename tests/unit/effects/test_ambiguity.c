@@ -2,7 +2,6 @@
 
 EFFECT_TEST(ranges_and_rates_beyond_the_unambiguous_ones_fold)
 {
-    struct effect_bench *bench = *state;
     static const struct {
         double limit_m, limit_mps, range_m, rate_mps, folded_m, folded_mps, middle_mps;
     } cases[] = {

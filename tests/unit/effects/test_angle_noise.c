@@ -7,7 +7,6 @@
  */
 EFFECT_TEST(both_channels_get_the_noise_of_their_cell)
 {
-    struct effect_bench *bench = *state;
     struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
     static const double interference[] = {0, 3};
     bench->sensor.pointer_sigma = 0.5;
@@ -33,7 +32,6 @@ EFFECT_TEST(both_channels_get_the_noise_of_their_cell)
 /* pi - 0.001 and a floor of 0.5 rad go beyond half a turn in half of the draws. */
 EFFECT_TEST(the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read)
 {
-    struct effect_bench *bench = *state;
     struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
     const struct cell cell = {.range_m = 10, .members = {&leader, 1, 1}};
     bench->sensor.azimuth_floor_rad = 0.5;
@@ -52,7 +50,6 @@ EFFECT_TEST(the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read)
 
 EFFECT_TEST(without_the_effect_pointers_are_those_of_the_cell)
 {
-    struct effect_bench *bench = *state;
     struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
     const struct cell cell = {.sum_re = 3, .delta_re = 1, .members = {&leader, 1, 1}};
     bench->sensor.pointer_sigma = 0.5;

@@ -28,7 +28,6 @@ static struct echo_span clutter_of(struct effect_bench *bench)
  * 0.05/2 (1250 - 625) points. The velocity of the sensor is (10 - 0.3 0.5, 0.3 2) m/s. */
 EFFECT_TEST(points_lie_where_their_draws_put_them)
 {
-    struct effect_bench *bench = *state;
     prepare(bench, 0.05);
     bench->frame.time_s = 3;
     struct echo_span points = clutter_of(bench);
@@ -63,7 +62,6 @@ EFFECT_TEST(points_lie_where_their_draws_put_them)
 /* The number of all points has the mean of density times area, and f times its variance. */
 EFFECT_TEST(numbers_have_the_mean_and_variance_of_their_law)
 {
-    struct effect_bench *bench = *state;
     enum { SCANS = 4000 };
     static const double factors[] = {0, 1, 4, 60};
     for (size_t i = 0; i < COUNT(factors); i++) {
@@ -91,7 +89,6 @@ static double power_of(const struct echo *point)
  */
 EFFECT_TEST(only_points_that_could_pass_the_threshold_are_listed)
 {
-    struct effect_bench *bench = *state;
     prepare(bench, 5);
     bench->frame.conditions.clutter_ercs = 0.01;
     bench->sensor.calibration_ercs = 1e-6;
@@ -119,7 +116,6 @@ EFFECT_TEST(only_points_that_could_pass_the_threshold_are_listed)
 
 EFFECT_TEST(a_dense_ground_is_listed_in_full_if_it_can_be_detected)
 {
-    struct effect_bench *bench = *state;
     prepare(bench, 10);
     bench->sensor.calibration_ercs = 1e-6;
     double mean = 10 * (2500 - 1) / 2.0;
@@ -128,7 +124,6 @@ EFFECT_TEST(a_dense_ground_is_listed_in_full_if_it_can_be_detected)
 
 EFFECT_TEST(clutter_needs_points_power_and_a_sensor_that_measures)
 {
-    struct effect_bench *bench = *state;
     prepare(bench, 0.5);
     bench->frame.sensors.list.items[0].measured = false;
     assert_int_equal(clutter_of(bench).count, 0);

@@ -3,7 +3,6 @@
 /* A wave travels there and back, so an eighth of a wavelength in range turns it by a quarter. */
 EFFECT_TEST(a_phase_by_path_turns_with_range_and_stays_from_scan_to_scan)
 {
-    struct effect_bench *bench = *state;
     double wave_m = 299792458 / 76.5e9, uniform[4];
     bool labelled;
     bench->sensor.cell_phase = CELL_PHASE_BY_PATH;
@@ -23,7 +22,6 @@ EFFECT_TEST(a_phase_by_path_turns_with_range_and_stays_from_scan_to_scan)
 
 EFFECT_TEST(a_random_phase_is_drawn_in_each_scan_and_not_by_range)
 {
-    struct effect_bench *bench = *state;
     bool labelled;
     double uniform[4];
     bench->sensor.cell_phase = CELL_RANDOM_PHASE;

@@ -140,7 +140,6 @@ static uint64_t effects_with_a_cause(enum effect_home home)
 
 EFFECT_TEST(what_no_document_describes_is_left_out_and_noted)
 {
-    struct effect_bench *bench = *state;
     for (int home = 0; home <= EFFECT_HOME_NOISE; home++) {
         struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, (enum effect_home)home);
         assert_true(scan.effects == 0 && scan.receiving == 0 && scan.constants == NULL);
@@ -153,7 +152,6 @@ EFFECT_TEST(what_no_document_describes_is_left_out_and_noted)
 /* Each case sets one member of the sensor to 1. */
 EFFECT_TEST(a_member_describes_its_effect_and_no_other)
 {
-    struct effect_bench *bench = *state;
     const struct sensor plain = bench->sensor;
     static const struct {
         enum effect_id effect;
@@ -220,7 +218,6 @@ EFFECT_TEST(what_a_scene_describes_whatever_the_sensor_is_of_scenes)
 
 EFFECT_TEST(flags_choices_and_limits_describe_their_effects)
 {
-    struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
     sensor->final_threshold = true;
     assert_true(effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE).effects ==
@@ -242,7 +239,6 @@ EFFECT_TEST(flags_choices_and_limits_describe_their_effects)
  * of 40 ms, it sees the world of 0.17 s. */
 EFFECT_TEST(a_scan_has_the_instant_of_its_measurement)
 {
-    struct effect_bench *bench = *state;
     static const struct {
         double cycle_s, latency_s;
         uint64_t effects;
@@ -270,7 +266,6 @@ EFFECT_TEST(a_scan_has_the_instant_of_its_measurement)
  * range, although the range that the radar reads is folded. */
 EFFECT_TEST(effects_act_in_the_order_of_the_chain)
 {
-    struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
     sensor->fluctuation = FLUCTUATION_SWERLING_3;
     sensor->unambiguous_range_m = 60;
@@ -296,7 +291,6 @@ EFFECT_TEST(effects_act_in_the_order_of_the_chain)
 
 EFFECT_TEST(an_added_echo_is_in_range_and_in_view)
 {
-    struct effect_bench *bench = *state;
     struct effect_scan scan = effect_bench_begin(bench, 0, EFFECT_HOME_SENSOR);
     double border_rad = antenna_border_rad(bench->sensor.field_of_view_rad);
     static const double ranges_m[] = {0, 0.999, 1, 200, 200.001};

@@ -3,7 +3,6 @@
 /* Power is exponential in Swerling's case 1, and the mean of two exponentials in case 3. */
 EFFECT_TEST(the_factor_follows_the_draw_of_its_echo)
 {
-    struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
     double uniform[4];
     for (bench->frame.frame = 0; bench->frame.frame < 20; bench->frame.frame++) {
@@ -19,7 +18,6 @@ EFFECT_TEST(the_factor_follows_the_draw_of_its_echo)
 
 EFFECT_TEST(another_echo_and_another_scan_have_other_factors)
 {
-    struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100), other = echo;
     other.id.reflector = "q";
     bench->sensor.fluctuation = FLUCTUATION_SWERLING_1;
@@ -32,7 +30,6 @@ EFFECT_TEST(another_echo_and_another_scan_have_other_factors)
 
 EFFECT_TEST(a_spread_of_0_changes_nothing)
 {
-    struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
     bench->sensor.fluctuation = FLUCTUATION_LOG_NORMAL;
     bench->sensor.fluctuation_sigma_db = 0;
@@ -41,7 +38,6 @@ EFFECT_TEST(a_spread_of_0_changes_nothing)
 
 EFFECT_TEST(what_stands_beside_the_road_keeps_its_own_level)
 {
-    struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
     bench->sensor.fluctuation = FLUCTUATION_SWERLING_1;
     assert_true(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo) != 1);

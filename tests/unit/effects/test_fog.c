@@ -3,7 +3,6 @@
 /* ITU-R P.840 has 3.115457 dB/km one way per g/m^3 at 76.5 GHz and 10 degrees Celsius. */
 EFFECT_TEST(fog_attenuates_there_and_back)
 {
-    struct effect_bench *bench = *state;
     static const double water_gpm3[] = {0.5, 0.05, 0};
     for (size_t i = 0; i < COUNT(water_gpm3); i++) {
         struct echo echo = effect_bench_echo(100);

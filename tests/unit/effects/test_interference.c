@@ -28,7 +28,6 @@ static double interference_db(struct effect_bench *bench)
 
 EFFECT_TEST(an_interferer_is_heard_where_it_stands)
 {
-    struct effect_bench *bench = *state;
     struct interferer *other = add_interferer(bench);
     struct object *object = frame_object(&bench->frame, "other");
     struct object *ego = frame_object(&bench->frame, "ego");
@@ -56,7 +55,6 @@ EFFECT_TEST(an_interferer_is_heard_where_it_stands)
 
 EFFECT_TEST(powers_of_several_interferers_add)
 {
-    struct effect_bench *bench = *state;
     add_interferer(bench);
     double single = interference_of(bench);
     add_interferer(bench)->hit_share = 0.25;
@@ -66,7 +64,6 @@ EFFECT_TEST(powers_of_several_interferers_add)
 /* The interferer approaches at 20 m/s: 0.5 s ago it was 60 m away. */
 EFFECT_TEST(an_interferer_is_heard_at_the_instant_of_the_measurement)
 {
-    struct effect_bench *bench = *state;
     add_interferer(bench);
     frame_object(&bench->frame, "other")->vx_mps = -20;
     bench->sensor.latency_s = 0.5;
@@ -76,7 +73,6 @@ EFFECT_TEST(an_interferer_is_heard_at_the_instant_of_the_measurement)
 /* The two-way pattern in amplitude is the one-way pattern in power: 0.5513 at 30 degrees. */
 EFFECT_TEST(the_antenna_counts_one_way)
 {
-    struct effect_bench *bench = *state;
     add_interferer(bench);
     struct object *object = frame_object(&bench->frame, "other");
     object->x_m = 50 * cos(PI / 6);
@@ -87,7 +83,6 @@ EFFECT_TEST(the_antenna_counts_one_way)
 /* The sensor looks ahead from 2 m behind the ego's centre. */
 EFFECT_TEST(interferers_out_of_view_are_not_heard)
 {
-    struct effect_bench *bench = *state;
     struct interferer *other = add_interferer(bench);
     struct object *object = frame_object(&bench->frame, "other");
     bench->sensor.mount_x_m = -2;
@@ -110,7 +105,6 @@ EFFECT_TEST(interferers_out_of_view_are_not_heard)
 
 EFFECT_TEST(no_interferer_is_heard_without_a_bandwidth_or_without_the_effect)
 {
-    struct effect_bench *bench = *state;
     add_interferer(bench);
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_INTERFERENCE);
     assert_close(effect_bench_begin(bench, without, EFFECT_HOME_SENSOR).interference, 0, 0);

@@ -42,7 +42,6 @@ static double level_db(struct effect_bench *bench)
 
 EFFECT_TEST(all_echoes_of_a_body_have_its_level)
 {
-    struct effect_bench *bench = *state;
     drive(bench, 50, 0, 0, 0);
     widen(bench, 6, 4, 3.6);
     struct echo corner = effect_bench_echo(52), ghost = effect_bench_echo(70), clutter = corner;
@@ -61,7 +60,6 @@ EFFECT_TEST(all_echoes_of_a_body_have_its_level)
  * power of a level of s nepers. */
 EFFECT_TEST(levels_keep_the_mean_or_the_median_of_the_power)
 {
-    struct effect_bench *bench = *state;
     enum { BODIES = 10000 };
     static const double widths[][3] = {{3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {2, 2, 1}};
     drive(bench, 50, 0, 3, 1.234);
@@ -89,7 +87,6 @@ EFFECT_TEST(levels_keep_the_mean_or_the_median_of_the_power)
  * their levels apart. */
 EFFECT_TEST(a_constant_level_stays_and_a_moved_sensor_has_another_fast_one)
 {
-    struct effect_bench *bench = *state;
     drive(bench, 50, 3, 5, 0);
     widen(bench, 6, 0, 0);
     double constant = level_db(bench);
@@ -110,7 +107,6 @@ EFFECT_TEST(a_constant_level_stays_and_a_moved_sensor_has_another_fast_one)
 /* Seen from one place on end, from behind and again after a whole turn. */
 EFFECT_TEST(a_level_closes_after_a_turn_of_the_body)
 {
-    struct effect_bench *bench = *state;
     struct object *other = drive(bench, 50, 0, 0, 0);
     widen(bench, 0, 0, 4);
     double first = level_db(bench);
@@ -128,7 +124,6 @@ EFFECT_TEST(a_level_closes_after_a_turn_of_the_body)
 /* A scan that is 50 ms old has the level of a frame 50 ms earlier. */
 EFFECT_TEST(a_late_scan_has_the_level_of_its_instant)
 {
-    struct effect_bench *bench = *state;
     widen(bench, 6, 4, 3.6);
     drive(bench, 50, 3, 5, 1);
     bench->frame.interval_s = 0.06;
@@ -143,7 +138,6 @@ EFFECT_TEST(a_late_scan_has_the_level_of_its_instant)
 
 EFFECT_TEST(a_class_may_have_levels_of_its_own)
 {
-    struct effect_bench *bench = *state;
     drive(bench, 50, 0, 0, 0);
     struct class_document *car = list_add(&bench->frame.vehicles, &bench->arena);
     *car = (struct class_document){.class = "car", .level = {-1, -1, -1}};
@@ -168,7 +162,6 @@ static double correlation(double knots)
 /* Jitter of 1 mm in range and of 0.01 mrad in aspect, each even with that deviation. */
 EFFECT_TEST(a_parked_car_before_a_standing_radar_keeps_its_level)
 {
-    struct effect_bench *bench = *state;
     enum { CARS = 4000 };
     double product = 0, square = 0;
     widen(bench, 0, 0, 3.6);
@@ -194,7 +187,6 @@ EFFECT_TEST(a_parked_car_before_a_standing_radar_keeps_its_level)
  * constant part adds nothing to it. */
 EFFECT_TEST(levels_change_over_scans_as_knots_pass)
 {
-    struct effect_bench *bench = *state;
     enum { CARS = 400 };
     static const double relative_mps[] = {1, 2, 3, 4}, speed_mps = 30;
     static const int lags[] = {1, 5, 12, 25};

@@ -29,7 +29,6 @@ static double triangle(double x)
 
 EFFECT_TEST(limbs_have_the_count_the_swing_and_the_place_of_their_draws)
 {
-    struct effect_bench *bench = *state;
     static const double border[] = {0.6065306597126334, 0.9097959895689501, 0.9856123220330293};
     size_t all = 0;
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++) {
@@ -60,7 +59,6 @@ EFFECT_TEST(limbs_have_the_count_the_swing_and_the_place_of_their_draws)
 
 EFFECT_TEST(a_person_who_does_not_walk_along_the_sight_line_has_no_limbs)
 {
-    struct effect_bench *bench = *state;
     struct echo still = torso(), wheel = torso();
     still.ground_rate_mps = 0;
     wheel.moving_part = MOVING_WHEEL;

@@ -10,7 +10,6 @@ static struct effect_measurement turn(struct effect_bench *bench, double azimuth
 
 EFFECT_TEST(a_misaligned_sensor_turns_what_it_reports)
 {
-    struct effect_bench *bench = *state;
     static const struct {
         double error_rad, bias_rad, azimuth_rad, reported_rad;
     } cases[] = {{0.02, 0, 0.1, 0.12},
@@ -30,7 +29,6 @@ EFFECT_TEST(a_misaligned_sensor_turns_what_it_reports)
 
 EFFECT_TEST(a_bias_that_is_zero_at_boresight_is_not_in_the_label_there)
 {
-    struct effect_bench *bench = *state;
     bench->sensor.radome_bias_rad = 0.01;
     bench->sensor.radome_period_rad = 0.5;
     assert_true(turn(bench, 0).effects == 0);

@@ -10,7 +10,6 @@ static struct effect_measurement reported(struct effect_bench *bench,
 
 EFFECT_TEST(values_are_rounded_to_their_steps_and_azimuth_is_wrapped)
 {
-    struct effect_bench *bench = *state;
     bench->sensor.range_step_m = 0.5;
     bench->sensor.range_rate_step_mps = 0.25;
     bench->sensor.azimuth_step_rad = 1.1;
@@ -31,7 +30,6 @@ EFFECT_TEST(values_are_rounded_to_their_steps_and_azimuth_is_wrapped)
 /* None of the three values is off its step, or one of them. */
 EFFECT_TEST(a_change_of_any_value_is_in_the_label)
 {
-    struct effect_bench *bench = *state;
     bench->sensor.range_step_m = 0.5;
     bench->sensor.range_rate_step_mps = 0.25;
     bench->sensor.azimuth_step_rad = 0.125;
@@ -51,7 +49,6 @@ EFFECT_TEST(a_change_of_any_value_is_in_the_label)
 
 EFFECT_TEST(a_value_without_a_step_stays)
 {
-    struct effect_bench *bench = *state;
     bench->sensor.azimuth_step_rad = 0.125;
     struct effect_measurement read = reported(
         bench,

@@ -4,7 +4,6 @@
  * at 24.125 GHz over 100 m in 25 mm/h, and 8.948216 dB at 76.5 GHz over 250 m in 50 mm/h. */
 EFFECT_TEST(rain_attenuates_there_and_back)
 {
-    struct effect_bench *bench = *state;
     static const struct {
         double carrier_hz, rain_mmph, range_m, loss_db;
     } cases[] = {
@@ -24,7 +23,6 @@ EFFECT_TEST(rain_attenuates_there_and_back)
 
 EFFECT_TEST(rain_counts_by_polarization)
 {
-    struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
     bench->frame.conditions.rain_mmph = 25;
     bench->sensor.polarization = POLARIZATION_HORIZONTAL;

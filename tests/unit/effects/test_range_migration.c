@@ -19,7 +19,6 @@ static struct echo walking_echo(struct effect_bench *bench, double range_rate_mp
 
 EFFECT_TEST(echoes_that_walk_fade_and_widen_in_either_direction)
 {
-    struct effect_bench *bench = *state;
     static const struct {
         enum range_migration migration;
         double loss_db, width_cells, width_at_rest;
@@ -40,7 +39,6 @@ EFFECT_TEST(echoes_that_walk_fade_and_widen_in_either_direction)
 
 EFFECT_TEST(a_cell_of_which_half_is_told_walks_as_the_whole_one)
 {
-    struct effect_bench *bench = *state;
     bool labelled;
     struct echo echo = walking_echo(bench, 30);
     set_radar(bench, MIGRATION_HANN);
@@ -65,7 +63,6 @@ static bool is_simulated(struct effect_bench *bench, enum range_migration migrat
 
 EFFECT_TEST(it_is_simulated_only_if_the_radar_has_a_window_and_an_echo_walks)
 {
-    struct effect_bench *bench = *state;
     uint64_t alone = EFFECT_BIT(EFFECT_RANGE_MIGRATION);
     walking_echo(bench, 0);
     assert_false(is_simulated(bench, MIGRATION_HANN, alone));
@@ -80,7 +77,6 @@ EFFECT_TEST(it_is_simulated_only_if_the_radar_has_a_window_and_an_echo_walks)
 /* The radar drives, so that the ground walks; ideal has no echo. */
 EFFECT_TEST(echoes_that_other_effects_add_may_walk)
 {
-    struct effect_bench *bench = *state;
     bench->frame.conditions.clutter_per_m2 = 0.01;
     bench->frame.conditions.clutter_ercs = 0.1;
     assert_true(is_simulated(bench, MIGRATION_HANN, EVERY_EFFECT));

@@ -12,7 +12,6 @@ static struct effect_measurement measure_cell(struct effect_bench *bench, const 
 
 EFFECT_TEST(range_and_rate_get_the_noise_of_their_cell)
 {
-    struct effect_bench *bench = *state;
     const struct cell cell = {.range_m = 10, .range_rate_mps = -3, .members = {&leader, 1, 1}};
     bench->sensor.range_sigma_m = 0.02;
     bench->sensor.range_rate_sigma_mps = 0.05;
@@ -30,7 +29,6 @@ EFFECT_TEST(range_and_rate_get_the_noise_of_their_cell)
 
 EFFECT_TEST(no_range_is_below_0)
 {
-    struct effect_bench *bench = *state;
     const struct cell cell = {.range_m = 0.1, .members = {&leader, 1, 1}};
     size_t cut = 0;
     bench->sensor.range_sigma_m = 1;

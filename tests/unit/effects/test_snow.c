@@ -6,7 +6,6 @@
  * 10 mm/h. */
 EFFECT_TEST(snow_attenuates_there_and_back)
 {
-    struct effect_bench *bench = *state;
     static const struct {
         double carrier_hz, snow_mmph, range_m, loss_db, slack_db;
     } cases[] = {

@@ -31,7 +31,6 @@ static void prepare(struct effect_bench *bench, struct echo *echo)
 
 EFFECT_TEST(a_point_rises_and_fades_by_the_interference_of_both_paths)
 {
-    struct effect_bench *bench = *state;
     double wave_m = 299792458 / 76.5e9;
     struct echo echo = effect_bench_echo(20);
     prepare(bench, &echo);
@@ -51,7 +50,6 @@ EFFECT_TEST(a_point_rises_and_fades_by_the_interference_of_both_paths)
 
 EFFECT_TEST(an_extended_echo_gets_the_mean_over_all_phases)
 {
-    struct effect_bench *bench = *state;
     double direct_m, longer_m;
     struct echo echo = effect_bench_echo(20);
     prepare(bench, &echo);
@@ -63,7 +61,6 @@ EFFECT_TEST(an_extended_echo_gets_the_mean_over_all_phases)
 
 EFFECT_TEST(without_one_of_its_causes_the_road_does_not_mirror)
 {
-    struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(20), flat = echo;
     prepare(bench, &echo);
     assert_true(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo) != 1);

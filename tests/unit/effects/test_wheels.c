@@ -34,7 +34,6 @@ static size_t poisson(double mean, double uniform)
  * around the wheel. */
 EFFECT_TEST(points_have_the_count_and_the_rates_of_their_draws)
 {
-    struct effect_bench *bench = *state;
     size_t all = 0;
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++) {
         const struct echo parent = hub();
@@ -63,7 +62,6 @@ EFFECT_TEST(points_have_the_count_and_the_rates_of_their_draws)
 
 EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_no_points)
 {
-    struct effect_bench *bench = *state;
     struct echo still = hub(), limbs = hub(), plain = hub();
     still.ground_rate_mps = 0;
     limbs.moving_part = MOVING_LIMBS;
@@ -81,7 +79,6 @@ EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_no_points)
  */
 EFFECT_TEST(points_fade_in_with_the_speed_and_none_is_made_of_rounding)
 {
-    struct effect_bench *bench = *state;
     double rates[] = {1e-300, 1e-12, -0.05, 0.050001, -0.275, 0.4999999, 0.5};
     double shares[] = {0, 0, 0, 1e-6 / 0.45, 0.5, 0.4499999 / 0.45, 1};
     size_t seen = 0;
@@ -100,7 +97,6 @@ EFFECT_TEST(points_fade_in_with_the_speed_and_none_is_made_of_rounding)
 
 EFFECT_TEST(without_the_effect_a_wheel_has_no_points)
 {
-    struct effect_bench *bench = *state;
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_WHEELS);
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++)
         assert_int_equal(points_of(bench, without, hub()).count, 0);

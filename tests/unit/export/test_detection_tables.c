@@ -56,11 +56,10 @@ static void check_begins(const struct text *rows, const char *const *expected)
     assert_ptr_equal(at + 1, rows->bytes + rows->length);
 }
 
-#define TABLE_TEST(name) TEST_WITH(begin, end, name)
+#define TABLE_TEST(name) TEST_WITH(begin, end, struct sheet *sheet, name)
 
 TABLE_TEST(keys_count_on_from_frame_to_frame_and_join_rows)
 {
-    struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
     detection_tables_begin(&sheet->tables, 1000, &sheet->arena);
     for (int i = 0; i < 2; i++)
@@ -87,7 +86,6 @@ TABLE_TEST(keys_count_on_from_frame_to_frame_and_join_rows)
 
 TABLE_TEST(a_sighting_joins_its_scan_and_its_object_and_its_counts_are_never_empty)
 {
-    struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
     *list_add(&frame.visibility, frame.arena) =
         (struct sighting){.sensor = "left", .object = "a", .visibility = 4};
@@ -105,7 +103,6 @@ TABLE_TEST(a_sighting_joins_its_scan_and_its_object_and_its_counts_are_never_emp
 
 TABLE_TEST(what_is_of_no_object_has_no_key_of_one)
 {
-    struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
     frame.targets.count = 1;
     frame.targets.items[0].contributors.items[0].id.object = "ground";
@@ -117,7 +114,6 @@ TABLE_TEST(what_is_of_no_object_has_no_key_of_one)
 
 TABLE_TEST(a_sensor_that_did_not_measure_has_no_scan)
 {
-    struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
     frame.sensors.list.items[0].measured = false;
     memmove(frame.targets.items, frame.targets.items + 1, sizeof *frame.targets.items);
@@ -131,7 +127,6 @@ TABLE_TEST(a_sensor_that_did_not_measure_has_no_scan)
 
 TABLE_TEST(a_part_that_runs_out_of_keys_is_refused)
 {
-    struct sheet *sheet = *state;
     struct frame frame = ordered_frame(sheet);
     detection_tables_begin(&sheet->tables, 0, &sheet->arena);
     sheet->tables.detection_key = DETECTION_TABLES_KEYS - 2;

@@ -24,7 +24,6 @@ TEST(a_request_names_what_may_be_simulated)
         {"-merging", EVERY & ~EFFECT_BIT(EFFECT_MERGING), true},
         {"none,merging", EFFECT_BIT(EFFECT_MERGING), false},
     };
-    (void)state;
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct selection selection;
         struct diag diag = {0};
@@ -38,7 +37,6 @@ TEST(an_unknown_effect_is_refused_by_name)
 {
     static const char *const texts[] = {"",          "fog horn", "auto,all",   "all,",
                                         "merging,-", "-none",    "all,-mergin"};
-    (void)state;
     for (size_t i = 0; i < COUNT(texts); i++) {
         struct selection selection;
         struct diag diag = {0};

@@ -60,7 +60,6 @@ TEST(a_line_above_the_top_all_along_is_free)
         {{{8, -5}, {8, 5}, 0, 10}, 3.9, 0.1}, /* along an end, over its whole width */
         {{{7, 0}, {9, 2}, 0, 2}, 0.9, 0.1},   /* through a corner */
     };
-    (void)state;
     for (size_t i = 0; i < COUNT(cases); i++) {
         assert_close(obstruction_clear_m(car, 4, UP_TO(cases[i].top_m), &cases[i].line),
                      cases[i].above_m, 1e-14);

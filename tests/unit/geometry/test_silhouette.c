@@ -54,7 +54,6 @@ TEST(a_box_before_another_overlaps_it_and_a_wider_one_covers_it)
         {{10, 0}, {0, 1}, {30, 3.1}, {0, 0}, false, false},
     };
     static const double turned_rad[] = {0, PI / 2, 2.5, -1};
-    (void)state;
     for (size_t i = 0; i < COUNT(cases); i++)
         for (int j = 0; j < 4; j++) {
             struct vec2 turn = vec2_heading(turned_rad[j]);

@@ -98,13 +98,13 @@ static bool is_found(const struct silhouette_index *index, size_t count, size_t 
 
 FIXTURE(start, stop);
 
-TEST(every_body_before_a_corner_is_found_in_order)
+TEST_OF(arena, every_body_before_a_corner_is_found_in_order)
 {
     static const struct vec2 sensor = {0, 0};
     uint64_t random = 1;
     size_t blocked = 0;
     for (int i = 0; i < SCENES; i++) {
-        struct scene scene = random_scene(&random, *state);
+        struct scene scene = random_scene(&random, arena);
         for (size_t behind = 0; behind < scene.count; behind += 7) {
             size_t next = 0;
             size_t count =
@@ -122,9 +122,8 @@ TEST(every_body_before_a_corner_is_found_in_order)
     assert_true(blocked > 100000);
 }
 
-TEST(a_search_in_one_direction_finds_few_bodies)
+TEST_OF(arena, a_search_in_one_direction_finds_few_bodies)
 {
-    struct arena *arena = *state;
     struct silhouette_index index = silhouette_index_begin(MOST, arena);
     for (size_t i = 0; i < MOST; i++) {
         struct vec2 heading = vec2_heading((double)i * 2 * PI / MOST);
@@ -163,12 +162,12 @@ static void random_line(uint64_t *random, struct vec2 *from, struct vec2 *to)
     }
 }
 
-TEST(every_body_that_a_line_touches_is_found)
+TEST_OF(arena, every_body_that_a_line_touches_is_found)
 {
     uint64_t random = 2;
     size_t touched = 0;
     for (int i = 0; i < SCENES; i++) {
-        struct scene scene = random_scene(&random, *state);
+        struct scene scene = random_scene(&random, arena);
         for (int line = 0; line < 20; line++) {
             struct vec2 from, to;
             random_line(&random, &from, &to);
@@ -185,9 +184,8 @@ TEST(every_body_that_a_line_touches_is_found)
     assert_true(touched > 100000);
 }
 
-TEST(everywhere_finds_all_entries_and_nothing_else)
+TEST_OF(arena, everywhere_finds_all_entries_and_nothing_else)
 {
-    struct arena *arena = *state;
     struct silhouette_index index = silhouette_index_begin(130, arena);
     struct vec2 heading = {1, 0}, ahead_m = {50, 0};
     struct silhouette ahead = silhouette_at(ahead_m, (struct vec2){1, 1}, heading);

@@ -17,7 +17,6 @@ static const struct lost_group *only_loss(const struct scene *scene)
 
 SCENE_TEST(the_first_blocker_by_id_is_named)
 {
-    struct scene *scene = *state;
     add_point(scene, add_set(scene, "far"))->ercs = 1;
     add_set(scene, "y");
     add_set(scene, "x");
@@ -42,7 +41,6 @@ SCENE_TEST(the_first_blocker_by_id_is_named)
  * dark side; of the flat side from (20, -1) to (20, 1) the sensor sees the edge. */
 SCENE_TEST(what_sends_no_echo_is_lost_where_it_is)
 {
-    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "p");
     add_point(scene, set)->zero_rad = 1;
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
@@ -60,7 +58,6 @@ SCENE_TEST(what_sends_no_echo_is_lost_where_it_is)
 
 SCENE_TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing)
 {
-    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
     add_point(scene, set)->x = 0.5; /* the far end */
     add_object(scene, "a", 20, 0);
@@ -72,7 +69,6 @@ SCENE_TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing)
 
 SCENE_TEST(wheel_houses_are_seen_under_raised_vehicles_only)
 {
-    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "far");
     add_point(scene, set)->name = "corner";
     struct point_reflector *wheel = add_point(scene, set);
@@ -111,9 +107,7 @@ SCENE_TEST(every_loss_has_its_reason)
                  {-10, 0, 0, LOSS_OUT_OF_VIEW},    {0, 0, 0, LOSS_OUT_OF_RANGE},
                  {500, 0, 0, LOSS_FACING_AWAY}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        void *place;
-        make_scene(&place);
-        struct scene *scene = place;
+        clear_scene(scene);
         scene->sensor.field_of_view_rad = PI / 2;
         struct point_reflector *point = add_point(scene, add_set(scene, "a"));
         point->facing_rad = cases[i].facing_rad;
@@ -121,13 +115,11 @@ SCENE_TEST(every_loss_has_its_reason)
         add_object(scene, "a", cases[i].x_m, cases[i].y_m);
         look_at(scene, 10);
         assert_int_equal(frame_loss_of(only_loss(scene)->reason), cases[i].reason);
-        remove_scene(&place);
     }
 }
 
 SCENE_TEST(planes_mirror_from_the_foot_of_the_perpendicular)
 {
-    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
@@ -153,7 +145,6 @@ static double lobe_of(double off_degrees, double below_degrees)
 
 SCENE_TEST(a_lobe_depends_on_direction_and_height_of_the_sensor)
 {
-    struct scene *scene = *state;
     struct object *object = add_object(scene, "o", 10, 0);
     struct point_reflector *point = add_point(scene, add_set(scene, "o"));
     point->z = 1;
@@ -178,7 +169,6 @@ SCENE_TEST(a_lobe_depends_on_direction_and_height_of_the_sensor)
 
 SCENE_TEST(posts_become_echoes_with_their_numbers)
 {
-    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "rail");
     set->blocks = false;
     *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
@@ -238,9 +228,7 @@ SCENE_TEST(a_margin_is_the_distance_from_another_answer)
         {27.5, 0, 30, -1, 0.5},             /* 0.5 m before it */
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        void *place;
-        make_scene(&place);
-        struct scene *scene = place;
+        clear_scene(scene);
         scene->frame.sections |= CARRY_MARGINS;
         scene->sensor.field_of_view_rad = PI / 2;
         scene->sensor.range_min_m = 1;
@@ -266,7 +254,6 @@ SCENE_TEST(a_margin_is_the_distance_from_another_answer)
         struct margins margins = only_margins(scene);
         assert_int_equal(margins.present, MARGIN_SIGHT);
         assert_close(margins.sight_m, margin_m, 1e-12);
-        remove_scene(&place);
     }
 }
 
@@ -281,9 +268,7 @@ SCENE_TEST(an_echo_from_under_a_truck_can_change_in_two_ways)
         {0, 0.75, 0.25}, /* the wall blocks the line, 0.25 m deep */
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        void *place;
-        make_scene(&place);
-        struct scene *scene = place;
+        clear_scene(scene);
         scene->frame.sections |= CARRY_MARGINS;
         add_point(scene, add_set(scene, "pole"))->under_vehicles = 0.5;
         add_set(scene, "truck")->raised = true;
@@ -293,13 +278,11 @@ SCENE_TEST(an_echo_from_under_a_truck_can_change_in_two_ways)
         add_object(scene, "wall", 30, cases[i].wall_y_m);
         look_at(scene, 10);
         assert_close(only_margins(scene).sight_m, cases[i].margin_m, 1e-12);
-        remove_scene(&place);
     }
 }
 
 SCENE_TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end)
 {
-    struct scene *scene = *state;
     scene->frame.sections |= CARRY_MARGINS;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
@@ -316,7 +299,6 @@ SCENE_TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end)
 
 SCENE_TEST(without_margins_no_entry_has_any)
 {
-    struct scene *scene = *state;
     add_point(scene, add_set(scene, "a"));
     add_point(scene, add_set(scene, "b"))->zero_rad = 1;
     add_object(scene, "a", 20, 0);
@@ -347,9 +329,7 @@ SCENE_TEST(auto_without_an_account_finds_the_same_echoes)
     uint64_t random = 5;
     size_t echoes = 0, pairs = 0;
     for (int i = 0; i < 3000; i++) {
-        void *place;
-        make_scene(&place);
-        struct scene *scene = place;
+        clear_scene(scene);
         add_random_bodies(scene, &random);
         struct look all = look_at(scene, 10), some;
         struct frame *frame = &scene->frame, accounted = *frame;
@@ -362,7 +342,6 @@ SCENE_TEST(auto_without_an_account_finds_the_same_echoes)
         assert_same_echoes(frame->echoes.items, accounted.echoes.items, (size_t)some.echoes);
         echoes += (size_t)all.echoes;
         pairs += (size_t)all.pairs;
-        remove_scene(&place);
     }
     assert_true(echoes > 5000 && pairs > 100000);
 }

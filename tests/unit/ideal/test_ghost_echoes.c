@@ -138,12 +138,11 @@ static int paths_of(struct scene *scene)
     return paths;
 }
 
-#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, name)
+#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, struct scene *scene, name)
 
 /* The case to check against of MODEL 14.1. */
 SCENE_TEST(a_pole_before_a_wall_has_the_ghosts_of_the_model)
 {
-    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     ghosts_at(scene, 10);
@@ -179,7 +178,6 @@ SCENE_TEST(a_pole_before_a_wall_has_the_ghosts_of_the_model)
 
 SCENE_TEST(bounces_and_the_selection_say_which_ghosts_there_are)
 {
-    struct scene *scene = *state;
     static const int paths[] = {0, 0, OUT | BACK, OUT | BACK | BOTH};
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
@@ -195,7 +193,6 @@ SCENE_TEST(bounces_and_the_selection_say_which_ghosts_there_are)
  */
 SCENE_TEST(every_leg_must_be_free)
 {
-    struct scene *scene = *state;
     static const struct {
         double x_m, y_m;
         int paths;
@@ -223,7 +220,6 @@ SCENE_TEST(every_leg_must_be_free)
 /* A box with a pole at its far left corner, (12, 2), whose image is (12, 6). */
 SCENE_TEST(an_object_hides_its_own_bounce_but_not_its_reflectors)
 {
-    struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
     struct object *box = add_object(scene, "o", 10, 0, 4, 4);
     struct reflector_set *set = add_set(scene, "o", true);
@@ -244,7 +240,6 @@ SCENE_TEST(an_object_hides_its_own_bounce_but_not_its_reflectors)
 
 SCENE_TEST(no_body_mirrors_itself_and_every_mirror_has_its_ghosts)
 {
-    struct scene *scene = *state;
     add_standard_pole(scene);
     add_right_mirror(scene, &scene->frame.reflectors.items[0], 0.9);
     assert_int_equal(paths_of(scene), 0);
@@ -269,7 +264,6 @@ SCENE_TEST(no_body_mirrors_itself_and_every_mirror_has_its_ghosts)
 
 SCENE_TEST(two_walls_in_line_are_one)
 {
-    struct scene *scene = *state;
     for (int step = -4; step <= 4; step++) {
         clear_scene(scene);
         add_standard_pole(scene);
@@ -292,7 +286,6 @@ static double raised_cosine(double full_rad, double zero_rad, double delta_rad)
 
 SCENE_TEST(both_one_way_ghosts_are_equally_strong)
 {
-    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     struct point_reflector *pole = scene->frame.reflectors.items[0].points.items;
@@ -324,7 +317,6 @@ SCENE_TEST(both_one_way_ghosts_are_equally_strong)
 
 SCENE_TEST(limits_hold_for_the_ghost_and_its_last_leg)
 {
-    struct scene *scene = *state;
     static const struct {
         double range_min_m, range_max_m, view_deg;
         int paths;
@@ -361,7 +353,6 @@ SCENE_TEST(limits_hold_for_the_ghost_and_its_last_leg)
 
 SCENE_TEST(planes_have_a_ghost_at_the_foot_of_the_sensors_image)
 {
-    struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
     /* The image of the sensor is (0, 8). A side at (12, -8) that is turned to face it has its foot
      * there; a side that faces -x has none. */
@@ -409,7 +400,6 @@ SCENE_TEST(planes_have_a_ghost_at_the_foot_of_the_sensors_image)
  * its way. */
 SCENE_TEST(a_material_mirrors_by_angle_and_polarization)
 {
-    struct scene *scene = *state;
     double cosine = 10 / sqrt(1000);
     for (int upright = 0; upright < 2; upright++)
         for (enum material material = MATERIAL_CONCRETE; material <= MATERIAL_METAL; material++) {
@@ -433,7 +423,6 @@ SCENE_TEST(a_material_mirrors_by_angle_and_polarization)
 
 SCENE_TEST(a_curved_mirror_spreads_the_wave_at_every_bounce)
 {
-    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     paths_of(scene);
@@ -453,7 +442,6 @@ SCENE_TEST(a_curved_mirror_spreads_the_wave_at_every_bounce)
 
 SCENE_TEST(posts_have_ghosts_by_their_names)
 {
-    struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
     add_object(scene, "r", 20, -3, 40, 0.2);
     struct reflector_set *rail = add_set(scene, "r", false);
@@ -488,7 +476,6 @@ static void set_motion(struct object *object, uint64_t *sample)
 /* Sensor, wall and object all move and turn. */
 SCENE_TEST(rates_are_derivatives_of_ranges)
 {
-    struct scene *scene = *state;
     uint64_t sample = 1;
     int compared = 0;
     for (int round = 0; round < 300; round++) {
@@ -563,7 +550,6 @@ static void limit_sensor(struct scene *scene, uint64_t *sample)
 
 SCENE_TEST(auto_leaves_out_no_ghost)
 {
-    struct scene *scene = *state;
     uint64_t sample = 2;
     size_t ghosts = 0;
     struct effect_log log = {0};
@@ -629,7 +615,6 @@ SCENE_TEST(auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view)
         /* The wall is behind the sensor. */
         {-10, -2, -20. / 3, 4, 100, 80, 0, false, 0},
     };
-    struct scene *scene = *state;
     struct effect_log log = {0};
     for (size_t i = 0; i < COUNT(cases); i++) {
         clear_scene(scene);
@@ -650,7 +635,6 @@ SCENE_TEST(auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view)
 
 SCENE_TEST(margins_tell_how_near_a_ghost_is_to_vanishing)
 {
-    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
@@ -684,7 +668,6 @@ SCENE_TEST(margins_tell_how_near_a_ghost_is_to_vanishing)
 
 SCENE_TEST(a_ghost_in_a_wall_that_moved_has_the_label_latency)
 {
-    struct scene *scene = *state;
     add_standard_pole(scene);
     scene->frame.objects.items[1].vx_mps = 0;
     struct object *wall = add_wall(scene, "w", -10, 50, 4);
@@ -704,7 +687,6 @@ SCENE_TEST(a_ghost_in_a_wall_that_moved_has_the_label_latency)
 /* The standard case with a pole 3 m above the sensor: every path is longer by that height. */
 SCENE_TEST(heights_count_on_every_leg)
 {
-    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     scene->sensor.mount_z_m = 0.5;
@@ -769,7 +751,6 @@ SCENE_TEST(heights_count_on_every_leg)
 /* The factor of a knife edge counts both ways, its root one way. */
 SCENE_TEST(soft_shadows_count_once_for_every_leg)
 {
-    struct scene *scene = *state;
     static const struct {
         double x_m, y_m;
         struct obstruction_line leg;

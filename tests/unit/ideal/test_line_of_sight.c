@@ -20,7 +20,6 @@ static void add_two_walls(struct scene *scene)
 
 SCENE_TEST(the_joint_of_two_walls_mirrors_once)
 {
-    struct scene *scene = *state;
     static const double sensor_x_m[] = {10, 10 - 0x1p-49, 10 + 0x1p-49};
     static const char *const expected[] = {"b", "a", "b"};
     add_two_walls(scene);
@@ -38,7 +37,6 @@ SCENE_TEST(the_joint_of_two_walls_mirrors_once)
  * other, but their ends are two vertices. */
 SCENE_TEST(the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farther_on)
 {
-    struct scene *scene = *state;
     add_two_walls(scene);
     scene->frame.objects.items[2].x_m = 12 + 1e-9;
     look_at(scene, 10);
@@ -49,7 +47,6 @@ SCENE_TEST(the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farther
 /* A side that stands out of its body's box, in line with the side of a wall behind that body. */
 SCENE_TEST(a_body_hides_nothing_of_a_wall_that_it_joins)
 {
-    struct scene *scene = *state;
     struct reflector_set *wall = add_set(scene, "wall"), *front = add_set(scene, "front");
     *list_add(&wall->planes, &scene->arena) = (struct plane_reflector){
         .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
@@ -77,9 +74,7 @@ SCENE_TEST(a_line_is_blocked_where_it_touches_an_outline)
     uint64_t random = 11;
     size_t blocked = 0, lines = 0;
     for (int i = 0; i < 2000; i++) {
-        void *place;
-        make_scene(&place);
-        struct scene *scene = place;
+        clear_scene(scene);
         add_random_bodies(scene, &random);
         scene->sensor.mount_z_m = 0;
         scene->sensor.diffraction = false;
@@ -98,7 +93,6 @@ SCENE_TEST(a_line_is_blocked_where_it_touches_an_outline)
             blocked += by != NULL;
             lines++;
         }
-        remove_scene(&place);
     }
     assert_true(blocked > lines / 10 && blocked < lines / 2);
 }
@@ -106,7 +100,6 @@ SCENE_TEST(a_line_is_blocked_where_it_touches_an_outline)
 /* A plane from corner to corner of a car of 4 m by 2 m at (10, 20) that heads along (0.6, 0.8). */
 SCENE_TEST(a_side_has_the_place_and_direction_of_its_plane)
 {
-    struct scene *scene = *state;
     add_set(scene, "a");
     add_object(scene, "a", 10, 20)->yaw_rad = atan2(0.8, 0.6);
     struct look look = look_at(scene, 10);
@@ -134,7 +127,6 @@ static void add_body(struct scene *scene, const char *id, double x_m, double lef
 /* By ITU-R P.526, J(0) is 6.03 dB each way. */
 SCENE_TEST(a_touched_edge_takes_six_decibels_each_way)
 {
-    struct scene *scene = *state;
     scene->sensor.diffraction = true;
     scene->sensor.carrier_hz = 24e9;
     add_body(scene, "a", 20, 0);
@@ -147,7 +139,6 @@ SCENE_TEST(a_touched_edge_takes_six_decibels_each_way)
 
 SCENE_TEST(factors_of_two_bodies_multiply)
 {
-    struct scene *scene = *state;
     scene->sensor.diffraction = true;
     scene->sensor.carrier_hz = 24e9;
     add_body(scene, "a", 20, 0.02);
@@ -164,7 +155,6 @@ SCENE_TEST(factors_of_two_bodies_multiply)
 
 SCENE_TEST(raised_bodies_do_not_block_a_line_under_them)
 {
-    struct scene *scene = *state;
     add_body(scene, "a", 20, -1);
     add_body(scene, "b", 30, 5);
     scene->frame.reflectors.items[0].raised = true;
@@ -180,7 +170,6 @@ SCENE_TEST(raised_bodies_do_not_block_a_line_under_them)
 
 SCENE_TEST(the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body)
 {
-    struct scene *scene = *state;
     struct look look = look_at(scene, 10);
     assert_true(line_of_sight_margin_m(&look, NULL, 0, &ahead, false, false) == (double)INFINITY);
     add_body(scene, "a", 20, 3);
@@ -199,7 +188,6 @@ SCENE_TEST(the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body)
 /* The line crosses two bodies, 0.75 m and 0.25 m inside their nearest sides. */
 SCENE_TEST(the_margin_of_a_blocked_line_is_its_greatest_depth_in_a_body)
 {
-    struct scene *scene = *state;
     add_body(scene, "a", 20, -1.25);
     add_body(scene, "b", 40, -0.25);
     struct look look = look_at(scene, 10);
@@ -212,7 +200,6 @@ SCENE_TEST(the_margin_of_a_blocked_line_is_its_greatest_depth_in_a_body)
  * m high. */
 SCENE_TEST(the_margin_of_a_line_over_a_body_is_its_height_above_the_top)
 {
-    struct scene *scene = *state;
     static const struct obstruction_line rising = {{0, 0}, {60, 0}, 1, 3};
     scene->sensor.mount_z_m = 1;
     add_body(scene, "a", 20, -1);
@@ -272,9 +259,8 @@ SCENE_TEST(the_blockers_of_a_body_let_the_same_pass_as_all_bodies)
     uint64_t random = 12;
     size_t blocked = 0, bent = 0, lines = 0;
     for (int i = 0; i < 1000; i++) {
-        void *place;
-        make_scene(&place);
-        struct look look = look_at_random_bodies(place, &random);
+        clear_scene(scene);
+        struct look look = look_at_random_bodies(scene, &random);
         for (size_t j = 0; j < look.body_count; j++) {
             const struct look_body *body = &look.bodies[j];
             struct look_extent extent = look_reflectors_extent(&look, body, body->set);
@@ -292,7 +278,6 @@ SCENE_TEST(the_blockers_of_a_body_let_the_same_pass_as_all_bodies)
             bent += all.factor > 0 && all.factor < 1;
             lines++;
         }
-        remove_scene(&place);
     }
     assert_true(blocked > lines / 20 && blocked < lines / 2 && bent > 100);
 }
@@ -302,9 +287,8 @@ SCENE_TEST(where_a_set_is_all_hidden_each_of_its_points_is_blocked)
     uint64_t random = 13;
     size_t hidden = 0;
     for (int i = 0; i < 1000; i++) {
-        void *place;
-        make_scene(&place);
-        struct look look = look_at_random_bodies(place, &random);
+        clear_scene(scene);
+        struct look look = look_at_random_bodies(scene, &random);
         for (size_t j = 0; j < look.body_count; j++) {
             const struct look_body *body = &look.bodies[j];
             struct look_extent extent = look_reflectors_extent(&look, body, body->set);
@@ -316,7 +300,6 @@ SCENE_TEST(where_a_set_is_all_hidden_each_of_its_points_is_blocked)
             assert_non_null(line_of_sight_past_blockers(&look, NULL, &line, under).by);
             hidden++;
         }
-        remove_scene(&place);
     }
     assert_true(hidden > 200);
 }

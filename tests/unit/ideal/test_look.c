@@ -4,7 +4,6 @@
 
 SCENE_TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego)
 {
-    struct scene *scene = *state;
     struct object *ego = scene->frame.objects.items;
     ego->x_m = 100;
     ego->y_m = 50;
@@ -34,7 +33,6 @@ SCENE_TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego)
 
 SCENE_TEST(a_late_measurement_shows_where_everything_was)
 {
-    struct scene *scene = *state;
     struct object *ego = scene->frame.objects.items;
     ego->vx_mps = 20;
     add_point(scene, add_set(scene, "a"));
@@ -64,7 +62,6 @@ SCENE_TEST(a_late_measurement_shows_where_everything_was)
 
 SCENE_TEST(a_set_that_lists_an_unknown_object_is_refused)
 {
-    struct scene *scene = *state;
     struct look look;
     struct diag diag = {0};
     add_set(scene, "ghost");
@@ -76,7 +73,6 @@ SCENE_TEST(a_set_that_lists_an_unknown_object_is_refused)
 /* Eight at one place, of which five stay; a taller one, and one of another set, block otherwise. */
 SCENE_TEST(bodies_that_block_alike_stand_for_each_other)
 {
-    struct scene *scene = *state;
     static const char *const ids[] = {"a", "b", "c", "d", "f", "g", "h", "i", "tall", "other"};
     struct reflector_set *set = add_set(scene, "a");
     for (size_t i = 0; i < 10; i++)
@@ -100,7 +96,6 @@ SCENE_TEST(bodies_that_block_alike_stand_for_each_other)
  * a place outside the borders into view. */
 SCENE_TEST(a_disc_out_of_view_has_no_place_in_view)
 {
-    struct scene *scene = *state;
     uint64_t random = 9;
     int outside = 0, in_view = 0;
     for (int i = 0; i < 100000; i++) {

@@ -86,7 +86,6 @@ static struct vec2 world_place(const struct look *look, const struct echo *echo)
 
 SCENE_TEST(the_same_scatterer_stays_in_the_world)
 {
-    struct scene *scene = *state;
     struct look first, second;
     add_roadside(scene);
     struct echo_span before = see_as(scene, &automatic, &first);
@@ -118,7 +117,6 @@ SCENE_TEST(the_same_scatterer_stays_in_the_world)
 
 SCENE_TEST(scatterers_stand_and_have_labels_of_their_own)
 {
-    struct scene *scene = *state;
     struct look look;
     add_roadside(scene);
     struct object *ego = frame_object(&scene->frame, "e");
@@ -143,7 +141,6 @@ SCENE_TEST(scatterers_stand_and_have_labels_of_their_own)
  */
 SCENE_TEST(a_strip_out_of_sight_changes_no_echo_of_another_strip)
 {
-    struct scene *scene = *state;
     struct look look;
     add_roadside(scene);
     scene->frame.roadside.items[0].id = "left";
@@ -164,7 +161,6 @@ SCENE_TEST(a_strip_out_of_sight_changes_no_echo_of_another_strip)
 /* A car 20 m ahead, 4 m by 2 m, between the sensor and the cross rail. */
 SCENE_TEST(a_body_hides_what_stands_behind_it)
 {
-    struct scene *scene = *state;
     struct look look;
     add_roadside(scene);
     struct echo_span open = see_as(scene, &automatic, &look);
@@ -186,7 +182,6 @@ SCENE_TEST(a_body_hides_what_stands_behind_it)
  * weakest is 14 dB below the threshold, but for the way from it to the middle of its cell. */
 SCENE_TEST(a_higher_threshold_only_leaves_out_the_weakest)
 {
-    struct scene *scene = *state;
     struct look look;
     add_roadside(scene);
     struct echo_span all = see_as(scene, &automatic, &look);
@@ -212,7 +207,6 @@ SCENE_TEST(a_higher_threshold_only_leaves_out_the_weakest)
 
 SCENE_TEST(auto_makes_the_echoes_of_all)
 {
-    struct scene *scene = *state;
     uint64_t random = 5;
     add_roadside(scene);
     add_random_bodies(scene, &random);
@@ -235,7 +229,6 @@ SCENE_TEST(auto_makes_the_echoes_of_all)
 
 SCENE_TEST(without_strips_or_the_effect_there_are_no_echoes)
 {
-    struct scene *scene = *state;
     struct look look;
     struct effect_log log = {0};
     struct selection none = {.allowed = EFFECT_BIT(EFFECT_OCCLUSION), .log = &log};

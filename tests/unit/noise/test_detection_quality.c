@@ -44,7 +44,6 @@ static struct quality quality_of(struct effect_bench *bench, const struct detect
  * At 30 degrees u is pi/4 and A_phi is si(u) cos 30 cos u, 0.551329 (MODEL 7.1). */
 EFFECT_TEST(strength_is_over_noise_and_over_a_reflector_of_ten_square_metres)
 {
-    struct effect_bench *bench = *state;
     struct cell cell = {0};
     struct effect_measurement measurement = measurement_of(bench, &cell);
     struct target target = target_of(&measurement, 0, 1);
@@ -64,7 +63,6 @@ EFFECT_TEST(strength_is_over_noise_and_over_a_reflector_of_ten_square_metres)
  * left, and looks left by 30 degrees, so that the sight is at 60 degrees from the heading. */
 EFFECT_TEST(places_are_in_four_frames_and_the_rate_is_less_the_sensors_own)
 {
-    struct effect_bench *bench = *state;
     bench->frame.objects.items[0] = (struct object){.id = "ego",
                                                     .class = "car",
                                                     .x_m = 100,
@@ -100,7 +98,6 @@ EFFECT_TEST(places_are_in_four_frames_and_the_rate_is_less_the_sensors_own)
 /* Half a second before, the ego was 10 m further south. */
 EFFECT_TEST(places_are_those_of_the_instant_that_the_scan_shows)
 {
-    struct effect_bench *bench = *state;
     bench->frame.objects.items[0] =
         (struct object){.id = "ego", .class = "car", .yaw_rad = PI / 2, .vy_mps = 20};
     bench->frame.sensors.list.items[0].age_s = 0.5;
@@ -116,7 +113,6 @@ EFFECT_TEST(places_are_those_of_the_instant_that_the_scan_shows)
 /* -60 m/s that reads -4 is off by -56 m/s, two intervals of 28; the strongest part decides. */
 EFFECT_TEST(the_label_tells_folds_and_merged_echoes)
 {
-    struct effect_bench *bench = *state;
     struct cell cell = {0};
     struct effect_measurement measurement = measurement_of(bench, &cell);
     struct detection_source source = {.range_rate_interval_mps = 28};
@@ -157,7 +153,6 @@ static struct effect_measurement estimated(struct effect_bench *bench,
  * sqrt(1 + tan^2 45) and cos 30 (MODEL 14.21). */
 EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured)
 {
-    struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
     struct detection_source source;
     sensor->sigma_law = SIGMA_BY_SNR;
@@ -181,7 +176,6 @@ EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured)
 /* A real delta/sum of 0.1 is 0.1 · 100/sqrt(1.01/2) standard deviations from that of one echo. */
 EFFECT_TEST(an_azimuth_of_several_echoes_has_a_wider_deviation)
 {
-    struct effect_bench *bench = *state;
     struct cell cell = {0};
     struct effect_measurement alone = measurement_of(bench, &cell), several;
     alone.amplitude = 100;
@@ -200,7 +194,6 @@ EFFECT_TEST(an_azimuth_of_several_echoes_has_a_wider_deviation)
 
 EFFECT_TEST(noise_that_is_not_simulated_has_no_deviation)
 {
-    struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
     struct detection_source source;
     sensor->range_sigma_m = 0.1;
@@ -219,7 +212,6 @@ EFFECT_TEST(noise_that_is_not_simulated_has_no_deviation)
 
 EFFECT_TEST(false_alarms_are_expected_where_they_are_made)
 {
-    struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
     struct detection_source source;
     sensor->false_alarms = 0.5;
@@ -236,7 +228,6 @@ EFFECT_TEST(false_alarms_are_expected_where_they_are_made)
 
 EFFECT_TEST(rounding_adds_its_own_deviation)
 {
-    struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
     sensor->range_step_m = 0.2;
     struct cell cell = {0};

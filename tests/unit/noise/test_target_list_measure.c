@@ -27,7 +27,6 @@ static struct cell cell_of(struct effect_bench *bench)
 
 EFFECT_TEST(without_noise_a_measurement_has_the_values_of_its_cell)
 {
-    struct effect_bench *bench = *state;
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     struct cell cell = cell_of(bench);
     struct effect_measurement read;
@@ -40,7 +39,6 @@ EFFECT_TEST(without_noise_a_measurement_has_the_values_of_its_cell)
 
 EFFECT_TEST(angle_and_amplitude_are_those_of_the_noisy_pointers)
 {
-    struct effect_bench *bench = *state;
     struct sensor *sensor = &bench->sensor;
     sensor->pointer_sigma = 0.1;
     sensor->misalignment_rad = 0.02;
@@ -61,7 +59,6 @@ EFFECT_TEST(angle_and_amplitude_are_those_of_the_noisy_pointers)
 
 EFFECT_TEST(pointers_of_zero_have_no_angle)
 {
-    struct effect_bench *bench = *state;
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     const struct cell cell = {.members = {&leader, 1, 1}};
     struct effect_measurement read;

@@ -108,9 +108,8 @@ static int remove_arena(void **state)
 
 FIXTURE(make_arena, remove_arena);
 
-TEST(stamps_within_a_tenth_of_the_usual_step_are_one_step)
+TEST_OF(arena, stamps_within_a_tenth_of_the_usual_step_are_one_step)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     const struct recorded_row rows[] = {
         circling("a", 0, 1),   circling("a", 100, 2), circling("a", 200, 3), circling("a", 300, 4),
@@ -121,9 +120,8 @@ TEST(stamps_within_a_tenth_of_the_usual_step_are_one_step)
 }
 
 /* b's stamp is 10 ms after a's: it turns with the yaw rate of its own stamps. */
-TEST(a_row_is_moved_to_the_time_of_its_step)
+TEST_OF(arena, a_row_is_moved_to_the_time_of_its_step)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     struct recorded_row rows[9], row;
     for (size_t i = 0; i < 3; i++) {
@@ -144,9 +142,8 @@ TEST(a_row_is_moved_to_the_time_of_its_step)
 }
 
 /* Without velocities those of the rows' own stamps move a row. */
-TEST(velocities_that_lack_are_those_of_the_own_stamps)
+TEST_OF(arena, velocities_that_lack_are_those_of_the_own_stamps)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     struct recorded_row rows[8], row;
     static const double late_ms[] = {0, 8, 2, 9};
@@ -165,9 +162,8 @@ TEST(velocities_that_lack_are_those_of_the_own_stamps)
 }
 
 /* At 100 ms the stamps are 8 and 4 ms after each other: after 10 ms the next step begins. */
-TEST(a_chain_of_stamps_is_cut_at_a_tenth)
+TEST_OF(arena, a_chain_of_stamps_is_cut_at_a_tenth)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     struct recorded_row rows[36];
     for (size_t i = 0; i < 12; i++) {
@@ -183,9 +179,8 @@ TEST(a_chain_of_stamps_is_cut_at_a_tenth)
         "800 a b c;900 a b c;1000 a b c;1100 a b c;");
 }
 
-TEST(a_step_has_no_two_stamps_of_one_road_user)
+TEST_OF(arena, a_step_has_no_two_stamps_of_one_road_user)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     const struct recorded_row rows[] = {circling("a", 0, 1),   circling("a", 100, 2),
                                         circling("a", 101, 3), circling("a", 200, 4),
@@ -195,9 +190,8 @@ TEST(a_step_has_no_two_stamps_of_one_road_user)
 }
 
 /* Whoever is absent for steps has left; that makes no times of its own. */
-TEST(absences_are_no_times_of_their_own)
+TEST_OF(arena, absences_are_no_times_of_their_own)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     const struct recorded_row rows[] = {
         circling("a", 0, 1),   circling("a", 100, 2), circling("a", 300, 3), circling("a", 500, 4),
@@ -226,9 +220,8 @@ static size_t rows_apart(struct recorded_row *rows)
     return count;
 }
 
-TEST(times_of_their_own_need_a_rate)
+TEST_OF(arena, times_of_their_own_need_a_rate)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     struct recorded_row rows[90];
     struct given given = {rows, rows_apart(rows), 0};
@@ -238,9 +231,8 @@ TEST(times_of_their_own_need_a_rate)
     assert_non_null(strstr(diag.text, "--rate-hz 10 interpolates each between its own rows"));
 }
 
-TEST(each_is_interpolated_between_its_own_rows)
+TEST_OF(arena, each_is_interpolated_between_its_own_rows)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     struct recorded_row rows[90], row;
     struct given given = {rows, rows_apart(rows), 0};
@@ -262,9 +254,8 @@ TEST(each_is_interpolated_between_its_own_rows)
     assert_int_equal(counts[2], 23 + 28);
 }
 
-TEST(rows_of_one_time_that_differ_are_refused_at_a_rate_too)
+TEST_OF(arena, rows_of_one_time_that_differ_are_refused_at_a_rate_too)
 {
-    struct arena *arena = *state;
     struct diag diag = {0};
     struct recorded_row rows[92];
     size_t count = rows_apart(rows);

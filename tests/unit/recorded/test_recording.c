@@ -95,9 +95,9 @@ static const struct object *object_at(const struct played *played, double time_s
 
 FIXTURE(make_scratch, remove_scratch);
 
-TEST(a_row_becomes_an_object)
+TEST_OF(scratch, a_row_becomes_an_object)
 {
-    struct played *played = play_all(*state, HEADER "7,1,100,truck,1.5,-2.5,3,4,0.75,8.5,2.25\n");
+    struct played *played = play_all(scratch, HEADER "7,1,100,truck,1.5,-2.5,3,4,0.75,8.5,2.25\n");
     const struct object *only = object_at(played, 0.1, "7");
     assert_string_equal(only->class, "truck");
     assert_close(only->x_m, 1.5, 0);
@@ -115,10 +115,10 @@ TEST(a_row_becomes_an_object)
     assert_string_equal(played->frames[0].scene, "tracks/7");
 }
 
-TEST(frames_ascend_in_time_and_their_objects_in_id)
+TEST_OF(scratch, frames_ascend_in_time_and_their_objects_in_id)
 {
     struct recording_options options;
-    struct played *played = play(*state,
+    struct played *played = play(scratch,
                                  HEADER "9,3,350,car,0,0,0,0,0,4,2\n"
                                         "10,3,350,car,0,0,0,0,0,4,2\n"
                                         "9,1,100,car,0,0,0,0,0,4,2\n"
@@ -148,7 +148,7 @@ TEST(frames_ascend_in_time_and_their_objects_in_id)
     }
 }
 
-TEST(stamps_are_in_the_unit_of_their_column)
+TEST_OF(scratch, stamps_are_in_the_unit_of_their_column)
 {
     static const char *const texts[] = {
         "track_id,timestamp_us,agent_type,x,y,vx,vy\n1,1700000000050000,car,0,0,0,0\n",
@@ -156,14 +156,14 @@ TEST(stamps_are_in_the_unit_of_their_column)
         "track_id,timestamp_s,agent_type,x,y,vx,vy\n1,1700000000.05,car,0,0,0,0\n",
     };
     for (size_t i = 0; i < 3; i++)
-        assert_close(play_all(*state, texts[i])->frames[0].time_s, 1700000000.05, 3e-7);
-    assert_close(play_all(*state, texts[1])->frames[0].time_s, 1700000000.05, 0);
+        assert_close(play_all(scratch, texts[i])->frames[0].time_s, 1700000000.05, 3e-7);
+    assert_close(play_all(scratch, texts[1])->frames[0].time_s, 1700000000.05, 0);
 }
 
-TEST(without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest)
+TEST_OF(scratch, without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest)
 {
     struct recording_options options;
-    struct played *played = play(*state,
+    struct played *played = play(scratch,
                                  HEADER "P1,1,100,pedestrian/bicycle,0,0,-1,1,,,\n"
                                         "P2,1,100,pedestrian/bicycle,0,0,0,0,,,\n"
                                         "P1,1,200,pedestrian/bicycle,0,0,-0.0,0,,,\n",
@@ -178,12 +178,12 @@ TEST(without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest)
 
 /* The parabola through yaws 0, 0.02 and 0.14 at 0, 0.1 and 0.3 s has the slope 1/3 rad/s in the
  * middle: (0.2 * 0.2 + 0.6 * 0.1) / 0.3. */
-TEST(yaw_rates_are_slopes_of_parabolas_and_wrap)
+TEST_OF(scratch, yaw_rates_are_slopes_of_parabolas_and_wrap)
 {
-    struct played *played = play_all(*state, HEADER "a,1,0,car,0,0,0,0,3.13,4,2\n"
-                                                    "a,2,100,car,0,0,0,0,3.15,4,2\n"
-                                                    "a,4,300,car,0,0,0,0,-3.0131853071795863,4,2\n"
-                                                    "b,2,300,car,0,0,0,0,1,4,2\n");
+    struct played *played = play_all(scratch, HEADER "a,1,0,car,0,0,0,0,3.13,4,2\n"
+                                                     "a,2,100,car,0,0,0,0,3.15,4,2\n"
+                                                     "a,4,300,car,0,0,0,0,-3.0131853071795863,4,2\n"
+                                                     "b,2,300,car,0,0,0,0,1,4,2\n");
     assert_close(object_at(played, 0, "a")->yaw_rate_radps, 0.02 / 0.1, 1e-13);
     assert_close(object_at(played, 0.1, "a")->yaw_rate_radps, 1. / 3, 1e-13);
     assert_close(object_at(played, 0.3, "a")->yaw_rate_radps, 0.12 / 0.2, 1e-13);
@@ -192,12 +192,12 @@ TEST(yaw_rates_are_slopes_of_parabolas_and_wrap)
 
 /* SUMO gives the front: a car of 5 m that drives north at (0, 10) has its centre at (0, 7.5). With
  * constant acceleration the centred differences are exact, at unequal steps too. */
-TEST(places_become_centres_and_velocities)
+TEST_OF(scratch, places_become_centres_and_velocities)
 {
-    struct played *played = play_all(*state, SUMO "0;v;0;10;0;passenger;9\n"
-                                                  "1;v;0;20.5;0;passenger;9\n"
-                                                  "3;v;0;44.5;0;passenger;9\n"
-                                                  "3;once;100;0;270;bicycle;7\n");
+    struct played *played = play_all(scratch, SUMO "0;v;0;10;0;passenger;9\n"
+                                                   "1;v;0;20.5;0;passenger;9\n"
+                                                   "3;v;0;44.5;0;passenger;9\n"
+                                                   "3;once;100;0;270;bicycle;7\n");
     const struct object *middle = object_at(played, 1, "v");
     assert_close(object_at(played, 0, "v")->y_m, 7.5, 1e-12);
     assert_close(middle->y_m, 18, 1e-12);
@@ -211,10 +211,10 @@ TEST(places_become_centres_and_velocities)
     assert_close(object_at(played, 3, "once")->width_m, 0.65, 0);
 }
 
-TEST(the_distance_travelled_adds_up_from_place_to_place)
+TEST_OF(scratch, the_distance_travelled_adds_up_from_place_to_place)
 {
     struct recording_options options;
-    struct played *played = play(*state,
+    struct played *played = play(scratch,
                                  HEADER "a,3,300,car,503,5000000,0,-40,0,4,2\n"
                                         "a,2,200,car,503,5000004,30,0,0,4,2\n"
                                         "a,1,100,car,500,5000000,30,80,0,4,2\n",
@@ -227,7 +227,7 @@ TEST(the_distance_travelled_adds_up_from_place_to_place)
 }
 
 /* One long step, then many too short to change a plain sum. */
-TEST(many_short_steps_are_not_lost)
+TEST_OF(scratch, many_short_steps_are_not_lost)
 {
     enum { STEPS = 4000 };
     char *text = malloc(STEPS * 64);
@@ -237,17 +237,17 @@ TEST(many_short_steps_are_not_lost)
     for (int i = 1; i <= STEPS; i++)
         used += (size_t)sprintf(text + used, "a,0,%d,car,%de-9,0,0,0\n", 900000000 + i, i);
     struct recording_options options;
-    struct played *played = play(*state, text, options_for(&options, "a"));
+    struct played *played = play(scratch, text, options_for(&options, "a"));
     free(text);
     const struct object *last = &played->frames[played->count - 1].objects.items[0];
     assert_close(last->travelled_m - 1e8, STEPS * 1e-9, 2e-8);
 }
 
 /* Who is missing from a step, or jumps, comes again as another: another scene, no differences. */
-TEST(a_visit_ends_where_its_road_user_is_missing_or_jumps)
+TEST_OF(scratch, a_visit_ends_where_its_road_user_is_missing_or_jumps)
 {
     struct recording_options options;
-    struct played *played = play(*state,
+    struct played *played = play(scratch,
                                  WALKERS "a,0,0,car,0,0,1,0\nb,0,0,car,0,0,0,0\n"
                                          "b,0,100,car,0,0,0,0\n"
                                          "a,0,200,car,5,0,1,0\nb,0,200,car,900,0,0,0\n"
@@ -270,13 +270,13 @@ TEST(a_visit_ends_where_its_road_user_is_missing_or_jumps)
     assert_close(object_at(played, 0.3, "a")->travelled_m, 1, 0);
 }
 
-TEST(a_recording_begins_and_ends_at_given_times)
+TEST_OF(scratch, a_recording_begins_and_ends_at_given_times)
 {
     struct recording_options options;
     options_for(&options, "a");
     options.from_s = 0.15;
     options.to_s = 0.4;
-    struct played *played = play(*state,
+    struct played *played = play(scratch,
                                  WALKERS "a,0,100,car,0,0,1,0\na,0,200,car,1,0,1,0\n"
                                          "a,0,300,car,2,0,1,0\na,0,400,car,3,0,1,0\n"
                                          "a,0,500,car,4,0,1,0\n",
@@ -291,12 +291,12 @@ TEST(a_recording_begins_and_ends_at_given_times)
 
 /* Braking from 20 m/s at 1 m/s^2 and 2 s steps: at 1 s the place is at 19.5 m, and so is the
  * distance travelled, where the mean of the steps would be 19. */
-TEST(the_distance_travelled_is_resampled_like_the_place)
+TEST_OF(scratch, the_distance_travelled_is_resampled_like_the_place)
 {
     struct recording_options options;
     options_for(&options, "a");
     options.rate_hz = 4;
-    struct played *played = play(*state,
+    struct played *played = play(scratch,
                                  WALKERS "a,0,0,car,0,0,20,0\na,0,2000,car,38,0,18,0\n"
                                          "a,0,4000,car,72,0,16,0\n",
                                  &options);
@@ -311,12 +311,12 @@ TEST(the_distance_travelled_is_resampled_like_the_place)
 
 /* A car stops within a second: at 12 m both at 2 s and 3 s, though the slope at 2 s is 1 m/s. A
  * plain cubic is at 12.15 m at 2.33 s and rolls back at 0.33 m/s. */
-TEST(resampling_rolls_nobody_back)
+TEST_OF(scratch, resampling_rolls_nobody_back)
 {
     struct recording_options options;
     options_for(&options, "v");
     options.rate_hz = 20;
-    struct played *played = play(*state,
+    struct played *played = play(scratch,
                                  SUMO "0;v;0;0;90;passenger;10\n1;v;10;0;90;passenger;10\n"
                                       "2;v;12;0;90;passenger;2\n3;v;12;0;90;passenger;0\n"
                                       "4;v;12;0;90;passenger;0\n5;v;13;0;90;passenger;1\n",
@@ -349,24 +349,24 @@ TEST(resampling_rolls_nobody_back_beside_a_lane_change)
 }
 
 /* A body that reverses does so between the steps, too: from 1 m/s to -1 m/s within 1 s. */
-TEST(resampling_lets_who_reverses_reverse)
+TEST_OF(scratch, resampling_lets_who_reverses_reverse)
 {
     struct recording_options options;
     options_for(&options, "a");
     options.rate_hz = 2;
     struct played *played =
-        play(*state, WALKERS "a,0,0,car,0,0,1,0\na,0,1000,car,0,0,-1,0\n", &options);
+        play(scratch, WALKERS "a,0,0,car,0,0,1,0\na,0,1000,car,0,0,-1,0\n", &options);
     assert_close(played->frames[1].objects.items[0].x_m, 0.25, 1e-12);
 }
 
 /* A parked van is set 6.4 m aside: no frame between the steps has it, and no velocity or distance
  * is that of the gap. */
-TEST(nothing_crosses_a_denied_way)
+TEST_OF(scratch, nothing_crosses_a_denied_way)
 {
     struct recording_options options;
     options_for(&options, "all");
     options.rate_hz = 10;
-    struct played *played = play(*state,
+    struct played *played = play(scratch,
                                  SUMO "0;e;0;0;90;passenger;9\n0;v;60;0;90;passenger;0\n"
                                       "1;e;9;0;90;passenger;9\n1;v;60;0;90;passenger;0\n"
                                       "2;e;18;0;90;passenger;9\n2;v;60;6.4;90;passenger;0\n"
@@ -392,7 +392,7 @@ TEST(nothing_crosses_a_denied_way)
 }
 
 /* The neighbours within a radius are those that a plain search finds, at all scales. */
-TEST(neighbours_are_those_within_the_radius)
+TEST_OF(scratch, neighbours_are_those_within_the_radius)
 {
     static const double radii_m[] = {0, 0.5, 3, 20, 1e3};
     enum { CARS = 60 };
@@ -411,7 +411,7 @@ TEST(neighbours_are_those_within_the_radius)
         struct recording_options options;
         options_for(&options, "all");
         options.radius_m = radii_m[r];
-        struct played *played = play(*state, text.bytes, &options);
+        struct played *played = play(scratch, text.bytes, &options);
         assert_int_equal(played->count, CARS);
         for (size_t ego = 0; ego < CARS; ego++) {
             size_t found = 0;
@@ -424,7 +424,7 @@ TEST(neighbours_are_those_within_the_radius)
     text_free(&text);
 }
 
-TEST(damaged_recordings_are_refused)
+TEST_OF(scratch, damaged_recordings_are_refused)
 {
     static const struct {
         const char *text, *message;
@@ -469,7 +469,7 @@ TEST(damaged_recordings_are_refused)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct recording_options options;
-        struct played *played = play(*state, cases[i].text, options_for(&options, "1"));
+        struct played *played = play(scratch, cases[i].text, options_for(&options, "1"));
         const char *text = strstr(played->diag.text, "tracks.csv: ");
         assert_non_null(text);
         assert_string_equal(text + strlen("tracks.csv: "), cases[i].message);
@@ -477,14 +477,13 @@ TEST(damaged_recordings_are_refused)
     }
 }
 
-TEST(a_recorded_motorway_is_read)
+TEST_OF(scratch, a_recorded_motorway_is_read)
 {
     const char *data = getenv("GLINT_TEST_DATA");
     if (data == NULL) {
         skip_because("GLINT_TEST_DATA is not set");
         return;
     }
-    struct scratch *scratch = *state;
     char path[4096];
     snprintf(path, sizeof path, "%s/csv/us101_interaction.csv", data);
     struct recording table;

@@ -46,10 +46,10 @@ static void assert_refuses(struct scratch *scratch, struct bench *bench, const c
 
 FIXTURE(make_scratch, remove_scratch);
 
-TEST(files_are_read_one_after_the_other)
+TEST_OF(scratch, files_are_read_one_after_the_other)
 {
     struct bench bench;
-    begin(&bench, *state, FRAME("0") "\n" LAST("1"), 2);
+    begin(&bench, scratch, FRAME("0") "\n" LAST("1"), 2);
     for (int i = 0; i < 4; i++) {
         assert_int_equal(next(&bench), 1);
         assert_int_equal(bench.frame.frame, i % 2);
@@ -58,26 +58,26 @@ TEST(files_are_read_one_after_the_other)
     assert_int_equal(next(&bench), 0);
 }
 
-TEST(an_empty_file_has_no_frames)
+TEST_OF(scratch, an_empty_file_has_no_frames)
 {
     struct bench bench;
-    begin(&bench, *state, "", 3);
+    begin(&bench, scratch, "", 3);
     assert_int_equal(next(&bench), 0);
 }
 
-TEST(a_message_names_file_and_line)
+TEST_OF(scratch, a_message_names_file_and_line)
 {
     struct bench bench;
-    begin(&bench, *state, FRAME("0") "\n" FRAME("1") "\nbroken", 2);
+    begin(&bench, scratch, FRAME("0") "\n" FRAME("1") "\nbroken", 2);
     assert_int_equal(next(&bench), 1);
     assert_int_equal(next(&bench), 1);
-    assert_refuses(*state, &bench, ":3: 'b' where a frame is expected");
+    assert_refuses(scratch, &bench, ":3: 'b' where a frame is expected");
 }
 
-TEST(lines_are_counted_from_one_in_every_file)
+TEST_OF(scratch, lines_are_counted_from_one_in_every_file)
 {
     struct bench bench;
-    begin(&bench, *state, FRAME("0") "\n" FRAME("1"), 2);
+    begin(&bench, scratch, FRAME("0") "\n" FRAME("1"), 2);
     for (int i = 0; i < 3; i++)
         assert_int_equal(next(&bench), 1);
     bench.diag.code = DIAG_DATA;
@@ -86,9 +86,8 @@ TEST(lines_are_counted_from_one_in_every_file)
     frame_stream_close(&bench.stream);
 }
 
-TEST(a_folder_has_no_lines)
+TEST_OF(scratch, a_folder_has_no_lines)
 {
-    struct scratch *scratch = *state;
     struct bench bench;
     begin(&bench, scratch, "", 1);
     bench.stream.paths = (const char *[]){scratch->directory};
@@ -100,10 +99,10 @@ TEST(a_folder_has_no_lines)
     frame_stream_close(&bench.stream);
 }
 
-TEST(a_file_that_is_not_there_is_named)
+TEST_OF(scratch, a_file_that_is_not_there_is_named)
 {
     struct bench bench;
-    begin(&bench, *state, "", 1);
+    begin(&bench, scratch, "", 1);
     bench.stream.paths = (const char *[]){"/nonexistent/a"};
     assert_int_equal(next(&bench), -1);
     assert_string_equal(bench.diag.text, "/nonexistent/a: No such file or directory");
@@ -111,12 +110,12 @@ TEST(a_file_that_is_not_there_is_named)
 }
 
 /* A line may be well-formed, and each of its members too, and yet be no frame. */
-TEST(frames_are_checked)
+TEST_OF(scratch, frames_are_checked)
 {
     struct bench bench;
-    begin(&bench, *state,
+    begin(&bench, scratch,
           "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
           "\"ego\":\"e\",\"objects\":[]}",
           1);
-    assert_refuses(*state, &bench, ":1: ego: \"e\" is not among the objects");
+    assert_refuses(scratch, &bench, ":1: ego: \"e\" is not among the objects");
 }

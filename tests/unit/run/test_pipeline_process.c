@@ -166,10 +166,9 @@ static void remove_document(const struct scratch *scratch, const char *kind, con
     assert_int_equal(rmdir(path), 0);
 }
 
-TEST_WITH(make_scratch, remove_scratch,
+TEST_WITH(make_scratch, remove_scratch, struct scratch *scratch,
           documents_of_the_user_are_listed_also_if_they_cannot_be_read)
 {
-    struct scratch *scratch = *state;
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
     write_document(scratch, "vehicles", "broken.json", "{}");
     write_document(scratch, "pipelines", "mine.sh",

@@ -174,7 +174,7 @@ static const json_t *item_of(const json_t *suite)
 
 FIXTURE(write_schemas, remove_schemas);
 
-TEST(every_schema_says_what_its_field_table_says)
+TEST_OF(scratch, every_schema_says_what_its_field_table_says)
 {
     static const struct {
         const char *name;
@@ -184,7 +184,7 @@ TEST(every_schema_says_what_its_field_table_says)
                    {"sensors", &suite_record},
                    {"vehicle", &vehicle_record}};
     for (size_t i = 0; i < COUNT(schemas); i++) {
-        json_t *schema = schema_of(schemas[i].name, *state);
+        json_t *schema = schema_of(schemas[i].name, scratch);
         assert_string_equal(word(schema, "$schema"),
                             "https://json-schema.org/draft/2020-12/schema");
         assert_describes(schema, schemas[i].record);
@@ -193,9 +193,10 @@ TEST(every_schema_says_what_its_field_table_says)
 }
 
 /* The members are those of a whole suite; the optional ones may be null. */
-TEST(a_suite_that_extends_another_needs_nothing_but_its_name)
+TEST_OF(scratch, a_suite_that_extends_another_needs_nothing_but_its_name)
 {
-    json_t *schema = schema_of("sensors-extending", *state), *whole = schema_of("sensors", *state);
+    json_t *schema = schema_of("sensors-extending", scratch),
+           *whole = schema_of("sensors", scratch);
     const json_t *required = json_object_get(schema, "required");
     assert_int_equal(json_array_size(required), 1);
     assert_string_equal(json_string_value(json_array_get(required, 0)), "extends");
@@ -216,12 +217,12 @@ TEST(a_suite_that_extends_another_needs_nothing_but_its_name)
 }
 
 /* `make schemas` writes them; they are kept so that a change shows. */
-TEST(the_files_in_schemas_are_up_to_date)
+TEST_OF(scratch, the_files_in_schemas_are_up_to_date)
 {
     for (size_t i = 0; i < COUNT(written); i++) {
         char path[64];
         snprintf(path, sizeof path, "schemas/%s.json", written[i]);
-        json_t *file = json_load_file(path, 0, NULL), *printed = schema_of(written[i], *state);
+        json_t *file = json_load_file(path, 0, NULL), *printed = schema_of(written[i], scratch);
         assert_non_null(file);
         if (!json_equal(file, printed))
             fail_msg("%s is out of date; run make schemas", path);

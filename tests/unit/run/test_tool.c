@@ -157,27 +157,26 @@ static int files_in(const struct scratch *scratch)
     return count;
 }
 
-#define TOOL_TEST(name) TEST_WITH(make_scratch, remove_scratch, name)
+#define TOOL_TEST(name) TEST_WITH(make_scratch, remove_scratch, struct scratch *scratch, name)
 
 TOOL_TEST(every_output_takes_its_name_when_all_went_well)
 {
-    assert_int_equal(run(&writer, *state, (const char *[]){NULL}), 0);
-    assert_holds(*state, "first", "one\n");
-    assert_holds(*state, "second", "two\n");
-    assert_int_equal(files_in(*state), 3);
+    assert_int_equal(run(&writer, scratch, (const char *[]){NULL}), 0);
+    assert_holds(scratch, "first", "one\n");
+    assert_holds(scratch, "second", "two\n");
+    assert_int_equal(files_in(scratch), 3);
 }
 
 TOOL_TEST(no_output_takes_its_name_if_the_tool_fails)
 {
-    assert_int_equal(run(&writer, *state, (const char *[]){"--fail", NULL}), DIAG_DATA);
-    assert_holds(*state, "first", "old");
-    assert_int_equal(files_in(*state), 2);
+    assert_int_equal(run(&writer, scratch, (const char *[]){"--fail", NULL}), DIAG_DATA);
+    assert_holds(scratch, "first", "old");
+    assert_int_equal(files_in(scratch), 2);
 }
 
 /* The first is whole by then, and on the disk. */
 TOOL_TEST(no_output_takes_its_name_if_another_cannot_be_written)
 {
-    struct scratch *scratch = *state;
     char full[96];
     snprintf(full, sizeof full, "%s/second", scratch->folder);
     assert_int_equal(symlink("/dev/full", full), 0);
@@ -188,20 +187,19 @@ TOOL_TEST(no_output_takes_its_name_if_another_cannot_be_written)
 
 TOOL_TEST(an_output_that_cannot_be_made_fails_the_tool)
 {
-    assert_int_equal(run(&writer, *state, (const char *[]){"--second", "nowhere/a", NULL}),
+    assert_int_equal(run(&writer, scratch, (const char *[]){"--second", "nowhere/a", NULL}),
                      DIAG_CANNOT_CREATE);
-    assert_holds(*state, "first", "old");
-    assert_int_equal(files_in(*state), 2);
+    assert_holds(scratch, "first", "old");
+    assert_int_equal(files_in(scratch), 2);
 }
 
 TOOL_TEST(a_tool_that_fails_without_a_word_is_told_of)
 {
-    assert_int_equal(run(&writer, *state, (const char *[]){"--silent", NULL}), DIAG_INTERNAL);
+    assert_int_equal(run(&writer, scratch, (const char *[]){"--silent", NULL}), DIAG_INTERNAL);
 }
 
 TOOL_TEST(a_tool_gets_every_frame_with_the_seed_that_is_given)
 {
-    struct scratch *scratch = *state;
     assert_int_equal(run(&counter, scratch, (const char *[]){scratch->frames, NULL}), 0);
     assert_holds(scratch, "first", "1");
     assert_int_equal(run(&counter, scratch, (const char *[]){"--seed", "7", scratch->frames, NULL}),
@@ -211,7 +209,6 @@ TOOL_TEST(a_tool_gets_every_frame_with_the_seed_that_is_given)
 
 TOOL_TEST(a_tool_gets_no_frame_without_what_it_reads)
 {
-    struct scratch *scratch = *state;
     write_text(scratch->folder, "frames", FRAME("0", "7") HEAD("1", "7") "}\n");
     assert_int_equal(run(&counter, scratch, (const char *[]){scratch->frames, NULL}), DIAG_DATA);
     assert_holds(scratch, "first", "old");
@@ -219,7 +216,6 @@ TOOL_TEST(a_tool_gets_no_frame_without_what_it_reads)
 
 TOOL_TEST(a_tool_fails_at_the_end_of_scenes_that_should_be_whole)
 {
-    struct scratch *scratch = *state;
     assert_int_equal(run(&counter, scratch, (const char *[]){"--complete", scratch->frames, NULL}),
                      DIAG_DATA);
     assert_holds(scratch, "first", "old");

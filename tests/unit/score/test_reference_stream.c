@@ -51,9 +51,8 @@ static void interleave(uint64_t *sample, int order[SCENES * FRAMES])
 
 FIXTURE(make_scratch, remove_scratch);
 
-TEST(frames_meet_in_every_interleaving)
+TEST_OF(scratch, frames_meet_in_every_interleaving)
 {
-    struct scratch *scratch = *state;
     uint64_t sample = 1;
     for (int round = 0; round < 50; round++) {
         int order[SCENES * FRAMES], next[SCENES] = {0};
@@ -75,9 +74,8 @@ TEST(frames_meet_in_every_interleaving)
 }
 
 /* Each stream lacks some frames; all others meet. */
-TEST(frames_meet_where_either_stream_lacks_some)
+TEST_OF(scratch, frames_meet_where_either_stream_lacks_some)
 {
-    struct scratch *scratch = *state;
     uint64_t sample = 2;
     for (int round = 0; round < 50; round++) {
         int order[SCENES * FRAMES], next[SCENES] = {0};
@@ -106,9 +104,8 @@ TEST(frames_meet_where_either_stream_lacks_some)
     }
 }
 
-TEST(a_frame_without_a_line_is_refused)
+TEST_OF(scratch, a_frame_without_a_line_is_refused)
 {
-    struct scratch *scratch = *state;
     FILE *file = fopen(scratch->path, "w");
     write_line(file, 0, 0);
     write_line(file, 0, 2);
@@ -123,9 +120,8 @@ TEST(a_frame_without_a_line_is_refused)
     reference_stream_close(reference);
 }
 
-TEST(a_line_without_a_frame_is_refused_with_its_place)
+TEST_OF(scratch, a_line_without_a_frame_is_refused_with_its_place)
 {
-    struct scratch *scratch = *state;
     FILE *file = fopen(scratch->path, "w");
     for (int scene = 0; scene < SCENES; scene++)
         write_line(file, scene, 3);
@@ -140,9 +136,8 @@ TEST(a_line_without_a_frame_is_refused_with_its_place)
     reference_stream_close(reference);
 }
 
-TEST(a_file_that_is_not_there_is_refused)
+TEST_OF(scratch, a_file_that_is_not_there_is_refused)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     unlink(scratch->path);
     assert_null(reference_stream_open(scratch->path, &track_list_record, false,

@@ -6,7 +6,6 @@
  * at 100 m. */
 EFFECT_TEST(an_echo_is_received_with_the_effects_of_its_scan)
 {
-    struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
     echo.ercs = 100;
     echo.azimuth_rad = 0.3;

@@ -77,11 +77,10 @@ static struct scan scan_of(struct bench *bench)
     return scan_make(&context, &bench->selection);
 }
 
-#define SCAN_TEST(name) TEST_WITH(make_bench, remove_bench, name)
+#define SCAN_TEST(name) TEST_WITH(make_bench, remove_bench, struct bench *bench, name)
 
 SCAN_TEST(cells_are_numbered_by_their_leaders_strongest_first)
 {
-    struct bench *bench = *state;
     add_echo(bench, "another", "z", 20, 0, 99);
     add_echo(bench, "radar", "a", 20.4, 0, 1);
     add_echo(bench, "radar", "b", 30, 0, 5);
@@ -101,7 +100,6 @@ SCAN_TEST(cells_are_numbered_by_their_leaders_strongest_first)
 /* Echoes b and d have no cross section. */
 SCAN_TEST(echoes_without_amplitude_are_silent_and_in_no_cell)
 {
-    struct bench *bench = *state;
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 20, 0, 0);
     add_echo(bench, "radar", "c", 25, 0, 2);
@@ -117,7 +115,6 @@ SCAN_TEST(echoes_without_amplitude_are_silent_and_in_no_cell)
 
 SCAN_TEST(where_all_echoes_are_silent_there_is_no_cell)
 {
-    struct bench *bench = *state;
     add_echo(bench, "radar", "a", 20, 0, 0);
     struct scan scan = scan_of(bench);
     assert_int_equal(scan.cells, 0);
@@ -126,7 +123,6 @@ SCAN_TEST(where_all_echoes_are_silent_there_is_no_cell)
 
 SCAN_TEST(silent_echoes_are_lost_with_their_margins)
 {
-    struct bench *bench = *state;
     bench->frame.sections = CARRY_ACCOUNT;
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 20, 0, 0);
@@ -146,7 +142,6 @@ SCAN_TEST(silent_echoes_are_lost_with_their_margins)
 
 SCAN_TEST(a_scan_of_nothing_has_no_cells)
 {
-    struct bench *bench = *state;
     struct scan scan = scan_of(bench);
     assert_int_equal(scan.cells, 0);
     assert_int_equal(scan.silent_count, 0);
@@ -154,7 +149,6 @@ SCAN_TEST(a_scan_of_nothing_has_no_cells)
 
 SCAN_TEST(auto_leaves_out_merging_where_no_echoes_are_close)
 {
-    struct bench *bench = *state;
     bench->selection.automatic = true;
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 20.6, 0, 2);
@@ -177,7 +171,6 @@ SCAN_TEST(auto_leaves_out_merging_where_no_echoes_are_close)
 /* Ranges fold at 15 m: a and b share a cell, unless folding is switched off. */
 SCAN_TEST(a_scan_has_only_the_effects_of_its_selection)
 {
-    struct bench *bench = *state;
     bench->sensor.unambiguous_range_m = 15;
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 5.25, 0, 2);
@@ -193,7 +186,6 @@ SCAN_TEST(a_scan_has_only_the_effects_of_its_selection)
  * of its amplitude there; c is as far from a as the window resolves. */
 SCAN_TEST(echoes_of_a_window_part_by_phase_and_count_by_their_response)
 {
-    struct bench *bench = *state;
     double resolution = point_response_resolution(POINT_RESPONSE_HANN);
     bench->sensor.waveform = (struct waveform){.samples = 128, .repetitions = 64};
     bench->sensor.cell_phase = CELL_PHASE_BY_PATH;

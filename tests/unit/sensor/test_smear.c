@@ -104,11 +104,10 @@ static void assert_same_cell(const struct cell *cell, const struct cell *expecte
     assert_true(cell->effects == expected->effects);
 }
 
-#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, name)
+#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, struct scene *scene, name)
 
 SCENE_TEST(a_single_echo_has_the_cell_of_glint_sensor)
 {
-    struct scene *scene = *state;
     uint64_t sample = 1;
     for (int i = 0; i < 2000; i++) {
         start(scene);
@@ -134,7 +133,6 @@ SCENE_TEST(a_single_echo_has_the_cell_of_glint_sensor)
 
 SCENE_TEST(echoes_that_are_far_apart_do_not_touch)
 {
-    struct scene *scene = *state;
     start(scene);
     add(scene, 100.3, 2, 7, 1);
     add(scene, 106.8, 2, 3, 2);
@@ -166,7 +164,6 @@ static double place_of(const struct cell *cell, bool along_range)
 
 SCENE_TEST(two_echoes_a_bin_apart_merge_unless_they_are_opposite)
 {
-    struct scene *scene = *state;
     for (int axis = 0; axis < 2; axis++) {
         const struct cell *cell = scene->cells;
         assert_int_equal(pair(scene, 20, 1, 0, axis), 1);
@@ -184,7 +181,6 @@ SCENE_TEST(two_echoes_a_bin_apart_merge_unless_they_are_opposite)
 
 SCENE_TEST(two_echoes_part_by_their_distance_and_phase)
 {
-    struct scene *scene = *state;
     for (double middle = 20; middle < 21; middle += 0.03) {
         for (int axis = 0; axis < 2; axis++) {
             assert_int_equal(pair(scene, middle, 1.5, 0, axis), 1);
@@ -198,7 +194,6 @@ SCENE_TEST(two_echoes_part_by_their_distance_and_phase)
 
 SCENE_TEST(merged_echoes_read_at_the_angle_between_them)
 {
-    struct scene *scene = *state;
     start(scene);
     add(scene, 19.9, 0.1, 1, 0)->echo.azimuth_rad = 0.1;
     add(scene, 20.1, -0.1, 1, 0)->echo.azimuth_rad = -0.1;
@@ -210,7 +205,6 @@ SCENE_TEST(merged_echoes_read_at_the_angle_between_them)
 
 SCENE_TEST(an_echo_beside_a_strong_one_is_in_its_cell)
 {
-    struct scene *scene = *state;
     start(scene);
     add(scene, 20, 0, 1000, 0);
     add(scene, 21.3, 0.4, 1, 2);
@@ -226,7 +220,6 @@ SCENE_TEST(an_echo_beside_a_strong_one_is_in_its_cell)
 
 SCENE_TEST(side_lobes_alone_are_no_cells)
 {
-    struct scene *scene = *state;
     start(scene);
     add(scene, 20.4, 0.3, 1e6, 0);
     assert_int_equal(cells_of(scene), 1);
@@ -234,7 +227,6 @@ SCENE_TEST(side_lobes_alone_are_no_cells)
 
 SCENE_TEST(echoes_that_cancel_have_no_amplitude)
 {
-    struct scene *scene = *state;
     start(scene);
     add(scene, 20, 0, 1, 0);
     add(scene, 20, 0, 1, 0)->strength = -1;
@@ -247,7 +239,6 @@ SCENE_TEST(echoes_that_cancel_have_no_amplitude)
 
 SCENE_TEST(every_echo_is_in_one_cell_and_weights_add_up)
 {
-    struct scene *scene = *state;
     uint64_t sample = 5;
     for (int i = 0; i < 2000; i++) {
         start(scene);
@@ -271,7 +262,6 @@ SCENE_TEST(every_echo_is_in_one_cell_and_weights_add_up)
 /* Over widths of Hann's response from that at rest to eight times as much. */
 SCENE_TEST(a_walking_echo_alone_keeps_its_place_and_amplitude)
 {
-    struct scene *scene = *state;
     uint64_t sample = 1;
     for (int i = 0; i < 1000; i++) {
         start(scene);
@@ -289,7 +279,6 @@ SCENE_TEST(a_walking_echo_alone_keeps_its_place_and_amplitude)
  * one up to about 1.5 f bins for responses f times as wide. */
 SCENE_TEST(echoes_that_walk_are_one_farther_apart)
 {
-    struct scene *scene = *state;
     for (double width = 1; width <= 4; width *= 2)
         for (double apart = 1; apart <= 2; apart += 1) {
             start(scene);

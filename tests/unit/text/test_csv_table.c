@@ -29,7 +29,7 @@ static struct csv_table table_of(struct scratch *scratch, const char *text)
 
 FIXTURE(make_scratch, remove_scratch);
 
-TEST(every_spelling_of_a_table_is_the_same_table)
+TEST_OF(scratch, every_spelling_of_a_table_is_the_same_table)
 {
     static const char *const spellings[] = {
         "a,b\n1,2\n3,4\n",
@@ -44,7 +44,7 @@ TEST(every_spelling_of_a_table_is_the_same_table)
         "\"a\",\"b\"\n\"1\",2\n3,\"4\"\n",
     };
     for (size_t i = 0; i < COUNT(spellings); i++) {
-        struct csv_table table = table_of(*state, spellings[i]);
+        struct csv_table table = table_of(scratch, spellings[i]);
         assert_int_equal(table.columns, 2);
         assert_int_equal(table.rows, 2);
         assert_string_equal(table.header[0], "a");
@@ -56,27 +56,26 @@ TEST(every_spelling_of_a_table_is_the_same_table)
     }
 }
 
-TEST(quotes_keep_commas_line_breaks_blanks_and_quotes)
+TEST_OF(scratch, quotes_keep_commas_line_breaks_blanks_and_quotes)
 {
     struct csv_table table =
-        table_of(*state, "a,b,c,d,e\n\"1,2\",\"x\ny\",\" z \",\"say \"\"no\"\"\",\n");
+        table_of(scratch, "a,b,c,d,e\n\"1,2\",\"x\ny\",\" z \",\"say \"\"no\"\"\",\n");
     static const char *const cells[] = {"1,2", "x\ny", " z ", "say \"no\"", ""};
     assert_int_equal(table.rows, 1);
     for (size_t i = 0; i < 5; i++)
         assert_string_equal(csv_table_cell(&table, 0, i), cells[i]);
 }
 
-TEST(a_header_alone_is_a_table_without_rows)
+TEST_OF(scratch, a_header_alone_is_a_table_without_rows)
 {
-    struct csv_table table = table_of(*state, "a,b\n");
+    struct csv_table table = table_of(scratch, "a,b\n");
     assert_int_equal(table.columns, 2);
     assert_int_equal(table.rows, 0);
 }
 
 /* The rows one after the other are those of the whole table, whatever the pieces of the file. */
-TEST(rows_come_one_after_the_other)
+TEST_OF(scratch, rows_come_one_after_the_other)
 {
-    struct scratch *scratch = *state;
     gzFile file = gzopen(scratch->path, "wb");
     assert_non_null(file);
     assert_true(gzputs(file, "\xef\xbb\xbfx;\"a\nb\"\r\n") > 0);
@@ -104,9 +103,8 @@ TEST(rows_come_one_after_the_other)
 }
 
 /* A fault comes after the rows before it. */
-TEST(rows_before_a_fault_come_first)
+TEST_OF(scratch, rows_before_a_fault_come_first)
 {
-    struct scratch *scratch = *state;
     FILE *file = fopen(scratch->path, "wb");
     assert_non_null(file);
     fputs("a,b\r1,2\r3\r5,6\r", file);
@@ -162,7 +160,7 @@ static void rows_of(struct scratch *scratch, const char *text, const struct csv_
     input_close(input);
 }
 
-TEST(a_table_of_numbers_has_the_names_that_it_lacks)
+TEST_OF(scratch, a_table_of_numbers_has_the_names_that_it_lacks)
 {
     static const struct {
         const char *text, *rows;
@@ -176,23 +174,23 @@ TEST(a_table_of_numbers_has_the_names_that_it_lacks)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         char rows[256];
-        rows_of(*state, cases[i].text, &other_form, rows, sizeof rows);
+        rows_of(scratch, cases[i].text, &other_form, rows, sizeof rows);
         assert_string_equal(rows, cases[i].rows);
     }
 }
 
-TEST(lines_before_the_header_count_as_rows)
+TEST_OF(scratch, lines_before_the_header_count_as_rows)
 {
     char rows[256];
-    rows_of(*state, "tool 1, \"of\n\nmany, words\nid, x\n7, 1\n", &other_form, rows, sizeof rows);
+    rows_of(scratch, "tool 1, \"of\n\nmany, words\nid, x\n7, 1\n", &other_form, rows, sizeof rows);
     assert_string_equal(rows, "5: id=7 x=1\n");
-    rows_of(*state, "tool 1\nno header\n", &other_form, rows, sizeof rows);
+    rows_of(scratch, "tool 1\nno header\n", &other_form, rows, sizeof rows);
     assert_string_equal(rows, "the table is empty; expected a header");
-    rows_of(*state, "tool 1,x\n7,1\n", NULL, rows, sizeof rows);
+    rows_of(scratch, "tool 1,x\n7,1\n", NULL, rows, sizeof rows);
     assert_string_equal(rows, "2: tool 1=7 x=1\n");
 }
 
-TEST(long_cells_are_read_whole)
+TEST_OF(scratch, long_cells_are_read_whole)
 {
     enum { LENGTH = 100000 };
     char *text = malloc(LENGTH + 8);
@@ -200,13 +198,13 @@ TEST(long_cells_are_read_whole)
     memcpy(text, "a,b\n", 4);
     memset(text + 4, 'x', LENGTH);
     strcpy(text + 4 + LENGTH, ",1\n");
-    struct csv_table table = table_of(*state, text);
+    struct csv_table table = table_of(scratch, text);
     assert_int_equal(strlen(csv_table_cell(&table, 0, 0)), LENGTH);
     assert_string_equal(csv_table_cell(&table, 0, 1), "1");
     free(text);
 }
 
-TEST(rows_have_the_numbers_that_a_spreadsheet_shows)
+TEST_OF(scratch, rows_have_the_numbers_that_a_spreadsheet_shows)
 {
     static const struct {
         const char *text;
@@ -222,14 +220,14 @@ TEST(rows_have_the_numbers_that_a_spreadsheet_shows)
         {"a,b\n\"1\n\n\n\",2\n3,4\n", {2, 3}},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct csv_table table = table_of(*state, cases[i].text);
+        struct csv_table table = table_of(scratch, cases[i].text);
         assert_int_equal(table.rows, 2);
         assert_int_equal(table.numbers[0], cases[i].numbers[0]);
         assert_int_equal(table.numbers[1], cases[i].numbers[1]);
     }
 }
 
-TEST(damaged_tables_are_refused)
+TEST_OF(scratch, damaged_tables_are_refused)
 {
 #define QUOTE_MESSAGE                                                                              \
     "a misplaced quote; expected quotes around the whole cell, and those inside it doubled"
@@ -252,7 +250,7 @@ TEST(damaged_tables_are_refused)
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct csv_table table;
         struct diag diag;
-        assert_int_equal(read_bytes(*state, cases[i].text, strlen(cases[i].text), &table, &diag),
+        assert_int_equal(read_bytes(scratch, cases[i].text, strlen(cases[i].text), &table, &diag),
                          -1);
         assert_string_equal(diag.text, cases[i].message);
         assert_int_equal(diag.code, DIAG_DATA);
@@ -260,7 +258,7 @@ TEST(damaged_tables_are_refused)
 }
 
 /* Wherever it is cut but behind a line end: 1.8 may be 1.85. The whole rows come first. */
-TEST(a_table_that_is_cut_is_refused)
+TEST_OF(scratch, a_table_that_is_cut_is_refused)
 {
     static const char *const texts[] = {
         "id,x\n1,1.85\n33,4\n",
@@ -274,22 +272,22 @@ TEST(a_table_that_is_cut_is_refused)
             snprintf(part, sizeof part, "%.*s", (int)cut, texts[i]);
             bool whole = strchr("\r\n", part[cut - 1]) != NULL;
             const char *second = strstr(part, "1.85");
-            rows_of(*state, part, &other_form, rows, sizeof rows);
+            rows_of(scratch, part, &other_form, rows, sizeof rows);
             assert_int_equal(strstr(rows, "row ") == NULL, whole);
             assert_int_equal(strstr(rows, "x=1.85\n") != NULL,
                              second != NULL && strpbrk(second, "\r\n") != NULL);
             struct csv_table table;
             struct diag diag;
-            read_bytes(*state, part, cut, &table, &diag);
+            read_bytes(scratch, part, cut, &table, &diag);
             assert_true(i > 1 || (diag.code == DIAG_OK) == whole);
         }
     char rows[256];
-    rows_of(*state, "7 1.85\n33 4", &other_form, rows, sizeof rows);
+    rows_of(scratch, "7 1.85\n33 4", &other_form, rows, sizeof rows);
     assert_string_equal(rows, "1: id=7 x=1.85\nrow 2: the file ends inside this row; expected a "
                               "line end after the last row");
 }
 
-TEST(a_nul_byte_is_refused_wherever_it_is)
+TEST_OF(scratch, a_nul_byte_is_refused_wherever_it_is)
 {
     static const char text[] = "ab,c\r\n1,2\r\n3,4\r\n";
     for (size_t i = 0; i < sizeof text - 1; i++) {
@@ -300,7 +298,7 @@ TEST(a_nul_byte_is_refused_wherever_it_is)
         bytes[i] = '\0';
         struct csv_table table;
         struct diag diag;
-        assert_int_equal(read_bytes(*state, bytes, sizeof text - 1, &table, &diag), -1);
+        assert_int_equal(read_bytes(scratch, bytes, sizeof text - 1, &table, &diag), -1);
         char message[64];
         snprintf(message, sizeof message, "row %d: a NUL byte; expected text",
                  i < 6    ? 1
@@ -310,9 +308,9 @@ TEST(a_nul_byte_is_refused_wherever_it_is)
     }
 }
 
-TEST(columns_are_found_by_their_whole_name)
+TEST_OF(scratch, columns_are_found_by_their_whole_name)
 {
-    struct csv_table table = table_of(*state, "x,xx,vx,X\n1,2,3,4\n");
+    struct csv_table table = table_of(scratch, "x,xx,vx,X\n1,2,3,4\n");
     struct diag diag = {0};
     size_t column;
     assert_int_equal(csv_table_column(&table, "vx", &column, &diag), 0);
@@ -324,10 +322,10 @@ TEST(columns_are_found_by_their_whole_name)
     assert_int_equal(diag.code, DIAG_DATA);
 }
 
-TEST(numbers_are_read_to_the_last_digit)
+TEST_OF(scratch, numbers_are_read_to_the_last_digit)
 {
     struct csv_table table = table_of(
-        *state, "x\n0\n-0\n12.5\n-7.25e-3\n1E2\n0.1\n5335123.4567\n2.2250738585072011e-308\n");
+        scratch, "x\n0\n-0\n12.5\n-7.25e-3\n1E2\n0.1\n5335123.4567\n2.2250738585072011e-308\n");
     static const double values[] = {0,   -0.0, 12.5,         -7.25e-3,
                                     100, 0.1,  5335123.4567, 0x0.fffffffffffffp-1022};
     struct diag diag = {0};
@@ -339,7 +337,7 @@ TEST(numbers_are_read_to_the_last_digit)
     }
 }
 
-TEST(cells_that_are_not_numbers_are_refused)
+TEST_OF(scratch, cells_that_are_not_numbers_are_refused)
 {
     static const char *const cells[] = {"abc",    "12abc",  "\"\"",     "nan",    "NaN",   "-nan",
                                         "inf",    "-inf",   "Infinity", "0x10",   "0x1p3", "1e",
@@ -348,7 +346,7 @@ TEST(cells_that_are_not_numbers_are_refused)
     for (size_t i = 0; i < COUNT(cells); i++) {
         char text[64], message[96], bare[32] = "";
         snprintf(text, sizeof text, "id,x\n7,%s\n", cells[i]);
-        struct csv_table table = table_of(*state, text);
+        struct csv_table table = table_of(scratch, text);
         strcpy(bare, csv_table_cell(&table, 0, 1));
         snprintf(message, sizeof message, "row 2, column \"x\": \"%s\" is not a number", bare);
         double value;
@@ -358,9 +356,9 @@ TEST(cells_that_are_not_numbers_are_refused)
     }
 }
 
-TEST(numbers_outside_their_bounds_are_refused)
+TEST_OF(scratch, numbers_outside_their_bounds_are_refused)
 {
-    struct csv_table table = table_of(*state, "azimuth_rad,x\n\n-0.5,2\n");
+    struct csv_table table = table_of(scratch, "azimuth_rad,x\n\n-0.5,2\n");
     double value;
     struct diag diag = {0};
     assert_int_equal(csv_table_number(&table, 0, 0, -0.5, 0, &value, &diag), 0);

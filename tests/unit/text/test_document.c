@@ -70,9 +70,8 @@ static const char vehicle_text[] =
 
 FIXTURE(make_scratch, remove_scratch);
 
-TEST(names_are_looked_up_in_the_data_folder_first)
+TEST_OF(scratch, names_are_looked_up_in_the_data_folder_first)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     write_document(scratch, vehicle_text);
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
@@ -92,9 +91,8 @@ TEST(names_are_looked_up_in_the_data_folder_first)
     assert_int_equal(unlink(car), 0);
 }
 
-TEST(a_name_with_a_slash_or_a_dot_is_a_path)
+TEST_OF(scratch, a_name_with_a_slash_or_a_dot_is_a_path)
 {
-    struct scratch *scratch = *state;
     static const char *const paths[] = {"./mine", "mine.json", "/a/b", "..", "a/b", "-", "x.y"};
     struct diag diag = {0};
     for (size_t i = 0; i < COUNT(paths); i++)
@@ -102,9 +100,8 @@ TEST(a_name_with_a_slash_or_a_dot_is_a_path)
             document_find(NULL, "vehicles", paths[i], ".json", &scratch->arena, &diag), paths[i]);
 }
 
-TEST(for_an_unknown_name_the_message_lists_the_places)
+TEST_OF(scratch, for_an_unknown_name_the_message_lists_the_places)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
     assert_null(document_find(NULL, "sensors", "nowhere", ".csv", &scratch->arena, &diag));
@@ -118,9 +115,8 @@ TEST(for_an_unknown_name_the_message_lists_the_places)
     assert_int_equal(diag.code, DIAG_CONFIG);
 }
 
-TEST(names_are_listed_in_order_and_each_once)
+TEST_OF(scratch, names_are_listed_in_order_and_each_once)
 {
-    struct scratch *scratch = *state;
     struct document_names list;
     struct diag diag = {0};
     assert_int_equal(setenv("GLINT_DATA", "data", 1), 0); /* the same place twice */
@@ -133,9 +129,8 @@ TEST(names_are_listed_in_order_and_each_once)
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
 }
 
-TEST(folders_that_are_not_there_are_refused)
+TEST_OF(scratch, folders_that_are_not_there_are_refused)
 {
-    struct scratch *scratch = *state;
     struct document_names list;
     struct diag diag = {0};
     assert_int_equal(setenv("GLINT_DATA", scratch->path, 1), 0);
@@ -146,9 +141,8 @@ TEST(folders_that_are_not_there_are_refused)
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
 }
 
-TEST(a_name_that_is_nearly_right_is_guessed)
+TEST_OF(scratch, a_name_that_is_nearly_right_is_guessed)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     assert_null(document_find(NULL, "vehicles", "pedestrain", ".json", &scratch->arena, &diag));
     static const char begin[] =
@@ -157,9 +151,8 @@ TEST(a_name_that_is_nearly_right_is_guessed)
     assert_non_null(strstr(diag.text, "; all are listed by glint --list vehicles"));
 }
 
-TEST(a_document_fills_its_struct)
+TEST_OF(scratch, a_document_fills_its_struct)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     struct vehicle vehicle;
     write_document(scratch, vehicle_text);
@@ -185,9 +178,8 @@ static void write_changed(const struct scratch *scratch, const char *from, const
     write_document(scratch, text);
 }
 
-TEST(faults_are_named_with_path_member_and_expectation)
+TEST_OF(scratch, faults_are_named_with_path_member_and_expectation)
 {
-    struct scratch *scratch = *state;
     static const struct {
         const char *from, *to, *message;
     } cases[] = {
@@ -222,9 +214,8 @@ TEST(faults_are_named_with_path_member_and_expectation)
     }
 }
 
-TEST(text_that_is_not_a_document_is_refused_with_its_line)
+TEST_OF(scratch, text_that_is_not_a_document_is_refused_with_its_line)
 {
-    struct scratch *scratch = *state;
     static const struct {
         const char *text, *message;
     } cases[] = {{"", ":1: "},
@@ -250,9 +241,8 @@ TEST(text_that_is_not_a_document_is_refused_with_its_line)
     }
 }
 
-TEST(notes_are_strings)
+TEST_OF(scratch, notes_are_strings)
 {
-    struct scratch *scratch = *state;
     static const struct field fields[] = {
         {.name = "sources", .kind = FIELD_NOTES, .optional = true, .help = ""}, {0}};
     static const struct record record = {.name = "thing", .size = 1, .fields = fields};
@@ -265,9 +255,8 @@ TEST(notes_are_strings)
     assert_non_null(strstr(diag.text, "mine.json: sources.c: a number; expected a string"));
 }
 
-TEST(a_missing_document_is_named)
+TEST_OF(scratch, a_missing_document_is_named)
 {
-    struct scratch *scratch = *state;
     struct vehicle vehicle;
     struct diag diag = {0};
     assert_int_equal(

@@ -46,32 +46,32 @@ static double number_of(struct bench *bench, const char *line, int64_t scene)
 
 FIXTURE(make_bench, remove_bench);
 
-TEST(a_document_without_distributions_stays_as_it_is)
+TEST_OF(bench, a_document_without_distributions_stays_as_it_is)
 {
     static const char line[] =
         "{\"a\":[1,-2.5,[],{}],\"b\":{\"c\":\"x\\\"\\u0001y\",\"d\":[true,null]},\"e\":\"\"}";
-    assert_string_equal(drawn(*state, line, 3), line);
+    assert_string_equal(drawn(bench, line, 3), line);
 }
 
-TEST(a_draw_is_that_of_its_seed_scene_and_path)
+TEST_OF(bench, a_draw_is_that_of_its_seed_scene_and_path)
 {
     double uniform[4], gaussian[4];
     struct random_address address = {
         .seed = 7, .scene = 12, .item = hash_text(HASH_START, "objects[1].x_m")};
     random_uniform(&address, RANDOM_VARIATION, 0, uniform);
     random_gaussian(&address, RANDOM_VARIATION, 0, gaussian);
-    assert_close(number_of(*state, "{\"objects\":[{},{\"x_m\":{\"uniform\":[-3,5]}}]}", 12),
+    assert_close(number_of(bench, "{\"objects\":[{},{\"x_m\":{\"uniform\":[-3,5]}}]}", 12),
                  -3 + 8 * uniform[0], 0);
-    assert_close(number_of(*state, "{\"objects\":[0,{\"y\":2,\"x_m\":{\"normal\":[30,4]}}]}", 12),
+    assert_close(number_of(bench, "{\"objects\":[0,{\"y\":2,\"x_m\":{\"normal\":[30,4]}}]}", 12),
                  30 + 4 * gaussian[0], 0);
 }
 
 /* Tolerances are five standard errors. */
-TEST(uniform_draws_have_their_bounds_mean_and_variance)
+TEST_OF(bench, uniform_draws_have_their_bounds_mean_and_variance)
 {
     double sum = 0, squares = 0;
     for (int i = 0; i < DRAWS; i++) {
-        double x = number_of(*state, "{\"x\":{\"uniform\":[-1,3]}}", i);
+        double x = number_of(bench, "{\"x\":{\"uniform\":[-1,3]}}", i);
         assert_true(x > -1 && x < 3);
         sum += x;
         squares += (x - 1) * (x - 1);
@@ -80,12 +80,12 @@ TEST(uniform_draws_have_their_bounds_mean_and_variance)
     assert_close(squares / DRAWS, 16 / 12.0, 5 * sqrt((256 / 80.0 - 256 / 144.0) / DRAWS));
 }
 
-TEST(normal_draws_have_their_mean_and_deviation)
+TEST_OF(bench, normal_draws_have_their_mean_and_deviation)
 {
     double sum = 0, squares = 0;
     int64_t beyond = 0;
     for (int i = 0; i < DRAWS; i++) {
-        double z = (number_of(*state, "{\"x\":{\"normal\":[100,5]}}", i) - 100) / 5;
+        double z = (number_of(bench, "{\"x\":{\"normal\":[100,5]}}", i) - 100) / 5;
         sum += z;
         squares += z * z;
         beyond += fabs(z) > 1.959963984540054;
@@ -95,9 +95,8 @@ TEST(normal_draws_have_their_mean_and_deviation)
     assert_close((double)beyond, 0.05 * DRAWS, 5 * sqrt(0.05 * 0.95 * DRAWS));
 }
 
-TEST(choices_come_equally_often_and_may_be_distributions)
+TEST_OF(bench, choices_come_equally_often_and_may_be_distributions)
 {
-    struct bench *bench = *state;
     int64_t names = 0, lists = 0, numbers = 0;
     for (int i = 0; i < DRAWS; i++) {
         const char *text =
@@ -113,21 +112,20 @@ TEST(choices_come_equally_often_and_may_be_distributions)
     assert_close((double)lists, DRAWS / 3.0, tolerance);
 }
 
-TEST(members_draw_independently)
+TEST_OF(bench, members_draw_independently)
 {
     double product = 0;
     for (int i = 0; i < DRAWS; i++) {
         char *end;
-        const char *text = drawn(*state, "{\"x\":{\"normal\":[0,1]},\"y\":{\"normal\":[0,1]}}", i);
+        const char *text = drawn(bench, "{\"x\":{\"normal\":[0,1]},\"y\":{\"normal\":[0,1]}}", i);
         double x = strtod(text + strlen("{\"x\":"), &end);
         product += x * strtod(end + strlen(",\"y\":"), NULL);
     }
     assert_close(product / DRAWS, 0, 5 / sqrt(DRAWS));
 }
 
-TEST(a_wrong_distribution_is_refused_by_its_member)
+TEST_OF(bench, a_wrong_distribution_is_refused_by_its_member)
 {
-    struct bench *bench = *state;
     static const char *const wrong[] = {
         "{\"uniform\":[2,1]}",
         "{\"uniform\":[1]}",

@@ -88,7 +88,7 @@ static struct text repeatable_bytes(size_t length, uint64_t seed)
 
 FIXTURE(make_scratch, remove_scratch);
 
-TEST(plain_and_gzip_and_several_members_read_the_same)
+TEST_OF(scratch, plain_and_gzip_and_several_members_read_the_same)
 {
     static const size_t lengths[] = {0, 1, 2, 3, 65535, 65536, 65537, 131072, 300000};
     for (size_t i = 0; i < COUNT(lengths); i++) {
@@ -102,7 +102,7 @@ TEST(plain_and_gzip_and_several_members_read_the_same)
         for (size_t form = 0; form < COUNT(forms); form++) {
             struct text text = {0};
             struct diag diag;
-            if (read_bytes(*state, forms[form].bytes, forms[form].length, &text, &diag) != 0)
+            if (read_bytes(scratch, forms[form].bytes, forms[form].length, &text, &diag) != 0)
                 fail_msg("%zu bytes, form %zu: %s", lengths[i], form, diag.text);
             assert_int_equal(text.length, bytes.length);
             if (text.length > 0)
@@ -115,7 +115,7 @@ TEST(plain_and_gzip_and_several_members_read_the_same)
     }
 }
 
-TEST(gzip_that_expands_a_thousandfold_is_read_whole)
+TEST_OF(scratch, gzip_that_expands_a_thousandfold_is_read_whole)
 {
     enum { LENGTH = 5000000 };
     char *zeros = calloc(1, LENGTH);
@@ -123,7 +123,7 @@ TEST(gzip_that_expands_a_thousandfold_is_read_whole)
     struct diag diag;
     add_member(zeros, LENGTH, &packed);
     assert_true(packed.length < LENGTH / 900);
-    assert_int_equal(read_bytes(*state, packed.bytes, packed.length, &text, &diag), 0);
+    assert_int_equal(read_bytes(scratch, packed.bytes, packed.length, &text, &diag), 0);
     assert_int_equal(text.length, LENGTH);
     assert_memory_equal(text.bytes, zeros, LENGTH);
     text_free(&packed);
@@ -131,7 +131,7 @@ TEST(gzip_that_expands_a_thousandfold_is_read_whole)
     free(zeros);
 }
 
-TEST(gzip_cut_anywhere_is_refused)
+TEST_OF(scratch, gzip_cut_anywhere_is_refused)
 {
     struct text bytes = repeatable_bytes(1500, 1), packed = {0};
     add_member(bytes.bytes, bytes.length, &packed);
@@ -140,7 +140,7 @@ TEST(gzip_cut_anywhere_is_refused)
     for (size_t length = 2; length < packed.length; length++) {
         struct text text = {0};
         struct diag diag;
-        int result = read_bytes(*state, packed.bytes, length, &text, &diag);
+        int result = read_bytes(scratch, packed.bytes, length, &text, &diag);
         /* Cut between the members it is a complete file. */
         assert_int_equal(result, length == first ? 0 : -1);
         if (length != first) {
@@ -153,7 +153,7 @@ TEST(gzip_cut_anywhere_is_refused)
     text_free(&packed);
 }
 
-TEST(a_flipped_bit_in_gzip_is_refused_or_changes_nothing)
+TEST_OF(scratch, a_flipped_bit_in_gzip_is_refused_or_changes_nothing)
 {
     struct text bytes = repeatable_bytes(400, 2), packed = {0};
     add_member(bytes.bytes, bytes.length, &packed);
@@ -164,7 +164,7 @@ TEST(a_flipped_bit_in_gzip_is_refused_or_changes_nothing)
         struct text text = {0};
         struct diag diag;
         packed.bytes[i / 8] = (char)(packed.bytes[i / 8] ^ 1 << i % 8);
-        int result = read_bytes(*state, packed.bytes, packed.length, &text, &diag);
+        int result = read_bytes(scratch, packed.bytes, packed.length, &text, &diag);
         packed.bytes[i / 8] = (char)(packed.bytes[i / 8] ^ 1 << i % 8);
         if (i / 8 < 2) {
             /* Not gzip any more by its first bytes, so plain text, and not JSON. */
@@ -184,7 +184,7 @@ TEST(a_flipped_bit_in_gzip_is_refused_or_changes_nothing)
     text_free(&packed);
 }
 
-TEST(anything_after_the_last_member_is_refused)
+TEST_OF(scratch, anything_after_the_last_member_is_refused)
 {
     static const char *const tails[] = {"x", "\n", "{}\n", "\x1f", "\x1f\x8b", "\x1f\x8b\x08"};
     for (size_t i = 0; i < COUNT(tails); i++) {
@@ -192,7 +192,7 @@ TEST(anything_after_the_last_member_is_refused)
         struct diag diag;
         add_member("abc\n", 4, &packed);
         text_add_word(&packed, tails[i]);
-        assert_int_equal(read_bytes(*state, packed.bytes, packed.length, &text, &diag), -1);
+        assert_int_equal(read_bytes(scratch, packed.bytes, packed.length, &text, &diag), -1);
         assert_int_equal(diag.code, DIAG_DATA);
         text_free(&packed);
         text_free(&text);
@@ -201,7 +201,7 @@ TEST(anything_after_the_last_member_is_refused)
     struct diag diag;
     add_member("abc\n", 4, &packed);
     text_add(&packed, "\0", 1);
-    assert_int_equal(read_bytes(*state, packed.bytes, packed.length, &text, &diag), -1);
+    assert_int_equal(read_bytes(scratch, packed.bytes, packed.length, &text, &diag), -1);
     text_free(&packed);
     text_free(&text);
 }
@@ -221,17 +221,17 @@ static void assert_lines(struct input *input, const char *const *lines, size_t c
     input_close(input);
 }
 
-TEST(lines_end_at_newlines_and_at_the_end)
+TEST_OF(scratch, lines_end_at_newlines_and_at_the_end)
 {
     static const char *const lines[] = {"a", "", "bc\r", "", "d"};
-    assert_lines(open_bytes(*state, "a\n\nbc\r\n\nd\n", 10), lines, 5);
-    assert_lines(open_bytes(*state, "a\n\nbc\r\n\nd", 9), lines, 5);
-    assert_lines(open_bytes(*state, "a\n\nbc\r\n\n", 8), lines, 4);
-    assert_lines(open_bytes(*state, "\n", 1), lines + 1, 1);
-    assert_lines(open_bytes(*state, "", 0), lines, 0);
+    assert_lines(open_bytes(scratch, "a\n\nbc\r\n\nd\n", 10), lines, 5);
+    assert_lines(open_bytes(scratch, "a\n\nbc\r\n\nd", 9), lines, 5);
+    assert_lines(open_bytes(scratch, "a\n\nbc\r\n\n", 8), lines, 4);
+    assert_lines(open_bytes(scratch, "\n", 1), lines + 1, 1);
+    assert_lines(open_bytes(scratch, "", 0), lines, 0);
 }
 
-TEST(lines_across_buffer_borders_are_whole)
+TEST_OF(scratch, lines_across_buffer_borders_are_whole)
 {
     struct text bytes = {0}, packed = {0};
     uint64_t random = 4;
@@ -246,7 +246,7 @@ TEST(lines_across_buffer_borders_are_whole)
     add_member(bytes.bytes, bytes.length, &packed);
     const struct text forms[] = {bytes, packed};
     for (size_t form = 0; form < 2; form++) {
-        struct input *input = open_bytes(*state, forms[form].bytes, forms[form].length);
+        struct input *input = open_bytes(scratch, forms[form].bytes, forms[form].length);
         const char *at = bytes.bytes, *line;
         size_t length, lines = 0;
         struct diag diag = {0};
@@ -262,7 +262,7 @@ TEST(lines_across_buffer_borders_are_whole)
     text_free(&packed);
 }
 
-TEST(a_line_may_be_as_long_as_the_limit)
+TEST_OF(scratch, a_line_may_be_as_long_as_the_limit)
 {
     static const size_t limits[] = {1, 10, 65535, 65536, 65537, 200000};
     for (size_t i = 0; i < COUNT(limits); i++)
@@ -272,7 +272,7 @@ TEST(a_line_may_be_as_long_as_the_limit)
                 char *bytes = malloc(full + 1);
                 memset(bytes, 'x', full);
                 bytes[full] = '\n';
-                struct input *input = open_bytes(*state, bytes, full + newline);
+                struct input *input = open_bytes(scratch, bytes, full + newline);
                 const char *line;
                 size_t length;
                 struct diag diag = {0};
@@ -286,9 +286,8 @@ TEST(a_line_may_be_as_long_as_the_limit)
             }
 }
 
-TEST(the_message_says_why_a_file_cannot_be_read)
+TEST_OF(scratch, the_message_says_why_a_file_cannot_be_read)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     assert_null(input_open("/nonexistent/file", &diag));
     assert_string_equal(diag.text, "No such file or directory");
@@ -421,9 +420,8 @@ static void count_pause(void *with)
     ++*(size_t *)with;
 }
 
-TEST(a_file_is_read_without_a_pause)
+TEST_OF(scratch, a_file_is_read_without_a_pause)
 {
-    struct scratch *scratch = *state;
     struct text bytes = repeatable_bytes(300000, 1), text = {0};
     struct diag diag = {0};
     size_t pauses = 0;

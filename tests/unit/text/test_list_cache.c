@@ -64,11 +64,10 @@ static int remove_bench(void **state)
     return 0;
 }
 
-#define CACHE_TEST(name) TEST_WITH(make_bench, remove_bench, name)
+#define CACHE_TEST(name) TEST_WITH(make_bench, remove_bench, struct bench *bench, name)
 
 CACHE_TEST(the_same_text_is_the_same_list)
 {
-    struct bench *bench = *state;
     char one[512], other[512];
     snprintf(one, sizeof one, "[%s]", point_of("a", 0.25));
     snprintf(other, sizeof other, "[%s ]", point_of("a", 0.5));
@@ -84,7 +83,6 @@ CACHE_TEST(the_same_text_is_the_same_list)
 
 CACHE_TEST(a_faulty_list_is_refused_every_time)
 {
-    struct bench *bench = *state;
     char wrong[512];
     snprintf(wrong, sizeof wrong, "[%s,%s]", point_of("a", 0.25), "{\"name\":\"\"}");
     for (int i = 0; i < 3; i++) {
@@ -98,7 +96,6 @@ CACHE_TEST(a_faulty_list_is_refused_every_time)
 
 CACHE_TEST(lists_that_do_not_repeat_are_kept_up_to_a_limit)
 {
-    struct bench *bench = *state;
     for (int i = 0; i < 3 * LIST_CACHE_MOST; i++) {
         char points[512];
         snprintf(points, sizeof points, "[%s]", point_of("a", i * 0.001));
@@ -111,7 +108,6 @@ CACHE_TEST(lists_that_do_not_repeat_are_kept_up_to_a_limit)
 /* A stream's memory stays bounded whatever its lines hold. */
 CACHE_TEST(long_lists_are_kept_up_to_a_limit_too)
 {
-    struct bench *bench = *state;
     struct text points = {0};
     for (int i = 0; i < 40; i++) {
         points.length = 0;
@@ -132,7 +128,6 @@ CACHE_TEST(long_lists_are_kept_up_to_a_limit_too)
 
 CACHE_TEST(a_list_that_grows_leaves_the_kept_one_alone)
 {
-    struct bench *bench = *state;
     char points[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
     for (int i = 0; i < 3; i++) {
@@ -171,7 +166,6 @@ static struct reflector_set document_of(struct point_reflector *points, size_t c
 
 CACHE_TEST(the_text_of_a_documents_list_is_kept)
 {
-    struct bench *bench = *state;
     struct point_reflector points[] = {{.name = "a", .x = 0.25}, {.name = "b", .x = 0.5}};
     struct reflector_set document = document_of(points, 2), set = document;
     set.document = &document;
@@ -185,7 +179,6 @@ CACHE_TEST(the_text_of_a_documents_list_is_kept)
 /* In the next frame the same address may hold another list. */
 CACHE_TEST(a_frames_own_list_is_written_every_time)
 {
-    struct bench *bench = *state;
     struct point_reflector own[] = {{.name = "a"}, {.name = "b"}}, read[] = {{.name = "a"}};
     struct reflector_set document = document_of(read, 1), set = document_of(own, 2);
     for (int i = 0; i < 6; i++) {
@@ -199,7 +192,6 @@ CACHE_TEST(a_frames_own_list_is_written_every_time)
 
 CACHE_TEST(a_list_of_a_document_that_changed_is_written_anew)
 {
-    struct bench *bench = *state;
     struct point_reflector points[] = {{.name = "a"}, {.name = "b"}}, other[] = {{.name = "c"}};
     struct reflector_set document = document_of(points, 2), set = document;
     set.document = &document;
@@ -213,7 +205,6 @@ CACHE_TEST(a_list_of_a_document_that_changed_is_written_anew)
 
 CACHE_TEST(a_list_that_was_read_is_written_in_canonical_form)
 {
-    struct bench *bench = *state;
     char points[512], loose[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
     snprintf(loose, sizeof loose, "[ %s ]", point_of("a", 25e-2));
@@ -229,7 +220,6 @@ CACHE_TEST(a_list_that_was_read_is_written_in_canonical_form)
 /* A document's list that was written is known by its address alone. */
 CACHE_TEST(a_list_that_was_only_written_is_found_in_no_line)
 {
-    struct bench *bench = *state;
     struct point_reflector points[] = {{.name = "a", .x = 0.25}};
     struct reflector_set document = document_of(points, 1), set = document;
     char other[512];
@@ -243,7 +233,6 @@ CACHE_TEST(a_list_that_was_only_written_is_found_in_no_line)
 
 CACHE_TEST(a_line_that_ends_within_a_kept_list_does_not_have_it)
 {
-    struct bench *bench = *state;
     char points[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
     assert_int_equal(read_points(&bench->frame, points, &bench->diag), 0);
@@ -255,7 +244,6 @@ CACHE_TEST(a_line_that_ends_within_a_kept_list_does_not_have_it)
 
 CACHE_TEST(the_text_of_points_is_no_list_of_planes)
 {
-    struct bench *bench = *state;
     char points[512], both[1100];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
     snprintf(both, sizeof both, "%s,\"planes\":%s", points, points);
@@ -268,7 +256,6 @@ CACHE_TEST(the_text_of_points_is_no_list_of_planes)
 /* The list's text in the line that was read has filled the memory already. */
 CACHE_TEST(a_list_that_fills_the_memory_is_written_every_time)
 {
-    struct bench *bench = *state;
     struct text points = {0};
     text_add(&points, "[", 1);
     for (int i = 0; points.length < LIST_CACHE_SIZE; i++) {
@@ -288,7 +275,6 @@ CACHE_TEST(a_list_that_fills_the_memory_is_written_every_time)
 
 CACHE_TEST(text_that_was_written_is_kept_up_to_a_limit)
 {
-    struct bench *bench = *state;
     enum { MANY = 1000, DOCUMENTS = 40 };
     static struct point_reflector points[DOCUMENTS][MANY];
     for (int i = 0; i < 2 * DOCUMENTS; i++) {

@@ -138,9 +138,8 @@ static void write_file(const char *path, const struct text *text, size_t piece)
 
 FIXTURE(make_scratch, remove_scratch);
 
-TEST(written_bytes_can_be_read)
+TEST_OF(scratch, written_bytes_can_be_read)
 {
-    struct scratch *scratch = *state;
     static const size_t lengths[] = {0, 1, 65535, 65536, 65537, 500000},
                         pieces[] = {1, 100, 65536, 65537, 500000};
     for (size_t i = 0; i < 6; i++)
@@ -159,9 +158,8 @@ TEST(written_bytes_can_be_read)
     assert_int_equal(files_in(scratch->directory), 2);
 }
 
-TEST(appended_text_is_written_in_whole_pieces)
+TEST_OF(scratch, appended_text_is_written_in_whole_pieces)
 {
-    struct scratch *scratch = *state;
     static const size_t lengths[] = {1, 1000, 65535, 65536, 200000};
     struct text all = {0};
     struct diag diag = {0};
@@ -183,9 +181,8 @@ TEST(appended_text_is_written_in_whole_pieces)
     text_free(&all);
 }
 
-TEST(gz_is_gzip_and_depends_on_nothing_but_its_content)
+TEST_OF(scratch, gz_is_gzip_and_depends_on_nothing_but_its_content)
 {
-    struct scratch *scratch = *state;
     struct text text = sample_text(200000);
     unsigned char first[70000], second[70000];
     size_t lengths[2];
@@ -231,9 +228,8 @@ static void rewrite(const struct scratch *scratch, const char *path, bool whole)
     text_free(&new);
 }
 
-TEST(the_name_is_taken_only_when_the_file_is_complete)
+TEST_OF(scratch, the_name_is_taken_only_when_the_file_is_complete)
 {
-    struct scratch *scratch = *state;
     for (int i = 0; i < 8; i++) {
         names_only = (i & 1) != 0;
         rewrite(scratch, (i & 2) != 0 ? scratch->packed : scratch->path, (i & 4) != 0);
@@ -241,9 +237,8 @@ TEST(the_name_is_taken_only_when_the_file_is_complete)
     names_only = false;
 }
 
-TEST(a_file_that_is_replaced_keeps_its_mode)
+TEST_OF(scratch, a_file_that_is_replaced_keeps_its_mode)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     struct stat status;
     for (int round = 0; round < 2; round++) {
@@ -345,9 +340,8 @@ static bool write_together(const char *const *paths, const char *word, int chang
     return WIFSIGNALED(code);
 }
 
-TEST(files_that_belong_together_are_never_old_beside_new)
+TEST_OF(scratch, files_that_belong_together_are_never_old_beside_new)
 {
-    struct scratch *scratch = *state;
     char names[TOGETHER][96];
     const char *paths[TOGETHER] = {names[0], names[1], names[2]};
     int kills = 0, before = files_in(scratch->directory);
@@ -388,9 +382,8 @@ static const char *temporary(const struct scratch *scratch, pid_t process, int n
     return path;
 }
 
-TEST(a_run_that_is_ended_leaves_the_folder_as_it_was)
+TEST_OF(scratch, a_run_that_is_ended_leaves_the_folder_as_it_was)
 {
-    struct scratch *scratch = *state;
     static const int signals[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, 0};
     write_word(scratch->path, "old");
     int before = files_in(scratch->directory);
@@ -406,9 +399,8 @@ TEST(a_run_that_is_ended_leaves_the_folder_as_it_was)
         assert_int_equal(files_in(scratch->directory), before);
 }
 
-TEST(what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next)
+TEST_OF(scratch, what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     write_word(scratch->path, "old");
     unlink(scratch->packed);
@@ -428,9 +420,8 @@ TEST(what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next)
 }
 
 /* Whose file another host's temporary is, nobody here can know, and without locks nobody at all. */
-TEST(a_temporary_file_that_may_be_in_use_stays)
+TEST_OF(scratch, a_temporary_file_that_may_be_in_use_stays)
 {
-    struct scratch *scratch = *state;
     char foreign[128];
     snprintf(foreign, sizeof foreign, "%s/.glint-1-1@elsewhere", scratch->directory);
     names_only = true;
@@ -448,9 +439,8 @@ TEST(a_temporary_file_that_may_be_in_use_stays)
     unlink(foreign);
 }
 
-TEST(a_full_disk_leaves_the_folder_as_it_was)
+TEST_OF(scratch, a_full_disk_leaves_the_folder_as_it_was)
 {
-    struct scratch *scratch = *state;
     struct text new = sample_text(100000);
     write_word(scratch->path, "old");
     int before = files_in(scratch->directory);
@@ -477,9 +467,8 @@ TEST(a_full_disk_leaves_the_folder_as_it_was)
 }
 
 /* Somebody who guessed the temporary name has made a link of that name. */
-TEST(a_planted_link_is_neither_followed_nor_removed)
+TEST_OF(scratch, a_planted_link_is_neither_followed_nor_removed)
 {
-    struct scratch *scratch = *state;
     char victim[128];
     snprintf(victim, sizeof victim, "%s/victim", scratch->directory);
     write_word(victim, "precious");
@@ -500,9 +489,8 @@ TEST(a_planted_link_is_neither_followed_nor_removed)
     unlink(victim);
 }
 
-TEST(two_writers_of_one_name_each_leave_a_whole_file)
+TEST_OF(scratch, two_writers_of_one_name_each_leave_a_whole_file)
 {
-    struct scratch *scratch = *state;
     int before = files_in(scratch->directory);
     for (int i = 0; i < 2; i++) {
         names_only = i == 1;
@@ -520,9 +508,8 @@ TEST(two_writers_of_one_name_each_leave_a_whole_file)
     names_only = false;
 }
 
-TEST(the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
+TEST_OF(scratch, the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
 {
-    struct scratch *scratch = *state;
     char twin[128];
     snprintf(twin, sizeof twin, "%s/twin", scratch->directory);
     for (int i = 0; i < 2; i++) {
@@ -539,9 +526,8 @@ TEST(the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
     names_only = false;
 }
 
-TEST(a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
+TEST_OF(scratch, a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
 {
-    struct scratch *scratch = *state;
     write_word(scratch->path, "old");
     int before = files_in(scratch->directory);
     for (int i = 0; i < 2; i++) {
@@ -576,9 +562,8 @@ static void expect_refused(const struct scratch *scratch, const char *message)
     expect_bytes(scratch->path, "old");
 }
 
-TEST(a_file_that_may_be_written_but_not_replaced_is_refused_at_once)
+TEST_OF(scratch, a_file_that_may_be_written_but_not_replaced_is_refused_at_once)
 {
-    struct scratch *scratch = *state;
     write_word(scratch->path, "old");
     assert_int_equal(chmod(scratch->path, 0666), 0);
     assert_int_equal(chmod(scratch->directory, 0555), 0);
@@ -594,9 +579,8 @@ TEST(a_file_that_may_be_written_but_not_replaced_is_refused_at_once)
 }
 
 /* The user who replaces it owns the new one, which gives no rights of the old owner's. */
-TEST(somebody_elses_file_is_replaced)
+TEST_OF(scratch, somebody_elses_file_is_replaced)
 {
-    struct scratch *scratch = *state;
     struct stat status;
     if (geteuid() != 0) {
         print_message("left out, for it takes root: somebody else's file\n");
@@ -622,9 +606,8 @@ TEST(somebody_elses_file_is_replaced)
     unlink(scratch->path);
 }
 
-TEST(a_file_that_may_not_be_written_is_refused_at_once)
+TEST_OF(scratch, a_file_that_may_not_be_written_is_refused_at_once)
 {
-    struct scratch *scratch = *state;
     write_word(scratch->path, "old");
     assert_int_equal(chmod(scratch->path, 0444), 0);
     assert_int_equal(chmod(scratch->directory, 0777), 0);
@@ -633,9 +616,8 @@ TEST(a_file_that_may_not_be_written_is_refused_at_once)
     unlink(scratch->path);
 }
 
-TEST(a_link_to_nothing_makes_the_file_that_it_names)
+TEST_OF(scratch, a_link_to_nothing_makes_the_file_that_it_names)
 {
-    struct scratch *scratch = *state;
     char second[128];
     struct stat status;
     snprintf(second, sizeof second, "%s/link", scratch->directory);
@@ -659,9 +641,8 @@ TEST(a_link_to_nothing_makes_the_file_that_it_names)
     unlink(scratch->path);
 }
 
-TEST(a_name_may_be_as_long_as_the_file_system_allows)
+TEST_OF(scratch, a_name_may_be_as_long_as_the_file_system_allows)
 {
-    struct scratch *scratch = *state;
     char path[400];
     struct diag diag = {0};
     for (int letters = 255; letters <= 256; letters++) {
@@ -677,9 +658,8 @@ TEST(a_name_may_be_as_long_as_the_file_system_allows)
 }
 
 /* What a shell's > would do: the bytes go where the descriptor stands, behind what is there. */
-TEST(an_open_descriptor_is_written_directly)
+TEST_OF(scratch, an_open_descriptor_is_written_directly)
 {
-    struct scratch *scratch = *state;
     static const char *const folders[] = {"/dev/fd", "/proc/self/fd"};
     char path[64], link[128];
     snprintf(link, sizeof link, "%s/link", scratch->directory);
@@ -697,9 +677,8 @@ TEST(an_open_descriptor_is_written_directly)
     }
 }
 
-TEST(a_descriptor_that_cannot_be_written_is_refused)
+TEST_OF(scratch, a_descriptor_that_cannot_be_written_is_refused)
 {
-    struct scratch *scratch = *state;
     char path[64];
     write_word(scratch->path, "old");
     int file = open(scratch->path, O_RDONLY);
@@ -714,9 +693,8 @@ TEST(a_descriptor_that_cannot_be_written_is_refused)
     expect_bytes(scratch->path, "old");
 }
 
-TEST(the_message_says_why_a_file_cannot_be_created_and_nothing_is_left)
+TEST_OF(scratch, the_message_says_why_a_file_cannot_be_created_and_nothing_is_left)
 {
-    struct scratch *scratch = *state;
     int before = files_in(scratch->directory);
     struct diag diag = {0};
     assert_null(output_open("/nonexistent/a", &diag));
@@ -747,9 +725,8 @@ TEST(a_full_device_is_noticed_at_the_latest_when_it_is_closed)
     }
 }
 
-TEST(pipes_and_devices_are_written_directly)
+TEST_OF(scratch, pipes_and_devices_are_written_directly)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     struct output *output = output_open("/dev/null", &diag);
     assert_int_equal(output_write(output, "abc", 3, &diag), 0);
@@ -780,9 +757,8 @@ static long waiting_in(int fd)
     return bytes;
 }
 
-TEST(what_a_pipe_holds_back_is_flushed)
+TEST_OF(scratch, what_a_pipe_holds_back_is_flushed)
 {
-    struct scratch *scratch = *state;
     struct diag diag = {0};
     unlink(scratch->fifo);
     assert_int_equal(mkfifo(scratch->fifo, 0600), 0);
@@ -799,9 +775,8 @@ TEST(what_a_pipe_holds_back_is_flushed)
 }
 
 /* Nobody can read a file before it has its name, and the bytes of a .gz do not depend on time. */
-TEST(files_keep_what_they_hold_back)
+TEST_OF(scratch, files_keep_what_they_hold_back)
 {
-    struct scratch *scratch = *state;
     for (int packed = 0; packed <= 1; packed++) {
         struct diag diag = {0};
         struct output *output = output_open(packed ? scratch->packed : scratch->path, &diag);

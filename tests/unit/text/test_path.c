@@ -30,7 +30,6 @@ SCRATCH_TEST(a_path_is_a_folder_and_a_name)
 
 SCRATCH_TEST(devices_and_pipes_are_special)
 {
-    struct scratch *scratch = *state;
     assert_true(path_is_special("/dev/null"));
     assert_false(path_is_special(scratch->directory));
     assert_false(path_is_special(scratch->path));
@@ -65,7 +64,6 @@ static void remove_links(const struct scratch *scratch)
 
 SCRATCH_TEST(links_lead_to_a_path_whether_its_file_is_there_or_not)
 {
-    struct scratch *scratch = *state;
     make_links(scratch);
     for (int there = 0; there < 2; there++) {
         char *target = path_target(in(scratch, "longer"));
@@ -82,7 +80,6 @@ SCRATCH_TEST(links_lead_to_a_path_whether_its_file_is_there_or_not)
 
 SCRATCH_TEST(two_paths_to_one_file_are_the_same_whether_it_is_there_or_not)
 {
-    struct scratch *scratch = *state;
     static const char *const same[] = {"file", "./file", "link", "longer"};
     static const char *const others[] = {"other", "absolute", "nowhere/file"};
     make_links(scratch);

@@ -238,7 +238,7 @@ FIXTURE(make_bench, remove_bench);
 
 /* The rounding of places some 500 m from the origin moves every distance by some 1e-13. A few cases
  * have no solution: three points that stay above the threshold up to the largest range. */
-TEST(every_case_is_as_hard_as_it_says)
+TEST_OF(bench, every_case_is_as_hard_as_it_says)
 {
     static const struct {
         const char *name;
@@ -253,7 +253,6 @@ TEST(every_case_is_as_hard_as_it_says)
         {"against", off_against, 1e-8, 1},
     };
     enum { COUNT = sizeof cases / sizeof *cases };
-    struct bench *bench = *state;
     double made[COUNT] = {0}, hard[COUNT] = {0}, hardest_of_all[COUNT] = {0};
     for (int64_t number = 0; number < SNAPSHOTS; number++) {
         frame_clear(&bench->frame);
@@ -284,9 +283,8 @@ static double off_bearing(const struct view *view)
 }
 
 /* Points of a chain merge by range or range rate, and an angle must then be estimated from both. */
-TEST(points_of_a_chain_are_seen_side_by_side)
+TEST_OF(bench, points_of_a_chain_are_seen_side_by_side)
 {
-    struct bench *bench = *state;
     double made = 0, in_line = 0;
     for (int64_t number = 0; number < SNAPSHOTS / 4; number++) {
         frame_clear(&bench->frame);

@@ -58,9 +58,8 @@ static enum random_traffic_class class_of(const struct object *object)
 
 FIXTURE(make_bench, remove_bench);
 
-TEST(the_ego_stands_within_500_m_of_the_origin)
+TEST_OF(bench, the_ego_stands_within_500_m_of_the_origin)
 {
-    struct bench *bench = *state;
     double most_m = 0;
     for (int64_t number = 0; number < 20000; number++) {
         const struct object *ego = snapshot(bench, TRAFFIC_SPARSE, 1, number)->objects.items;
@@ -90,11 +89,11 @@ static const double SHARES[TRAFFIC_CLASSES] = {
     [TRAFFIC_GUARDRAIL] = 0.04,
 };
 
-TEST(classes_come_in_their_shares)
+TEST_OF(bench, classes_come_in_their_shares)
 {
     double hits[TRAFFIC_CLASSES] = {0}, objects = 0;
     for (int64_t number = 0; number < 2000; number++) {
-        const struct frame *frame = snapshot(*state, TRAFFIC_DENSE, 1, number);
+        const struct frame *frame = snapshot(bench, TRAFFIC_DENSE, 1, number);
         for (size_t i = 1; i < frame->objects.count; i++) {
             hits[class_of(&frame->objects.items[i])]++;
             objects++;
@@ -107,7 +106,7 @@ TEST(classes_come_in_their_shares)
 }
 
 /* The documented counts and radii, all of them reached. */
-TEST(densities_keep_to_their_numbers_and_radii)
+TEST_OF(bench, densities_keep_to_their_numbers_and_radii)
 {
     static const struct {
         int density;
@@ -122,7 +121,7 @@ TEST(densities_keep_to_their_numbers_and_radii)
         size_t least = SIZE_MAX, most = 0;
         double farthest_m = 0;
         for (int64_t number = 0; number < SNAPSHOTS; number++) {
-            const struct frame *frame = snapshot(*state, cases[i].density, 1, number);
+            const struct frame *frame = snapshot(bench, cases[i].density, 1, number);
             const struct object *object = frame->objects.items;
             size_t count = frame->objects.count - 1;
             least = count < least ? count : least;
@@ -167,26 +166,26 @@ static bool covers(const struct bench *bench, const struct object *one, const st
     return false;
 }
 
-TEST(no_object_overlaps_the_ego)
+TEST_OF(bench, no_object_overlaps_the_ego)
 {
     for (int density = 0; density < TRAFFIC_DENSITIES; density++)
         for (int64_t number = 0; number < SNAPSHOTS; number++) {
-            const struct frame *frame = snapshot(*state, density, 1, number);
+            const struct frame *frame = snapshot(bench, density, 1, number);
             const struct object *object = frame->objects.items;
             for (size_t i = 1; i < frame->objects.count; i++)
-                assert_false(covers(*state, &object[0], &object[i]));
+                assert_false(covers(bench, &object[0], &object[i]));
         }
 }
 
-TEST(objects_overlap_each_other_but_rarely)
+TEST_OF(bench, objects_overlap_each_other_but_rarely)
 {
     double overlaps = 0, objects = 0;
     for (int64_t number = 0; number < 2 * SNAPSHOTS; number++) {
-        const struct frame *frame = snapshot(*state, TRAFFIC_DENSE, 1, number);
+        const struct frame *frame = snapshot(bench, TRAFFIC_DENSE, 1, number);
         const struct object *object = frame->objects.items;
         for (size_t i = 1; i < frame->objects.count; i++) {
             size_t k = 1;
-            while (k < i && !covers(*state, &object[k], &object[i]))
+            while (k < i && !covers(bench, &object[k], &object[i]))
                 k++;
             overlaps += k < i;
             objects++;
@@ -208,23 +207,23 @@ static void assert_same_objects(const struct frame *a, const struct frame *b)
     }
 }
 
-TEST(a_snapshot_is_drawn_by_its_number_alone)
+TEST_OF(bench, a_snapshot_is_drawn_by_its_number_alone)
 {
     void *other;
     make_bench(&other);
     const struct frame *alone = snapshot(other, TRAFFIC_DENSE, 5, 13);
     for (int64_t number = 0; number < 13; number++)
-        snapshot(*state, TRAFFIC_DENSE, 5, number);
-    assert_same_objects(snapshot(*state, TRAFFIC_DENSE, 5, 13), alone);
+        snapshot(bench, TRAFFIC_DENSE, 5, number);
+    assert_same_objects(snapshot(bench, TRAFFIC_DENSE, 5, 13), alone);
     remove_bench(&other);
 }
 
-TEST(seed_number_and_density_each_make_another_snapshot)
+TEST_OF(bench, seed_number_and_density_each_make_another_snapshot)
 {
-    const double x_m = snapshot(*state, TRAFFIC_DENSE, 5, 13)->objects.items[0].x_m;
-    assert_true(fabs(snapshot(*state, TRAFFIC_DENSE, 6, 13)->objects.items[0].x_m - x_m) > 0);
-    assert_true(fabs(snapshot(*state, TRAFFIC_DENSE, 5, 14)->objects.items[0].x_m - x_m) > 0);
-    assert_true(fabs(snapshot(*state, TRAFFIC_MEDIUM, 5, 13)->objects.items[0].x_m - x_m) > 0);
+    const double x_m = snapshot(bench, TRAFFIC_DENSE, 5, 13)->objects.items[0].x_m;
+    assert_true(fabs(snapshot(bench, TRAFFIC_DENSE, 6, 13)->objects.items[0].x_m - x_m) > 0);
+    assert_true(fabs(snapshot(bench, TRAFFIC_DENSE, 5, 14)->objects.items[0].x_m - x_m) > 0);
+    assert_true(fabs(snapshot(bench, TRAFFIC_MEDIUM, 5, 13)->objects.items[0].x_m - x_m) > 0);
 }
 
 static const struct frame *in_conditions(struct bench *bench, int density, int64_t number)
@@ -251,14 +250,14 @@ static void check_interferers(const struct frame *frame)
         assert_string_not_equal(interferers[0].object, interferers[1].object);
 }
 
-TEST(roads_and_interferers_come_in_their_shares)
+TEST_OF(bench, roads_and_interferers_come_in_their_shares)
 {
     enum { FRAMES = 20000, ASPHALT, CONCRETE, ONE, TWO, KINDS };
     static const double shares[KINDS] = {
         [ASPHALT] = 0.25, [CONCRETE] = 0.25, [ONE] = 0.2 / 2, [TWO] = 0.2 / 2};
     int hits[KINDS] = {0};
     for (int64_t number = 0; number < FRAMES; number++) {
-        const struct frame *frame = in_conditions(*state, TRAFFIC_DENSE, number);
+        const struct frame *frame = in_conditions(bench, TRAFFIC_DENSE, number);
         const struct conditions *drawn = &frame->conditions;
         hits[ASPHALT] += drawn->road == ROAD_ASPHALT;
         hits[CONCRETE] += drawn->road == ROAD_CONCRETE;
@@ -273,7 +272,7 @@ TEST(roads_and_interferers_come_in_their_shares)
 
 /* The share of scenes that have a condition, and its law: the middle of its range, evenly or in the
  * logarithm, is in the middle of what is drawn. */
-TEST(every_number_is_drawn_as_its_effect_says)
+TEST_OF(bench, every_number_is_drawn_as_its_effect_says)
 {
     enum { FRAMES = 20000 };
     double share = 0;
@@ -287,7 +286,7 @@ TEST(every_number_is_drawn_as_its_effect_says)
         double middle = evenly ? (draw->low + draw->high) / 2 : sqrt(draw->low * draw->high);
         int has = 0, above = 0;
         for (int64_t number = 0; number < FRAMES; number++) {
-            const struct frame *frame = in_conditions(*state, TRAFFIC_SPARSE, number);
+            const struct frame *frame = in_conditions(bench, TRAFFIC_SPARSE, number);
             double value;
             memcpy(&value, (const char *)&frame->conditions + condition->offset, sizeof value);
             assert_true(value == 0 || (value > draw->low && value < draw->high));
@@ -300,11 +299,11 @@ TEST(every_number_is_drawn_as_its_effect_says)
     }
 }
 
-TEST(conditions_of_few_objects_have_few_interferers)
+TEST_OF(bench, conditions_of_few_objects_have_few_interferers)
 {
     int64_t alone = 0, single = 0;
     for (int64_t number = 0; number < 3000; number++) {
-        const struct frame *frame = in_conditions(*state, TRAFFIC_SPARSE, number);
+        const struct frame *frame = in_conditions(bench, TRAFFIC_SPARSE, number);
         check_interferers(frame);
         alone += frame->objects.count == 1;
         single += frame->objects.count == 2 && frame->conditions.interferers.count == 1;
@@ -312,13 +311,13 @@ TEST(conditions_of_few_objects_have_few_interferers)
     assert_true(alone > 0 && single > 0);
 }
 
-TEST(conditions_are_drawn_by_number_and_change_no_object)
+TEST_OF(bench, conditions_are_drawn_by_number_and_change_no_object)
 {
     for (int64_t number = 0; number < 50; number++) {
-        double x_m = snapshot(*state, TRAFFIC_DENSE, 1, number)->objects.items[1].x_m;
-        double rain_mmph = in_conditions(*state, TRAFFIC_DENSE, number)->conditions.rain_mmph;
-        in_conditions(*state, TRAFFIC_DENSE, number + 1);
-        const struct frame *again = in_conditions(*state, TRAFFIC_DENSE, number);
+        double x_m = snapshot(bench, TRAFFIC_DENSE, 1, number)->objects.items[1].x_m;
+        double rain_mmph = in_conditions(bench, TRAFFIC_DENSE, number)->conditions.rain_mmph;
+        in_conditions(bench, TRAFFIC_DENSE, number + 1);
+        const struct frame *again = in_conditions(bench, TRAFFIC_DENSE, number);
         assert_close(again->objects.items[1].x_m, x_m, 0);
         assert_close(again->conditions.rain_mmph, rain_mmph, 0);
     }
@@ -339,9 +338,8 @@ static void check_strip(const struct roadside_strip *strip, const struct object 
     assert_int_equal(strip->kind == ROADSIDE_VEGETATION, strip->width_m > 0);
 }
 
-TEST(strips_run_along_the_road_on_both_sides_and_change_no_object)
+TEST_OF(bench, strips_run_along_the_road_on_both_sides_and_change_no_object)
 {
-    struct bench *bench = *state;
     int kinds[ROADSIDE_VEGETATION + 1] = {0};
     for (int64_t number = 0; number < SNAPSHOTS; number++) {
         struct frame *frame = &bench->frame;

@@ -106,12 +106,12 @@ static const char CORNER[] =
 FIXTURE(make_bench, remove_bench);
 
 /* A quarter circle around (80, 20) between straight pieces of 80 m and 60 m. */
-TEST(a_right_angle_is_rounded_by_a_quarter_circle)
+TEST_OF(bench, a_right_angle_is_rounded_by_a_quarter_circle)
 {
     static const double offsets_m[] = {0, 3.5, -3.5};
     for (size_t i = 0; i < COUNT(offsets_m); i++) {
         double offset_m = offsets_m[i], radius_m = 20 - offset_m;
-        struct road_path path = path_of(*state, CORNER, 20, offset_m, false);
+        struct road_path path = path_of(bench, CORNER, 20, offset_m, false);
         double arc_m = radius_m * PI / 2;
         assert_close(path.length_m, 80 + arc_m + 60, 1e-12);
         assert_close(path.radius_m, radius_m, 1e-13);
@@ -133,9 +133,9 @@ TEST(a_right_angle_is_rounded_by_a_quarter_circle)
 }
 
 /* Half of the shorter leg is left to the arc: radius 40 m for a right angle. */
-TEST(without_a_radius_an_arc_takes_half_the_shorter_leg)
+TEST_OF(bench, without_a_radius_an_arc_takes_half_the_shorter_leg)
 {
-    struct road_path path = path_of(*state, CORNER, 1e6, 0, false);
+    struct road_path path = path_of(bench, CORNER, 1e6, 0, false);
     assert_close(path.radius_m, 40, 1e-13);
 }
 
@@ -143,9 +143,9 @@ static const char WINDING[] =
     "{\"x_m\":-50,\"y_m\":10},{\"x_m\":60,\"y_m\":0},{\"x_m\":120,\"y_m\":"
     "70},{\"x_m\":220,\"y_m\":20},{\"x_m\":150,\"y_m\":-90}";
 
-TEST(velocity_and_yaw_rate_are_derivatives_of_the_pose)
+TEST_OF(bench, velocity_and_yaw_rate_are_derivatives_of_the_pose)
 {
-    struct road_path path = path_of(*state, WINDING, 1e6, 1.5, false);
+    struct road_path path = path_of(bench, WINDING, 1e6, 1.5, false);
     double speed_mps = 12, step_s = 1e-4;
     for (double place_m = 0.01; place_m < path.length_m; place_m += 0.37) {
         struct motion before = road_path_motion(&path, place_m - speed_mps * step_s, speed_mps);
@@ -162,9 +162,9 @@ TEST(velocity_and_yaw_rate_are_derivatives_of_the_pose)
     }
 }
 
-TEST(poses_are_continuous_along_the_lane)
+TEST_OF(bench, poses_are_continuous_along_the_lane)
 {
-    struct road_path path = path_of(*state, WINDING, 1e6, -2, false);
+    struct road_path path = path_of(bench, WINDING, 1e6, -2, false);
     for (size_t i = 1; i < path.pieces.count; i++) {
         double place_m = path.pieces.items[i].from_m;
         struct motion before = road_path_motion(&path, place_m - 1e-9, 1);
@@ -174,12 +174,12 @@ TEST(poses_are_continuous_along_the_lane)
     }
 }
 
-TEST(an_oncoming_lane_is_the_same_way_back)
+TEST_OF(bench, an_oncoming_lane_is_the_same_way_back)
 {
-    struct road_path there = path_of(*state, WINDING, 1e6, 1.5, false);
-    struct arena kept = ((struct bench *)*state)->arena;
-    ((struct bench *)*state)->arena = (struct arena){0};
-    struct road_path back = path_of(*state, WINDING, 1e6, 1.5, true);
+    struct road_path there = path_of(bench, WINDING, 1e6, 1.5, false);
+    struct arena kept = bench->arena;
+    bench->arena = (struct arena){0};
+    struct road_path back = path_of(bench, WINDING, 1e6, 1.5, true);
     assert_close(back.length_m, there.length_m, 1e-11);
     for (double place_m = 0; place_m < there.length_m; place_m += 1.7) {
         struct motion one = road_path_motion(&there, place_m, 1);
@@ -194,9 +194,8 @@ TEST(an_oncoming_lane_is_the_same_way_back)
 
 /* On a road of 600 s at its speed nobody has left it after that time. The tolerances are five
  * standard errors. */
-TEST(arrivals_are_a_poisson_process_of_the_classes_flows)
+TEST_OF(bench, arrivals_are_a_poisson_process_of_the_classes_flows)
 {
-    struct bench *bench = *state;
     static const char text[] =
         "{\"id\":\"r\",\"points\":[{\"x_m\":0,\"y_m\":0},{\"x_m\":90000,\"y_m\":0}],\"lanes\":["
         "{\"offset_m\":0,\"limit_mps\":30,\"arrivals\":[{\"class\":\"car\",\"flow_per_h\":27},"
@@ -218,9 +217,8 @@ TEST(arrivals_are_a_poisson_process_of_the_classes_flows)
     assert_close(trucks / sum, 0.25, 5 * sqrt(0.1875 / sum));
 }
 
-TEST(who_finds_no_gap_waits_outside)
+TEST_OF(bench, who_finds_no_gap_waits_outside)
 {
-    struct bench *bench = *state;
     static const char text[] =
         "{\"id\":\"r\",\"points\":[{\"x_m\":0,\"y_m\":0},{\"x_m\":500,\"y_m\":0}],\"lanes\":["
         "{\"offset_m\":0,\"limit_mps\":15,\"arrivals\":[{\"class\":\"car\",\"flow_per_h\":3000,"
@@ -237,9 +235,8 @@ TEST(who_finds_no_gap_waits_outside)
     assert_true(frame->objects.items[13].x_m >= 2.5);
 }
 
-TEST(frames_do_not_depend_on_how_time_was_cut)
+TEST_OF(bench, frames_do_not_depend_on_how_time_was_cut)
 {
-    struct bench *bench = *state;
     begin_well(bench, CROWDED, 30, NULL, 5);
     const struct frame *frame = frame_at(bench, 47.3);
     size_t count = frame->objects.count;
@@ -259,9 +256,8 @@ TEST(frames_do_not_depend_on_how_time_was_cut)
 }
 
 /* Behind a truck that nobody can overtake all end at its speed and the gap of that speed. */
-TEST(a_platoon_keeps_the_published_gaps)
+TEST_OF(bench, a_platoon_keeps_the_published_gaps)
 {
-    struct bench *bench = *state;
     static const char text[] =
         "{\"id\":\"r\",\"points\":[{\"x_m\":0,\"y_m\":0},{\"x_m\":30000,\"y_m\":0}],\"lanes\":["
         "{\"offset_m\":0,\"limit_mps\":33,\"arrivals\":[{\"class\":\"car\",\"flow_per_h\":800,"
@@ -339,9 +335,8 @@ static void require_comfort(const struct road_traffic *traffic)
 }
 
 /* All vehicles together drive so many seconds, or what CASES says. */
-TEST(nobody_collides_or_drives_backwards)
+TEST_OF(bench, nobody_collides_or_drives_backwards)
 {
-    struct bench *bench = *state;
     const double wanted_s = check_cases(1e5);
     double driven_s = 0;
     for (int64_t scene = 0; driven_s < wanted_s; scene++) {
@@ -363,9 +358,8 @@ TEST(nobody_collides_or_drives_backwards)
 
 /* ---- the ego, mirrors, refusals ---- */
 
-TEST(the_ego_comes_by_its_place_at_time_zero)
+TEST_OF(bench, the_ego_comes_by_its_place_at_time_zero)
 {
-    struct bench *bench = *state;
     static const char text[] =
         "{\"id\":\"r\",\"points\":[{\"x_m\":0,\"y_m\":0},{\"x_m\":900,\"y_m\":0}],\"lanes\":["
         "{\"offset_m\":0,\"limit_mps\":30,\"arrivals\":[{\"class\":\"car\",\"flow_per_h\":200},"
@@ -384,9 +378,8 @@ TEST(the_ego_comes_by_its_place_at_time_zero)
 }
 
 /* Every y of the road with the other sign, and every offset. */
-TEST(a_mirrored_road_has_mirrored_traffic)
+TEST_OF(bench, a_mirrored_road_has_mirrored_traffic)
 {
-    struct bench *bench = *state;
     begin_well(bench, CROWDED, 60, NULL, 2);
     const struct frame *frame = frame_at(bench, 31.4);
     size_t count = frame->objects.count;
@@ -421,9 +414,8 @@ TEST(a_mirrored_road_has_mirrored_traffic)
     free(kept);
 }
 
-TEST(what_cannot_be_driven_is_refused)
+TEST_OF(bench, what_cannot_be_driven_is_refused)
 {
-    struct bench *bench = *state;
     static const struct {
         const char *points, *lanes, *message;
     } cases[] = {
