@@ -3,9 +3,6 @@
 #include "hard.h"
 
 #include <complex.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/elementary.h"
 #include "base/units.h"

@@ -4,9 +4,6 @@
 
 #include "hard.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "frame/frame_text.h"
 #include "run/runner.h"
 #include "run/stage.h"

@@ -1,8 +1,6 @@
 /* Which side, which foot, what is in the way: hard cases 22 and 26 to 34, decided exactly. */
 #include "hard.h"
 
-#include <stdbool.h>
-
 #include "base/units.h"
 #include "geometry/kinematics.h"
 #include "geometry/mirror.h"

@@ -10,8 +10,6 @@
 #include "support/sample.h"
 #include "support/ulp.h"
 
-#include <stdlib.h>
-
 #include <mpfr.h>
 
 /* The number of points to test: all, or a tenth of them where HARD_TENTH is set, as in builds with

@@ -4,9 +4,6 @@
 
 #include "hard.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/hash.h"
 #include "base/sort.h"
 #include "documents/suite_file.h"

@@ -115,8 +115,7 @@ SCRATCH_TEST(utm_places_keep_a_nanometre)
     double naive = 0, ours = 0;
     mpfr_t work[2];
     mpfr_inits2(320, work[0], work[1], (mpfr_ptr)NULL);
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     for (int step = 0; step < steps; step++) {
         recorded_file_next(&scene, &frame);
         assert_int_equal(frame.objects.count, TRACKS);
@@ -138,7 +137,6 @@ SCRATCH_TEST(utm_places_keep_a_nanometre)
     }
     mpfr_clears(work[0], work[1], (mpfr_ptr)NULL);
     recording_close(&scene);
-    arena_free(&arena);
     hard_case("23", "UTM places of a table, and ranges", "m", naive, ours, 1e-9);
 }
 

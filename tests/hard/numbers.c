@@ -1,9 +1,6 @@
 /* Doubles as text, of any size, against exact decimals: hard case 54. */
 #include "hard.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "base/number.h"
 
 enum {

@@ -2,9 +2,6 @@
 #include "hard.h"
 
 #include <complex.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/elementary.h"
 #include "base/hash.h"
@@ -289,7 +286,6 @@ static void set_equal_pair(mpfr_t azimuth, double azimuth_rad)
 TEST(equal_echoes_meet_where_their_closed_form_says)
 {
     double naive_middle = 0, ours_middle = 0, naive = 0, ours = 0;
-    struct arena arena = {0};
     mpfr_t exact;
     mpfr_init2(exact, BITS);
     uint64_t sample = 1;
@@ -301,7 +297,8 @@ TEST(equal_echoes_meet_where_their_closed_form_says)
         for (int i = 0; i < count; i++) {
             double azimuth_rad = pair_azimuth(i, count, 80 * DEGREE);
             double strength = exp(sample_between(&sample, -7, 7));
-            struct cell cell = pair_of(&bench.sensor, azimuth_rad, strength, strength, &arena);
+            struct cell cell =
+                pair_of(&bench.sensor, azimuth_rad, strength, strength, check_arena());
             bool flagged = cell.sign_undecided == magnitude;
             double plain = naive_pair(azimuth_rad, strength, strength, k >= 2);
             if (literal) {
@@ -319,7 +316,6 @@ TEST(equal_echoes_meet_where_their_closed_form_says)
     hard_case("pair", "equal echoes to both sides: 0 degrees", "rad", naive_middle, ours_middle, 0);
     hard_case("pair element", "equal echoes, element and magnitude", "ulp", naive, ours, 12);
     mpfr_clear(exact);
-    arena_free(&arena);
 }
 
 /* How far one ulp of either strength moves the azimuth of a pair of equal echoes. */
@@ -362,7 +358,6 @@ TEST(one_ulp_of_an_echo_does_not_make_the_angle_jump)
         {"jump 4", "one ulp, element and magnitude", PHASE_ELEMENT, MONOPULSE_MAGNITUDE, 80,
          1.25e-3},
     };
-    struct arena arena = {0};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct bench bench;
         bench_open(&bench, cases[k].phase, cases[k].estimator);
@@ -372,13 +367,12 @@ TEST(one_ulp_of_an_echo_does_not_make_the_angle_jump)
         for (int i = 0; i < count; i++) {
             double azimuth_rad = pair_azimuth(i, count, cases[k].most_deg * DEGREE);
             double strength = exp(sample_between(&sample, -7, 7));
-            ours = hard_worse(ours, pair_jump(&bench.sensor, azimuth_rad, strength, &arena));
+            ours = hard_worse(ours, pair_jump(&bench.sensor, azimuth_rad, strength, check_arena()));
             naive = hard_worse(naive, naive_jump(azimuth_rad, strength, true));
         }
         hard_case(cases[k].number, cases[k].title, "rad", naive, ours, cases[k].bound);
         bench_close(&bench);
     }
-    arena_free(&arena);
 }
 
 /* Sums of the pointers by plain additions, in the cell's order. */
@@ -402,7 +396,6 @@ TEST(an_even_cell_has_no_sign)
 {
     enum { SIDE = 20 };
     struct bench bench;
-    struct arena arena = {0};
     bench_open(&bench, PHASE_ELEMENT, MONOPULSE_MAGNITUDE);
     uint64_t sample = 11;
     int naive = 0, ours = 0, count = hard_points(20000);
@@ -413,13 +406,12 @@ TEST(an_even_cell_has_no_sign)
         for (int k = 0; k < 2 * SIDE; k++)
             received_echoes[k] =
                 ray_at(&bench.sensor, "o", k < SIDE ? azimuth_rad : -azimuth_rad, strength);
-        ours += !cell_of(&bench.sensor, received_echoes, 2 * SIDE, &arena).sign_undecided;
+        ours += !cell_of(&bench.sensor, received_echoes, 2 * SIDE, check_arena()).sign_undecided;
         struct antenna_pointers plain = naive_pointers(&bench.sensor, received_echoes, 2 * SIDE);
         naive += !monopulse_angle(&bench.sensor.antenna, MONOPULSE_MAGNITUDE, plain).sign_undecided;
     }
     hard_case("even cell", "20 equal echoes to either side: a sign", "wrong", naive, ours, 0);
     bench_close(&bench);
-    arena_free(&arena);
 }
 
 /* The exact delta sum of the rounded products, and the sum of their sizes. */
@@ -443,7 +435,6 @@ TEST(a_weak_target_outlives_strong_ones_that_cancel)
 {
     enum { GROUPS = 40, ALL = 3 * GROUPS + 1 };
     struct bench bench;
-    struct arena arena = {0};
     mpfr_t exact, sizes;
     mpfr_inits2(SUM_BITS, exact, sizes, (mpfr_ptr)0);
     bench_open(&bench, PHASE_CENTRE, MONOPULSE_RATIO);
@@ -463,7 +454,7 @@ TEST(a_weak_target_outlives_strong_ones_that_cancel)
         set_delta(exact, sizes, &bench.sensor, received_echoes, 3 * GROUPS);
         double weak = mpfr_get_d(sizes, MPFR_RNDN) * pow(10, sample_between(&sample, -14.9, -1));
         received_echoes[3 * GROUPS] = ray_at(&bench.sensor, "weak", 0.5, weak / 0.5);
-        struct cell cell = cell_of(&bench.sensor, received_echoes, ALL, &arena);
+        struct cell cell = cell_of(&bench.sensor, received_echoes, ALL, check_arena());
         set_delta(exact, sizes, &bench.sensor, received_echoes, ALL);
         assert_true(mpfr_get_d(sizes, MPFR_RNDN) < 1e15 * fabs(mpfr_get_d(exact, MPFR_RNDN)));
         double plain = cimag(naive_pointers(&bench.sensor, received_echoes, ALL).delta);
@@ -474,7 +465,6 @@ TEST(a_weak_target_outlives_strong_ones_that_cancel)
     hard_case("13 cell", "a weak target where strong ones cancel", "ulp", naive, ours, 2);
     mpfr_clears(exact, sizes, (mpfr_ptr)0);
     bench_close(&bench);
-    arena_free(&arena);
 }
 
 enum { CROWD = 300, ORDERS = 1000 };
@@ -589,7 +579,6 @@ static double naive_ratio(struct antenna_pointers pointers)
  * list. */
 TEST(every_amplitude_is_a_target_or_told)
 {
-    struct arena arena = {0};
     mpfr_t exact, error;
     mpfr_inits2(SUM_BITS, exact, error, (mpfr_ptr)0);
     double naive = 0, ours = 0;
@@ -604,7 +593,7 @@ TEST(every_amplitude_is_a_target_or_told)
             wrong += !two_are_told(&bench, pow(10, strong), pow(10, weak), received_echoes);
             double tangent = naive_ratio(naive_pointers(&bench.sensor, received_echoes, 2));
             naive_wrong += !isfinite(tangent);
-            struct cell cell = cell_of(&bench.sensor, received_echoes, 2, &arena);
+            struct cell cell = cell_of(&bench.sensor, received_echoes, 2, check_arena());
             set_azimuth(exact, received_echoes, 2);
             mpfr_sub_d(error, exact, cell.azimuth_rad, MPFR_RNDN);
             ours = hard_worse(ours, fabs(mpfr_get_d(error, MPFR_RNDN)));
@@ -615,7 +604,6 @@ TEST(every_amplitude_is_a_target_or_told)
     hard_case("1e300 list", "1e-300 to 1e300: not told", "wrong", naive_wrong, wrong, 0);
     hard_case("1e300 angle", "1e-300 to 1e300: the angle", "rad", naive, ours, 1e-15);
     mpfr_clears(exact, error, (mpfr_ptr)0);
-    arena_free(&arena);
 }
 
 /* Two echoes whose sum of amplitudes is beyond the doubles. */

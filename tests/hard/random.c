@@ -1,8 +1,6 @@
 /* Random numbers: hard cases 48 to 53. What draws cost is measured by scripts/bench. */
 #include "chain.h"
 
-#include <stdlib.h>
-
 #include "base/elementary.h"
 #include "base/hash.h"
 #include "base/random.h"

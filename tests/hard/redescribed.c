@@ -11,8 +11,6 @@
  * the levels of a path and of its reverse differ in the last digit. */
 #include "lists.h"
 
-#include <stdio.h>
-
 #include "base/units.h"
 #include "base/vec2.h"
 

@@ -3,7 +3,6 @@
 #include "hard.h"
 
 #include <float.h>
-#include <string.h>
 
 #include "base/hash.h"
 #include "base/number.h"
@@ -214,7 +213,7 @@ TEST(a_cell_is_the_same_for_every_order_of_its_echoes)
     enum { ECHOES = 1000, ORDERS = 1000 };
     static const char *const names[] = {"a", "b", "c", "d"};
     uint64_t random = 14;
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct received_echo *received_echoes = malloc(ECHOES * sizeof *received_echoes);
     double *plain = malloc(2 * ORDERS * sizeof *plain), *ours = plain + ORDERS;
     assert_true(received_echoes != NULL && plain != NULL);
@@ -234,23 +233,21 @@ TEST(a_cell_is_the_same_for_every_order_of_its_echoes)
         for (size_t i = 0; i < ECHOES; i++)
             plain[k] += received_echoes[i].amplitude * received_echoes[i].echo.range_m;
         sort_items(received_echoes, ECHOES, sizeof *received_echoes, resolution_cell_compare,
-                   &arena);
-        resolution_cell_of(&plain_sensor, received_echoes, ECHOES, true, &arena, &cell);
+                   arena);
+        resolution_cell_of(&plain_sensor, received_echoes, ECHOES, true, arena, &cell);
         ours[k] = fingerprint(&cell);
-        arena_clear(&arena);
+        arena_clear(arena);
     }
     hard_case("14", "cell of 1,000 echoes in 1,000 orders", "results",
               count_distinct(plain, orders), count_distinct(ours, orders), 1);
     free(plain);
     free(received_echoes);
-    arena_free(&arena);
 }
 
 /* Hard case 17: amplitudes from 1e-300 to 1e300, ten decades between the members of a cell. */
 TEST(cells_of_any_amplitude_are_finite_and_exact)
 {
     uint64_t random = 17;
-    struct arena arena = {0};
     int points = hard_points(100000);
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i++) {
@@ -264,23 +261,22 @@ TEST(cells_of_any_amplitude_are_finite_and_exact)
             power_mean += amplitude * amplitude * received_echoes[k].echo.range_m;
         }
         naive += !isfinite(power_mean / powers);
-        resolution_cell_of(&plain_sensor, received_echoes, 4, true, &arena, &cell);
+        resolution_cell_of(&plain_sensor, received_echoes, 4, true, check_arena(), &cell);
         double share = 1 + pow(10, -2.5) + pow(10, -5) + pow(10, -7.5);
         double expected_m =
             30 + 0.05 * (pow(10, -2.5) + 2 * pow(10, -5) + 3 * pow(10, -7.5)) / share;
         ours += !isfinite(cell.amplitude) || !isfinite(cell.range_rate_mps) ||
                 !(fabs(cell.range_m - expected_m) < 1e-12) ||
                 !(fabs(cell.members.items[0].weight - 1 / share) < 1e-12);
-        arena_clear(&arena);
+        arena_clear(check_arena());
     }
-    arena_free(&arena);
     hard_case("17", "amplitudes of 1e-300 to 1e300 (naive: powers)", "wrong", naive, ours, 0);
 }
 
 TEST(an_amplitude_beyond_the_doubles_is_refused)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena,
+    struct arena *arena = check_arena();
+    struct frame frame = {.arena = arena,
                           .scene = "s",
                           .ego = "e",
                           .interval_s = 1,
@@ -288,17 +284,16 @@ TEST(an_amplitude_beyond_the_doubles_is_refused)
     const struct received_echo received_echoes[] = {ray_of("a", 10, 0, 1.2e308),
                                                     ray_of("b", 10, 0, 1.2e308)};
     struct diag alone = {0}, both = {0};
-    struct cell *cell = list_add(&frame.cells, &arena);
-    resolution_cell_of(&plain_sensor, received_echoes, 1, true, &arena, cell);
+    struct cell *cell = list_add(&frame.cells, arena);
+    resolution_cell_of(&plain_sensor, received_echoes, 1, true, arena, cell);
     cell->amplitude = cell->sum_re = 1e307;
     record_write_check(&frame_record, &frame, ~0U, &alone);
-    resolution_cell_of(&plain_sensor, received_echoes, 2, true, &arena, cell);
+    resolution_cell_of(&plain_sensor, received_echoes, 2, true, arena, cell);
     record_write_check(&frame_record, &frame, ~0U, &both);
     hard_case("17", "amplitude sum of 2.4e308 passes unreported", "wrong", 1,
               (alone.code != DIAG_OK) + (both.code == DIAG_OK) +
                   (strncmp(both.text, "cells[0].amplitude: inf", 23) != 0),
               0);
-    arena_free(&arena);
 }
 
 static double any_amplitude(uint64_t *random)
@@ -395,11 +390,10 @@ static void list_readings(struct frame *frame, const double *amplitudes, size_t 
 TEST(no_amplitude_makes_infinite_decibels)
 {
     uint64_t random = 21;
-    struct arena arena = {0};
     int points = hard_points(100000);
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i += 5) {
-        struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
+        struct frame frame = {.arena = check_arena(), .sections = CARRY_ACCOUNT};
         double amplitudes[] = {0, 5e-324, -0.0, DBL_MAX, any_amplitude(&random)};
         for (size_t k = 0; k < 5; k++) {
             naive += !isfinite(20 * log10(amplitudes[k]));
@@ -409,8 +403,7 @@ TEST(no_amplitude_makes_infinite_decibels)
         ours += frame.targets.count != 3 || frame.lost.items[0].echoes.count != 2;
         for (size_t k = 0; k < frame.targets.count; k++)
             ours += !isfinite(frame.targets.items[k].amplitude_db);
-        arena_clear(&arena);
+        arena_clear(check_arena());
     }
-    arena_free(&arena);
     hard_case("21", "amplitude 0 in decibels", "wrong", naive, ours, 0);
 }

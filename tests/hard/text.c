@@ -198,11 +198,10 @@ TEST(minus_zero_keeps_its_sign)
     double ours = strcmp(text, "-0.0") != 0;
     ours += !signbit(by_jansson(text, json_number_value));
     ours += count_misread("-0.0", -0.0) + count_misread("-0e0", -0.0);
-    struct arena arena = {0};
-    ours += !reads_x(&arena, "-0", &value) || !signbit(value);
-    ours += !table_reads_x(&arena, "-0", &value) || !signbit(value);
-    ours += !option_reads_x(&arena, "-0", &value) || !signbit(value);
-    arena_free(&arena);
+    struct arena *arena = check_arena();
+    ours += !reads_x(arena, "-0", &value) || !signbit(value);
+    ours += !table_reads_x(arena, "-0", &value) || !signbit(value);
+    ours += !option_reads_x(arena, "-0", &value) || !signbit(value);
     hard_case("56", "-0.0 through every reader (naive: jansson)", "wrong", naive, ours, 0);
 }
 
@@ -400,12 +399,10 @@ TEST(ambiguous_json_is_refused)
     for (size_t i = 0; i < COUNT(after); i++)
         ours += takes_frame("0", after[i]);
     ours += !takes_depth(1000) + takes_depth(1001);
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     struct diag diag = {0};
     ours += frame_text_read("\xef\xbb\xbf{}", 5, &frame, &diag) == 0 ||
             strstr(diag.text, "0xef") == NULL;
-    arena_free(&arena);
 #define GOOD                                                                                       \
     "{\"origin\":\"t\",\"ego\":\"e\",\"rate_hz\":1,\"duration_s\":1,\"objects\":[{\"id\":\"e\","   \
     "\"class\":\"c\"}]"

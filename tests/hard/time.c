@@ -66,8 +66,7 @@ static void frame_of(const struct scenario *scene, int64_t number, struct frame 
 
 SCRATCH_TEST(a_million_frames_stand_at_their_times)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     double naive = 0, ours = 0;
     mpfr_t exact;
     mpfr_init2(exact, PRECISION);
@@ -87,14 +86,12 @@ SCRATCH_TEST(a_million_frames_stand_at_their_times)
         }
     }
     mpfr_clear(exact);
-    arena_free(&arena);
     hard_case("40", "time of 1e6 frames at 10 to 30 Hz", "ulp", naive, ours, 0.5);
 }
 
 SCRATCH_TEST(a_frame_is_found_again_from_its_time)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     double naive = 0, ours = 0;
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
         const struct scenario *scene = open_scene(scratch, rates_hz[r]);
@@ -105,7 +102,6 @@ SCRATCH_TEST(a_frame_is_found_again_from_its_time)
             ours += llround(frame.time_s * rates_hz[r]) != i;
         }
     }
-    arena_free(&arena);
     hard_case("41", "frame number back from its time", "wrong", naive, ours, 0);
 }
 
@@ -113,8 +109,7 @@ SCRATCH_TEST(a_frame_is_found_again_from_its_time)
  * decimal. */
 SCRATCH_TEST(scans_fall_on_their_frames)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     double naive = 0, ours = 0;
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
         const struct scenario *scene = open_scene(scratch, rates_hz[r]);
@@ -131,7 +126,6 @@ SCRATCH_TEST(scans_fall_on_their_frames)
                                : answer != SCAN_TIMING_NONE;
         }
     }
-    arena_free(&arena);
     hard_case("41", "scan of every second frame (naive: floor)", "wrong", naive, ours, 0);
 }
 
@@ -147,8 +141,7 @@ SCRATCH_TEST(unix_times_keep_their_intervals)
     assert_int_equal(fclose(file), 0);
     struct recording scene;
     recorded_file_open(&scene, scratch->path, "1", &scratch->arena);
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     double naive = 0, ours = 0, before_s = 0;
     for (int i = 0; i < steps; i++, before_s = frame.time_s) {
         recorded_file_next(&scene, &frame);
@@ -158,7 +151,6 @@ SCRATCH_TEST(unix_times_keep_their_intervals)
         ours += frame.time_s != (double)(epoch_ms + 40 * i) / 1000;
     }
     recording_close(&scene);
-    arena_free(&arena);
     hard_case("42", "interval of frames in UNIX time", "s", naive, ours, 0);
 }
 
@@ -183,8 +175,7 @@ static double position_error_m(const struct frame *frame, mpfr_t time_s, mpfr_t 
 SCRATCH_TEST(straight_motion_does_not_drift)
 {
     static const double rates[] = {17, 25};
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena}, drifting = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()}, drifting = {.arena = check_arena()};
     double naive = 0, ours = 0;
     mpfr_t time_s, cosine, sine;
     mpfr_inits2(PRECISION, time_s, cosine, sine, (mpfr_ptr)0);
@@ -208,7 +199,6 @@ SCRATCH_TEST(straight_motion_does_not_drift)
         }
     }
     mpfr_clears(time_s, cosine, sine, (mpfr_ptr)0);
-    arena_free(&arena);
     hard_case("24", "place after 1e6 frames at 50 m/s from UTM", "m", naive, ours, 1e-9);
 }
 
@@ -349,7 +339,6 @@ static bool differ(const struct received_echo one[TIED], const struct received_e
 TEST(ties_fall_the_same_way_in_every_order)
 {
     uint64_t random = 45;
-    struct arena arena = {0};
     int points = hard_points(200000);
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i++) {
@@ -357,10 +346,9 @@ TEST(ties_fall_the_same_way_in_every_order)
         draw_rays(&random, 0, received_echoes);
         memcpy(shuffled, received_echoes, sizeof shuffled);
         shuffle(&random, shuffled, TIED, sizeof shuffled[0]);
-        naive += differ(received_echoes, shuffled, compare_amplitudes, &arena);
-        ours += differ(received_echoes, shuffled, resolution_cell_compare, &arena);
+        naive += differ(received_echoes, shuffled, compare_amplitudes, check_arena());
+        ours += differ(received_echoes, shuffled, resolution_cell_compare, check_arena());
     }
-    arena_free(&arena);
     hard_case("45", "cells of tied echoes, input shuffled", "wrong", naive, ours, 0);
 }
 
@@ -378,7 +366,6 @@ static double through_text(double value, int digits)
 TEST(near_ties_survive_the_pipe)
 {
     uint64_t random = 46;
-    struct arena arena = {0};
     int points = hard_points(200000);
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i++) {
@@ -391,10 +378,9 @@ TEST(near_ties_survive_the_pipe)
             carried[k].amplitude = through_text(received_echoes[k].amplitude, 0);
         }
         shuffle(&random, carried, TIED, sizeof carried[0]);
-        naive += differ(received_echoes, rounded, resolution_cell_compare, &arena);
-        ours += differ(received_echoes, carried, resolution_cell_compare, &arena);
+        naive += differ(received_echoes, rounded, resolution_cell_compare, check_arena());
+        ours += differ(received_echoes, carried, resolution_cell_compare, check_arena());
     }
-    arena_free(&arena);
     hard_case("46", "ties of 1 ulp through text (naive: 15 digits)", "wrong", naive, ours, 0);
 }
 
@@ -432,20 +418,18 @@ TEST(sorting_keeps_the_order_of_ties)
 {
     enum { ITEMS = 64 };
     uint64_t random = 47;
-    struct arena arena = {0};
     int points = hard_points(10000);
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i++) {
         struct keyed items[ITEMS], others[ITEMS];
         for (int k = 0; k < ITEMS; k++)
             items[k] = others[k] = (struct keyed){(int)(sample_bits(&random) % 4), k};
-        sort_items(items, ITEMS, sizeof items[0], compare_keys, &arena);
+        sort_items(items, ITEMS, sizeof items[0], compare_keys, check_arena());
         sort_unstably(others, ITEMS);
         ours += count_swapped(items, ITEMS) > 0;
         naive += count_swapped(others, ITEMS) > 0;
-        arena_clear(&arena);
+        arena_clear(check_arena());
     }
-    arena_free(&arena);
     hard_case("47", "64 tied keys sorted (naive: by exchange)", "wrong", naive, ours, 0);
 }
 

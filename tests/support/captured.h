@@ -2,8 +2,6 @@
  * function runs in a process of its own, and its result is the exit code. */
 #pragma once
 
-#include <stdio.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -5,8 +5,12 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -30,6 +34,7 @@ struct check_entry {
     static void name##_alone(void **state __attribute__((unused)))                                 \
     {                                                                                              \
         name();                                                                                    \
+        check_end();                                                                               \
     }                                                                                              \
     CHECK_ENTRY(name##_entry, #name, name##_alone, NULL, NULL);                                    \
     static void name(void)
@@ -41,6 +46,7 @@ struct check_entry {
     static void name##_of_state(void **state)                                                      \
     {                                                                                              \
         name(*state);                                                                              \
+        check_end();                                                                               \
     }                                                                                              \
     CHECK_ENTRY(name##_entry, #name, name##_of_state, setup, teardown);                            \
     static void name(subject __attribute__((unused)))
@@ -51,6 +57,11 @@ struct check_entry {
 /* TEST_OF(scratch, a_sentence) { ... } is a test of what the fixture's setup made, a
  * struct scratch *scratch. */
 #define TEST_OF(subject, name) TEST_WITH(NULL, NULL, struct subject *subject, name)
+
+/* Memory of the test that runs; it is freed when the test has passed. */
+struct arena *check_arena(void);
+
+void check_end(void);
 
 /* Of an array, not of a pointer. */
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

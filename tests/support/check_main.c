@@ -7,10 +7,7 @@
  * The exit status is 1 if a test or a fixture fails, 64 if there is no such test. */
 #include "check.h"
 
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "base/arena.h"
 
 extern const struct check_entry *const __start_check_entries[];
 extern const struct check_entry *const __stop_check_entries[];
@@ -19,6 +16,18 @@ double check_cases(double usual)
 {
     const char *cases = getenv("CASES");
     return cases != NULL ? atof(cases) : usual;
+}
+
+static struct arena arena;
+
+struct arena *check_arena(void)
+{
+    return &arena;
+}
+
+void check_end(void)
+{
+    arena_free(&arena);
 }
 
 /* The name of a file without folder and ending. */

@@ -4,8 +4,6 @@
 
 #include "check.h"
 
-#include <stdlib.h>
-
 #include "base/units.h"
 #include "effects/effect.h"
 

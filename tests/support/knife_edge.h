@@ -1,8 +1,6 @@
 /* Losses behind an edge: the library's, and those of Fresnel's integrals. */
 #pragma once
 
-#include <math.h>
-
 #include "base/units.h"
 #include "geometry/obstruction.h"
 

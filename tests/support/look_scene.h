@@ -3,8 +3,6 @@
  * make_scene and remove_scene are a cmocka setup and teardown. */
 #pragma once
 
-#include <stdlib.h>
-
 #include "base/units.h"
 #include "check.h"
 #include "ideal/direct_echoes.h"

@@ -2,8 +2,6 @@
  * lib/run. */
 #pragma once
 
-#include <string.h>
-
 #include "check.h"
 #include "run/frame_sample.h"
 #include "run/runner.h"

@@ -2,9 +2,6 @@
  * read what they write. The file's name is the constant SCRATCH_FILE. */
 #pragma once
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "base/arena.h"

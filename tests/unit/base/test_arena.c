@@ -1,6 +1,5 @@
 #include "check.h"
 
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

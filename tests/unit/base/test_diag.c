@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "base/diag.h"

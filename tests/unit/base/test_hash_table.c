@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "base/hash.h"
 
 enum { COUNT = 4096 };
@@ -23,8 +20,7 @@ TEST(what_went_in_is_found_again)
 {
     static char text[COUNT][16];
     const char *words[COUNT];
-    struct arena arena = {0};
-    struct hash_table table = hash_table_begin(COUNT / 2, &arena);
+    struct hash_table table = hash_table_begin(COUNT / 2, check_arena());
     for (uint32_t i = 0; i < COUNT; i++) {
         snprintf(text[i], sizeof text[i], "vehicle_%u", i);
         words[i] = text[i];
@@ -34,7 +30,6 @@ TEST(what_went_in_is_found_again)
     }
     for (uint32_t i = 0; i < COUNT; i++)
         assert_int_equal(*slot_of(&table, words, words[i]), i + 1);
-    arena_free(&arena);
 }
 
 /* The most of these hashes that belong into one slot of twice as many. */

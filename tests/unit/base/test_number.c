@@ -1,9 +1,6 @@
 #include "check.h"
 
 #include <float.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/number.h"
 #include "sample.h"

@@ -4,10 +4,6 @@
  * many doubles are written, in place of 10^6. */
 #include "check.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/number.h"
 #include "sample.h"
 #include "speed/digits.h"

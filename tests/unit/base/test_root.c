@@ -1,7 +1,5 @@
 #include "base/root.h"
 
-#include <math.h>
-
 #include "check.h"
 
 struct asked {

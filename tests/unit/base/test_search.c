@@ -1,7 +1,5 @@
 #include "base/search.h"
 
-#include <math.h>
-
 #include "check.h"
 #include "sample.h"
 

@@ -1,8 +1,5 @@
 #include "base/sort.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "check.h"
 #include "sample.h"
 
@@ -27,7 +24,6 @@ static int compare_with_place(const void *left, const void *right)
 
 TEST(items_are_sorted_and_ties_stay_in_their_order)
 {
-    struct arena arena = {0};
     uint64_t sample = 1;
     for (int round = 0; round < 2000; round++) {
         size_t count = (size_t)sample_between(&sample, 0, 60);
@@ -38,12 +34,11 @@ TEST(items_are_sorted_and_ties_stay_in_their_order)
             expected[i] = items[i];
         }
         qsort(expected, count, sizeof *expected, compare_with_place);
-        sort_items(items, count, sizeof *items, compare, &arena);
+        sort_items(items, count, sizeof *items, compare, check_arena());
         for (size_t i = 0; i < count; i++)
             assert_true(items[i].key == expected[i].key && items[i].place == expected[i].place);
-        arena_clear(&arena);
+        arena_clear(check_arena());
     }
-    arena_free(&arena);
 }
 
 TEST(a_sorted_list_takes_no_memory)

@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "base/suggestion.h"
 
 static const char *meant(const char *word, const char *const *known)

@@ -1,9 +1,5 @@
 #include "check.h"
 
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/text.h"
 #include "sample.h"
 

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "base/units.h"
 #include "documents/reflector_models.h"
 #include "radar/radar_equation.h"
@@ -70,7 +68,6 @@ TEST(a_human_is_the_same_from_everywhere)
 
 TEST(the_points_replace_the_reflectors_of_the_document)
 {
-    struct arena arena = {0};
     struct point_reflector corner = {.name = "corner"};
     struct plane_reflector side = {.name = "side"};
     struct mirror_plane mirror = {.reflection = 0.5};
@@ -79,14 +76,13 @@ TEST(the_points_replace_the_reflectors_of_the_document)
     set.planes.items = &side;
     set.mirrors.items = &mirror;
     set.points.count = set.planes.count = set.mirrors.count = 1;
-    reflector_models_of_3gpp(SENSING_TARGET_3GPP_VEHICLE, &set, &arena);
+    reflector_models_of_3gpp(SENSING_TARGET_3GPP_VEHICLE, &set, check_arena());
     assert_int_equal(set.points.count, 5);
     assert_int_equal(set.planes.count, 0);
     assert_int_equal(set.mirrors.count, 1);
     assert_true(set.blocks);
     assert_string_equal(corner.name, "corner");
-    assert_null(reflectors_name_twice(&set, &arena));
+    assert_null(reflectors_name_twice(&set, check_arena()));
     struct diag diag = {0};
     assert_int_equal(record_write_check(&reflector_set_record, &set, ~0U, &diag), 0);
-    arena_free(&arena);
 }

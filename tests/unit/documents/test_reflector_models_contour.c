@@ -1,7 +1,6 @@
 #include "check.h"
 
 #include <complex.h>
-#include <string.h>
 
 #include "base/random.h"
 #include "base/units.h"
@@ -176,7 +175,6 @@ TEST(with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_it_does)
 
 TEST(rows_replace_the_reflectors_of_the_document)
 {
-    struct arena arena = {0};
     struct point_reflector corner = {.name = "corner"};
     struct mirror_plane mirror = {.reflection = 0.5};
     struct reflector_set set = {.model = "m", .blocks = true};
@@ -184,15 +182,14 @@ TEST(rows_replace_the_reflectors_of_the_document)
     set.points.items = &corner;
     set.mirrors.items = &mirror;
     set.points.count = set.mirrors.count = 1;
-    reflector_models_of_contour(&bicycle, 0.01, 0.01, 0.02, &set, &arena);
+    reflector_models_of_contour(&bicycle, 0.01, 0.01, 0.02, &set, check_arena());
     assert_int_equal(set.points.count, 0);
     assert_int_equal(set.rows.count, 4);
     assert_int_equal(set.mirrors.count, 1);
     assert_true(set.blocks);
     assert_int_equal(record_write_check(&reflector_set_record, &set, ~0U, &diag), 0);
-    reflector_models_of_contour(&car, 1e4, 0.021, 0.02, &set, &arena);
+    reflector_models_of_contour(&car, 1e4, 0.021, 0.02, &set, check_arena());
     assert_int_equal(record_write_check(&reflector_set_record, &set, ~0U, &diag), 0);
-    arena_free(&arena);
 }
 
 TEST(an_oblique_cross_section_must_fit_the_others)

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "base/arena.h"
 #include "documents/suite_file.h"
 #include "documents/usual_figures.h"
@@ -9,20 +7,18 @@
 
 TEST(shipped_radars_have_usual_figures)
 {
-    struct arena arena = {0};
     struct diag diag = {0};
     struct document_names shipped = {0};
-    assert_int_equal(document_list("sensors", ".json", &shipped, &arena, &diag), 0);
+    assert_int_equal(document_list("sensors", ".json", &shipped, check_arena(), &diag), 0);
     assert_true(shipped.names.count > 10);
     for (size_t i = 0; i < shipped.names.count; i++) {
-        const struct suite *suite = suite_file_load(shipped.names.items[i], &arena, &diag);
+        const struct suite *suite = suite_file_load(shipped.names.items[i], check_arena(), &diag);
         assert_non_null(suite);
         for (size_t k = 0; k < suite->sensors.count; k++) {
             struct usual_figure unusual[USUAL_FIGURES_MOST];
             assert_int_equal(usual_figures_list(&suite->sensors.items[k], unusual), 0);
         }
     }
-    arena_free(&arena);
 }
 
 TEST(figures_in_other_units_are_not_usual)

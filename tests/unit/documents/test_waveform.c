@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "documents/waveform.h"
 
 static struct waveform usual(enum waveform_kind kind)

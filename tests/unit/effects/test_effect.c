@@ -1,7 +1,5 @@
 #include "support/effect_bench.h"
 
-#include <string.h>
-
 EFFECT_TEST(every_effect_says_what_it_is)
 {
     for (int i = 0; i < EFFECT_COUNT; i++) {

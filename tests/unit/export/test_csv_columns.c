@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "export/csv_columns.h"
 
 enum colour { COLOUR_NONE, COLOUR_RED };

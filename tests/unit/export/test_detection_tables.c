@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "accounted_frame.h"
 #include "export/detection_tables.h"
 #include "frame/frame_order.h"

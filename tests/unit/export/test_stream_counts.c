@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "export/stream_counts.h"
 
 enum { MANY = 2500 };

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "frame/conditions.h"
 #include "text/record_write.h"
 

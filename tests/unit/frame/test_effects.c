@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "frame/effects.h"
 
 #define EVERY (EFFECT_BIT(EFFECT_COUNT) - 1)

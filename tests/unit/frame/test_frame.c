@@ -1,15 +1,12 @@
 #include "frame/frame.h"
 
-#include <string.h>
-
 #include "accounted_frame.h"
 #include "check.h"
 #include "frame/frame_order.h"
 
 TEST(losses_are_grouped_by_sensor_stage_and_reason)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
+    struct frame frame = {.arena = check_arena(), .sections = CARRY_ACCOUNT};
     static const char *const sensors[] = {"s", "t"}, *const stages[] = {"ideal", "noise"};
     for (int i = 0; i < 24; i++)
         frame_lose(&frame, stages[i % 2], sensors[i / 12], i / 2 % 2 ? LOSS_BLOCKED : LOSS_NO_ANGLE,
@@ -22,20 +19,19 @@ TEST(losses_are_grouped_by_sensor_stage_and_reason)
     frame_lose(&frame, "noise", "s", LOSS_BLOCKED,
                &(struct lost_echo){.id.object = "p", .id.reflector = "r"});
     assert_int_equal(frame.lost.count, 8);
-    struct cell cell = accounted_cell(
-        &arena, "s", 2, (struct contributor[]){accounted_echo("o", "p"), accounted_echo("o", "q")});
+    struct cell cell =
+        accounted_cell(check_arena(), "s", 2,
+                       (struct contributor[]){accounted_echo("o", "p"), accounted_echo("o", "q")});
     frame_lose_cell(&frame, "sensor", &cell, LOSS_BELOW_THRESHOLD, 4.5, &cell.margins);
     const struct lost_group *group = &frame.lost.items[8];
     assert_int_equal(group->echoes.count, 2);
     assert_string_equal(group->echoes.items[1].id.reflector, "q");
     assert_close(group->echoes.items[1].shortfall_db, 4.5, 0);
-    arena_free(&arena);
 }
 
 TEST(a_stage_may_have_reasons_of_its_own)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
+    struct frame frame = {.arena = check_arena(), .sections = CARRY_ACCOUNT};
     const struct lost_echo echo = {.id.object = "o", .id.reflector = "r"};
     char word[] = "covered", known[] = "blocked"; /* as a line that was read has them */
     frame_lose_own(&frame, "mud", "s", "covered", &echo);
@@ -56,33 +52,30 @@ TEST(a_stage_may_have_reasons_of_its_own)
     assert_int_equal(frame.lost.count, COUNT(groups));
     for (size_t i = 0; i < COUNT(groups); i++) {
         const struct lost_group *group = &frame.lost.items[i];
-        assert_string_equal(frame_loss_words(group, &arena), groups[i].words);
+        assert_string_equal(frame_loss_words(group, check_arena()), groups[i].words);
         assert_int_equal(frame_loss_of(group->reason), groups[i].loss);
         assert_int_equal(group->echoes.count, groups[i].echoes);
         assert_int_equal(group->effect == EFFECT_NONE, groups[i].loss == LOSS_OWN);
     }
-    arena_free(&arena);
 }
 
 TEST(a_frame_without_account_forgets_its_losses)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     frame_lose(&frame, "ideal", "s", LOSS_BLOCKED,
                &(struct lost_echo){.id.object = "o", .id.reflector = "r"});
     assert_int_equal(frame.lost.count, 0);
     assert_int_equal(frame.present, 0);
-    arena_free(&arena);
 }
 
 TEST(spans_are_the_sensors_own)
 {
     static const char *const sensors[] = {"a", "b", "d"};
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct arena *arena = check_arena();
+    struct frame frame = {.arena = arena};
     for (size_t i = 0; i < 9; i++) {
-        *list_add(&frame.echoes, &arena) = (struct echo){.sensor = sensors[i / 3]};
-        *list_add(&frame.cells, &arena) = (struct cell){.sensor = sensors[i / 3]};
+        *list_add(&frame.echoes, arena) = (struct echo){.sensor = sensors[i / 3]};
+        *list_add(&frame.cells, arena) = (struct cell){.sensor = sensors[i / 3]};
     }
     for (size_t i = 0; i < 3; i++) {
         assert_ptr_equal(frame_echoes_of(&frame, sensors[i]).items, frame.echoes.items + 3 * i);
@@ -92,13 +85,11 @@ TEST(spans_are_the_sensors_own)
     }
     assert_int_equal(frame_echoes_of(&frame, "c").count, 0);
     assert_int_equal(frame_cells_of(&frame, "").count, 0);
-    arena_free(&arena);
 }
 
 TEST(dropped_parts_are_as_if_they_had_never_been)
 {
-    struct arena arena = {0};
-    struct frame frame = accounted_frame(&arena);
+    struct frame frame = accounted_frame(check_arena());
     frame_drop(&frame, PART_SENSORS | PART_TARGETS | PART_LOST);
     assert_int_equal(frame.present, PART_OBJECTS | PART_COUNTS);
     assert_int_equal(frame.targets.count + frame.lost.count + frame.sensors.list.count, 0);
@@ -106,7 +97,6 @@ TEST(dropped_parts_are_as_if_they_had_never_been)
     assert_int_equal(frame.objects.count, 3);
     assert_int_equal(frame.counts.count, 2);
     assert_string_equal(frame_part_name(PART_TARGETS), "targets");
-    arena_free(&arena);
 }
 
 /* An object may have the name that clutter has in its place. */

@@ -6,13 +6,11 @@
 
 TEST(a_frame_without_contradictions_passes)
 {
-    struct arena arena = {0};
-    struct frame frame = accounted_frame(&arena);
+    struct frame frame = accounted_frame(check_arena());
     struct diag diag = {0};
     frame_order(&frame);
     assert_int_equal(frame_check(&frame, &diag), 0);
     assert_int_equal(frame_check_parts(&frame, (struct frame_parts){~0U, NULL}, &diag), 0);
-    arena_free(&arena);
 }
 
 static void name_one_twice(struct frame *frame)
@@ -216,15 +214,13 @@ TEST(losses_are_looked_at_where_their_own_stage_wrote_them)
 /* A document was checked when it was read: no set that has its lists is searched again. */
 TEST(the_lists_of_a_document_are_not_searched_again)
 {
-    struct arena arena = {0};
-    struct frame frame = accounted_frame(&arena);
+    struct frame frame = accounted_frame(check_arena());
     struct diag diag = {0};
     name_two_reflectors_alike(&frame);
     struct reflector_set document = frame.reflectors.items[0];
     frame.reflectors.items[0].document = &document;
     frame_order(&frame);
     assert_int_equal(frame_check(&frame, &diag), 0);
-    list_add(&frame.reflectors.items[0].points, &arena)->name = "left";
+    list_add(&frame.reflectors.items[0].points, check_arena())->name = "left";
     assert_int_equal(frame_check(&frame, &diag), -1);
-    arena_free(&arena);
 }

@@ -6,26 +6,22 @@
 
 TEST(a_whole_account_passes_in_any_order)
 {
-    struct arena arena = {0};
-    struct frame frame = accounted_frame(&arena);
+    struct frame frame = accounted_frame(check_arena());
     struct diag diag = {0};
     assert_int_equal(frame_check_account(&frame, &diag), 0);
     frame_order(&frame);
     assert_int_equal(frame_check_account(&frame, &diag), 0);
-    arena_free(&arena);
 }
 
 TEST(an_echo_may_feed_several_targets)
 {
-    struct arena arena = {0};
-    struct frame frame = accounted_frame(&arena);
+    struct frame frame = accounted_frame(check_arena());
     struct diag diag = {0};
-    struct cell cell =
-        accounted_cell(&arena, "left", 1, (struct contributor[]){accounted_echo("b", "corner")});
+    struct cell cell = accounted_cell(check_arena(), "left", 1,
+                                      (struct contributor[]){accounted_echo("b", "corner")});
     frame_add_target(&frame, &cell, 2);
     frame_add_target(&frame, &cell, 1);
     assert_int_equal(frame_check_account(&frame, &diag), 0);
-    arena_free(&arena);
 }
 
 /* A frame on its way to targets: its cells, or its echoes, are what is not lost. */
@@ -145,8 +141,7 @@ TEST(planted_faults_in_the_account_are_caught)
 /* Direct echoes are those of the pairs; a wheel's and a ghost's come on top. */
 TEST(echoes_of_other_paths_are_due_beyond_the_pairs)
 {
-    struct arena arena = {0};
-    struct frame frame = accounted_frame(&arena);
+    struct frame frame = accounted_frame(check_arena());
     struct diag diag = {0};
     frame_count_echoes(&frame, "left", PATH_WHEEL, 2);
     frame_count_echoes(&frame, "left", PATH_WALL_OBJECT, 1);
@@ -167,7 +162,6 @@ TEST(echoes_of_other_paths_are_due_beyond_the_pairs)
     assert_int_equal(frame_check_account(&frame, &diag), -1);
     assert_string_equal(diag.text,
                         "account: sensor \"left\" has 2 entries of path wheel; 1 are due");
-    arena_free(&arena);
 }
 
 /* Each pair of echoes differs in one member of the identity alone. */
@@ -196,8 +190,7 @@ TEST(echoes_that_differ_in_one_member_are_two_entries)
 
 TEST(the_same_echo_of_two_sensors_is_one_entry_of_each)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
+    struct frame frame = {.arena = check_arena(), .sections = CARRY_ACCOUNT};
     struct diag diag = {0};
     static const char *const sensors[] = {"s", "t"};
     for (int i = 0; i < 2; i++) {
@@ -206,15 +199,13 @@ TEST(the_same_echo_of_two_sensors_is_one_entry_of_each)
                    &(struct lost_echo){.id = {.object = "a", .reflector = "p"}});
     }
     assert_int_equal(frame_check_account(&frame, &diag), 0);
-    arena_free(&arena);
 }
 
 /* Whatever their hashes are: 20000 echoes, and the last of them once more. */
 TEST(one_that_is_doubled_is_found_among_many)
 {
     enum { MANY = 20000 };
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
+    struct frame frame = {.arena = check_arena(), .sections = CARRY_ACCOUNT};
     struct diag diag = {0};
     frame_count_pairs(&frame, "s", MANY);
     struct lost_echo lost = {.id = {.object = "a", .reflector = "p"}};
@@ -226,5 +217,4 @@ TEST(one_that_is_doubled_is_found_among_many)
     assert_int_equal(frame_check_account(&frame, &diag), -1);
     assert_string_equal(diag.text,
                         "account: sensor \"s\", object \"a\", reflector \"p\" has two entries");
-    arena_free(&arena);
 }

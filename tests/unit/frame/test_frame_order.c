@@ -1,7 +1,5 @@
 #include "frame/frame_order.h"
 
-#include <string.h>
-
 #include "accounted_frame.h"
 #include "check.h"
 #include "frame/frame_check.h"
@@ -28,27 +26,27 @@ static struct text written(const struct frame *frame)
 TEST(every_order_of_a_frame_becomes_the_canonical_one)
 {
     static const char *const names[] = {"a", "b", "ba", "B", "\xc3\xa9"};
-    struct arena arena = {0};
-    struct frame frame = accounted_frame(&arena);
+    struct arena *arena = check_arena();
+    struct frame frame = accounted_frame(arena);
     for (size_t i = 0; i < 25; i++) {
-        *list_add(&frame.echoes, &arena) = (struct echo){.sensor = i % 2 ? "left" : "right",
-                                                         .id.object = names[i / 5],
-                                                         .id.reflector = names[i % 5]};
+        *list_add(&frame.echoes, arena) = (struct echo){.sensor = i % 2 ? "left" : "right",
+                                                        .id.object = names[i / 5],
+                                                        .id.reflector = names[i % 5]};
         struct contributor members[] = {accounted_echo(names[i / 5], names[i % 5]),
                                         accounted_echo("z", "1"), accounted_echo("z", "2"),
                                         accounted_echo("y", "3")};
-        *list_add(&frame.cells, &arena) =
-            accounted_cell(&arena, i % 3 ? "left" : "right", 4, members);
+        *list_add(&frame.cells, arena) =
+            accounted_cell(arena, i % 3 ? "left" : "right", 4, members);
         frame_lose(&frame, i % 2 ? "noise" : "ideal", i < 16 ? "left" : "right", (enum loss)(i % 4),
                    &(struct lost_echo){.id.object = names[i / 5], .id.reflector = names[i % 5]});
     }
     for (enum path path = PATH_WALL_OBJECT; path <= PATH_FALSE_ALARM; path++)
         frame_count_echoes(&frame, "left", path, 1);
     for (size_t i = 0; i < 5; i++) {
-        struct reflector_set *set = list_add(&frame.reflectors, &arena);
+        struct reflector_set *set = list_add(&frame.reflectors, arena);
         *set = (struct reflector_set){.model = names[i]};
         for (size_t j = 0; j < 5; j++)
-            *list_add(&set->objects, &arena) = names[j];
+            *list_add(&set->objects, arena) = names[j];
     }
     frame.present |= PART_ECHOES | PART_CELLS | PART_REFLECTORS;
     frame_order(&frame);
@@ -80,14 +78,12 @@ TEST(every_order_of_a_frame_becomes_the_canonical_one)
         text_free(&text);
     }
     text_free(&canonical);
-    arena_free(&arena);
 }
 
 TEST(targets_keep_their_sensors_order)
 {
     static const char *const sensors[] = {"c", "a", "b"};
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     for (size_t i = 0; i < 30; i++) {
         struct cell cell = {.sensor = sensors[i * 7 % 3]};
         frame_add_target(&frame, &cell, (double)i);
@@ -98,7 +94,6 @@ TEST(targets_keep_their_sensors_order)
         int order = strcmp(one->sensor, next->sensor);
         assert_true(order < 0 || (order == 0 && one->amplitude_db < next->amplitude_db));
     }
-    arena_free(&arena);
 }
 
 /* Begins the next frame, with these objects, and says in which order they come. */
@@ -117,19 +112,17 @@ static const char *order_of(struct frame *frame, size_t count, const char *const
 
 TEST(objects_are_found_by_id_in_order)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     assert_string_equal(order_of(&frame, 3, (const char *[]){"c", "a", "b"}), "abc");
     assert_string_equal(order_of(&frame, 3, (const char *[]){"a", "b", "c"}), "abc");
     assert_string_equal(order_of(&frame, 2, (const char *[]){"d", "a"}), "ad");
     assert_string_equal(order_of(&frame, 0, NULL), "");
     assert_string_equal(order_of(&frame, 4, (const char *[]){"b", "d", "a", "b"}), "abbd");
-    *list_add(&frame.objects, &arena) = (struct object){.id = "c"};
+    *list_add(&frame.objects, check_arena()) = (struct object){.id = "c"};
     assert_string_equal(frame_order_objects(&frame)[3]->id, "c");
     frame.objects.items[4].id = "e";
     frame_order_parts(&frame, (struct frame_parts){PART_OBJECTS, NULL});
     assert_string_equal(frame_order_objects(&frame)[4]->id, "e");
-    arena_free(&arena);
 }
 
 /* A strict total order: antisymmetric and transitive, equal only to itself. */
@@ -182,16 +175,15 @@ TEST(echo_ids_are_ordered_by_their_members_one_after_the_other)
 
 TEST(a_cells_leader_stays_first_whatever_its_name)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
-    *list_add(&frame.cells, &arena) =
-        accounted_cell(&arena, "s", 4,
+    struct arena *arena = check_arena();
+    struct frame frame = {.arena = arena};
+    *list_add(&frame.cells, arena) =
+        accounted_cell(arena, "s", 4,
                        (struct contributor[]){accounted_echo("z", "1"), accounted_echo("c", "1"),
                                               accounted_echo("a", "1"), accounted_echo("b", "1")});
     frame_order(&frame);
     for (size_t i = 0; i < 4; i++)
         assert_int_equal(frame.cells.items[0].members.items[i].id.object[0], "zabc"[i]);
-    arena_free(&arena);
 }
 
 static void lose_two(struct frame *frame, const char *stage)
@@ -204,12 +196,11 @@ static void lose_two(struct frame *frame, const char *stage)
 /* Only what a stage may have written is sorted after it. */
 TEST(other_parts_and_other_stages_losses_stay_as_they_are)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
+    struct frame frame = {.arena = check_arena(), .sections = CARRY_ACCOUNT};
     lose_two(&frame, "ideal");
     lose_two(&frame, "noise");
     for (int i = 0; i < 2; i++)
-        *list_add(&frame.echoes, &arena) =
+        *list_add(&frame.echoes, check_arena()) =
             (struct echo){.sensor = "s", .id.object = i == 0 ? "b" : "a", .id.reflector = "p"};
     frame_order_parts(&frame, (struct frame_parts){PART_LOST, "noise"});
     assert_string_equal(frame.echoes.items[0].id.object, "b");
@@ -219,5 +210,4 @@ TEST(other_parts_and_other_stages_losses_stay_as_they_are)
     frame_order_parts(&frame, (struct frame_parts){PART_LOST | PART_ECHOES, NULL});
     assert_string_equal(frame.echoes.items[0].id.object, "a");
     assert_string_equal(frame.lost.items[0].echoes.items[0].id.object, "a");
-    arena_free(&arena);
 }

@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "frame/frame_sequence.h"
 
 struct bench {

@@ -1,9 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include <jansson.h>
 
 #include "frame/frame_text.h"
@@ -164,15 +160,13 @@ TEST(keys_may_come_in_any_order_with_any_white_space)
 /* Every use of an id points to the same place, so that comparing them is cheap. */
 TEST(equal_names_of_a_frame_are_one_pointer)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     struct diag diag;
     assert_int_equal(read_line(rich, &frame, &diag), 0);
     assert_true(frame.ego == frame.objects.items->id);
     assert_true(frame.ego == frame.cells.items->members.items->id.object);
     assert_true(frame.ego == frame.lost.items->echoes.items->by);
     assert_true(frame.sensors.list.items->name == frame.echoes.items->sensor);
-    arena_free(&arena);
 }
 
 /* rich with its first `from` replaced. In memory of its own. */
@@ -308,8 +302,7 @@ TEST(faults_are_named_with_their_path_value_and_expectation)
 
 TEST(no_beginning_of_a_frame_is_a_frame)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     for (size_t length = 0; length < sizeof rich - 2; length++) {
         struct diag diag = {0};
         char *cut = malloc(length + 1);
@@ -323,14 +316,12 @@ TEST(no_beginning_of_a_frame_is_a_frame)
     assert_string_equal(diag.text, "an empty line; expected a frame");
     assert_int_equal(read_line("[]", &frame, &diag), -1);
     assert_string_equal(diag.text, "'[' where a frame is expected");
-    arena_free(&arena);
 }
 
 /* Whatever one changed byte makes of the line: refused, or read and written the same way twice. */
 TEST(a_changed_byte_is_refused_or_read_for_good)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     uint64_t random = 11;
     size_t taken = 0;
     for (int i = 0; i < 30000; i++) {
@@ -353,7 +344,6 @@ TEST(a_changed_byte_is_refused_or_read_for_good)
         text_free(&twice);
     }
     assert_in_range(taken, 1000, 29000);
-    arena_free(&arena);
 }
 
 static struct frame frame_with_extra(struct arena *arena, size_t length)
@@ -389,14 +379,13 @@ TEST(extra_is_carried_up_to_its_limit)
 
 TEST(a_line_is_written_up_to_its_limit)
 {
-    struct arena arena = {0};
     struct text text = {0};
     struct diag diag = {0};
-    struct frame frame = frame_with_extra(&arena, 10);
+    struct frame frame = frame_with_extra(check_arena(), 10);
     assert_int_equal(frame_text_write(&frame, &text, &diag), 0);
     size_t rest = text.length - 10;
     for (size_t length = FRAME_TEXT_SIZE - 1; length <= FRAME_TEXT_SIZE + 1; length++) {
-        frame = frame_with_extra(&arena, length - rest);
+        frame = frame_with_extra(check_arena(), length - rest);
         text.length = 3;
         int result = frame_text_write(&frame, &text, &diag);
         assert_int_equal(result, length <= FRAME_TEXT_SIZE ? 0 : -1);
@@ -404,5 +393,4 @@ TEST(a_line_is_written_up_to_its_limit)
     }
     assert_string_equal(diag.text, "a line of 16777217 bytes; at most 16777216 are allowed");
     text_free(&text);
-    arena_free(&arena);
 }

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "frame/margins.h"
 
 TEST(a_margin_is_the_least_that_was_noted)

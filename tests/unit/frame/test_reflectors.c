@@ -1,7 +1,5 @@
 #include "frame/reflectors.h"
 
-#include <stdio.h>
-
 #include "base/units.h"
 #include "check.h"
 #include "geometry/mirror.h"
@@ -269,66 +267,63 @@ TEST(one_name_among_many_is_found_twice)
 {
     enum { MANY = 1000 };
     static char names[MANY][16];
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct reflector_set set = {.model = "m"};
     for (int i = 0; i < MANY; i++) {
         snprintf(names[i], sizeof names[i], "p%d", i);
-        list_add(&set.points, &arena)->name = names[i];
+        list_add(&set.points, arena)->name = names[i];
     }
-    assert_null(reflectors_name_twice(&set, &arena));
-    list_add(&set.planes, &arena)->name = "p617";
-    assert_string_equal(reflectors_name_twice(&set, &arena), "p617");
-    arena_free(&arena);
+    assert_null(reflectors_name_twice(&set, arena));
+    list_add(&set.planes, arena)->name = "p617";
+    assert_string_equal(reflectors_name_twice(&set, arena), "p617");
 }
 
 /* The share is of the box that holds all reflectors: 1 while none stands out of the object's. */
 TEST(a_shape_holds_all_reflectors_of_its_set)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct reflector_set set = {.model = "m"};
-    *list_add(&set.points, &arena) =
+    *list_add(&set.points, arena) =
         (struct point_reflector){.x = -0.25, .y = 0.4, .inset_m = 0.5, .facing_rad = PI / 2};
-    *list_add(&set.points, &arena) = (struct point_reflector){.inset_m = 0.25, .zero_rad = PI};
-    const struct reflectors_shape *shape = reflectors_shape(&set, &arena);
+    *list_add(&set.points, arena) = (struct point_reflector){.inset_m = 0.25, .zero_rad = PI};
+    const struct reflectors_shape *shape = reflectors_shape(&set, arena);
     assert_close(shape->share, 1, 0);
     assert_close(shape->inset_m, 0.5, 0);
     assert_false(shape->under);
     assert_vector(shape->faces[0].heading, 0, 1);
     assert_true(shape->faces[1].dark_cosine < -1);
-    *list_add(&set.planes, &arena) = (struct plane_reflector){.from_x = -0.5, .to_y = -0.6};
-    assert_close(reflectors_shape(&set, &arena)->share, 1.2, 1e-15);
-    *list_add(&set.rows, &arena) = (struct post_row){.from_y = 0.7, .to_x = 0.5};
-    assert_close(reflectors_shape(&set, &arena)->share, 1.4, 1e-15);
-    *list_add(&set.rows, &arena) = (struct post_row){.to_x = 0.75};
-    assert_close(reflectors_shape(&set, &arena)->share, 1.5, 1e-15);
-    list_add(&set.points, &arena)->x = 0.8;
+    *list_add(&set.planes, arena) = (struct plane_reflector){.from_x = -0.5, .to_y = -0.6};
+    assert_close(reflectors_shape(&set, arena)->share, 1.2, 1e-15);
+    *list_add(&set.rows, arena) = (struct post_row){.from_y = 0.7, .to_x = 0.5};
+    assert_close(reflectors_shape(&set, arena)->share, 1.4, 1e-15);
+    *list_add(&set.rows, arena) = (struct post_row){.to_x = 0.75};
+    assert_close(reflectors_shape(&set, arena)->share, 1.5, 1e-15);
+    list_add(&set.points, arena)->x = 0.8;
     set.points.items[1].under_vehicles = 0.5;
-    assert_close(reflectors_shape(&set, &arena)->share, 1.6, 1e-15);
-    assert_true(reflectors_shape(&set, &arena)->under);
-    arena_free(&arena);
+    assert_close(reflectors_shape(&set, arena)->share, 1.6, 1e-15);
+    assert_true(reflectors_shape(&set, arena)->under);
 }
 
 /* Of points, sides and rows; a reflector without a height, 0, does not count. */
 TEST(a_shape_tells_the_range_of_heights_of_its_set)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct reflector_set set = {.model = "m"};
-    list_add(&set.points, &arena);
-    assert_close(reflectors_shape(&set, &arena)->lowest_z, 0, 0);
-    assert_close(reflectors_shape(&set, &arena)->highest_z, 0, 0);
-    list_add(&set.points, &arena)->z = 0.5;
-    assert_close(reflectors_shape(&set, &arena)->lowest_z, 0.5, 0);
-    assert_close(reflectors_shape(&set, &arena)->highest_z, 0.5, 0);
-    list_add(&set.planes, &arena)->z = 0.25;
-    list_add(&set.rows, &arena)->z = 1.5;
-    assert_close(reflectors_shape(&set, &arena)->lowest_z, 0.25, 0);
-    assert_close(reflectors_shape(&set, &arena)->highest_z, 1.5, 0);
-    arena_free(&arena);
+    list_add(&set.points, arena);
+    assert_close(reflectors_shape(&set, arena)->lowest_z, 0, 0);
+    assert_close(reflectors_shape(&set, arena)->highest_z, 0, 0);
+    list_add(&set.points, arena)->z = 0.5;
+    assert_close(reflectors_shape(&set, arena)->lowest_z, 0.5, 0);
+    assert_close(reflectors_shape(&set, arena)->highest_z, 0.5, 0);
+    list_add(&set.planes, arena)->z = 0.25;
+    list_add(&set.rows, arena)->z = 1.5;
+    assert_close(reflectors_shape(&set, arena)->lowest_z, 0.25, 0);
+    assert_close(reflectors_shape(&set, arena)->highest_z, 1.5, 0);
 }
 
 TEST(a_set_has_its_documents_shape_until_one_of_its_lists_changes)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct point_reflector points[] = {{.name = "a"}}, others[] = {{.name = "a"}};
     const struct reflectors_shape known = {.share = 7};
     struct reflector_set document = {.model = "m"}, set;
@@ -339,12 +334,11 @@ TEST(a_set_has_its_documents_shape_until_one_of_its_lists_changes)
     set.document = &document;
     set.shape = &known;
     assert_true(reflectors_unchanged(&set));
-    assert_close(reflectors_shape(&set, &arena)->share, 7, 0);
+    assert_close(reflectors_shape(&set, arena)->share, 7, 0);
     set.points.items = others;
     assert_false(reflectors_unchanged(&set));
-    assert_close(reflectors_shape(&set, &arena)->share, 1, 0);
+    assert_close(reflectors_shape(&set, arena)->share, 1, 0);
     set.points.items = points;
-    list_add(&set.mirrors, &arena)->reflection = 1;
+    list_add(&set.mirrors, arena)->reflection = 1;
     assert_false(reflectors_unchanged(&set));
-    arena_free(&arena);
 }

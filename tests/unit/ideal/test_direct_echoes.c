@@ -1,8 +1,5 @@
 #include "ideal/direct_echoes.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "look_scene.h"
 #include "text/record_write.h"
 

@@ -1,7 +1,5 @@
 #include "ideal/line_of_sight.h"
 
-#include <string.h>
-
 #include "geometry/obstruction.h"
 #include "look_scene.h"
 

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdbool.h>
-
 #include "noise/detection_quality.h"
 #include "sample.h"
 

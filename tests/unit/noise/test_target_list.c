@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "base/units.h"
 #include "effects/effect.h"
 #include "noise/target_list.h"

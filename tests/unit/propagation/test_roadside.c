@@ -1,7 +1,6 @@
 #include "check.h"
 
 #include <float.h>
-#include <stdlib.h>
 
 #include "propagation/roadside.h"
 #include "radar/radar_equation.h"
@@ -300,15 +299,14 @@ TEST(a_turned_and_shifted_strip_has_the_same_scatterers)
 
 TEST(a_name_is_the_id_or_else_kind_and_number)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct roadside_strip strips[] = {RAIL, MEADOW, RAIL};
-    assert_string_equal(roadside_name(&strips[1], 2, &arena), "vegetation_2");
+    assert_string_equal(roadside_name(&strips[1], 2, arena), "vegetation_2");
     strips[0].id = "left";
-    assert_string_equal(roadside_name(&strips[0], 1, &arena), "left");
-    assert_null(roadside_name_twice(strips, 3, &arena));
+    assert_string_equal(roadside_name(&strips[0], 1, arena), "left");
+    assert_null(roadside_name_twice(strips, 3, arena));
     strips[0].id = "rail_3";
-    assert_string_equal(roadside_name_twice(strips, 3, &arena), "rail_3");
-    arena_free(&arena);
+    assert_string_equal(roadside_name_twice(strips, 3, arena), "rail_3");
 }
 
 TEST(a_strip_with_an_id_has_the_same_draws_anywhere_in_the_list)

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "base/units.h"
 #include "radar/antenna.h"
 #include "sample.h"

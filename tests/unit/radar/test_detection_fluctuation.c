@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-
 #include "base/random.h"
 #include "radar/detection.h"
 

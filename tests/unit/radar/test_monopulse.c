@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-
 #include "base/random.h"
 #include "base/units.h"
 #include "radar/antenna.h"

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-
 #include "base/random.h"
 #include "base/units.h"
 #include "radar/resolution.h"
@@ -133,7 +131,6 @@ TEST(every_echo_lies_in_the_first_cell_that_reaches_it)
 TEST(echoes_are_close_exactly_if_a_pair_is)
 {
     size_t close_scenes = 0;
-    struct arena arena = {0};
     for (uint64_t scene = 0; scene < 5000; scene++) {
         struct resolution_echo echoes[ECHO_MAX];
         size_t count = draw_echoes(scene, echoes);
@@ -145,12 +142,11 @@ TEST(echoes_are_close_exactly_if_a_pair_is)
                 close =
                     close || (fabs(echoes[i].range_m - echoes[j].range_m) <= 0.125 &&
                               fabs(echoes[i].range_rate_mps - echoes[j].range_rate_mps) <= 0.125);
-        assert_int_equal(
-            resolution_close(echoes, count, &(struct resolution){0.125, 0.125, false}, &arena),
-            close);
+        assert_int_equal(resolution_close(echoes, count, &(struct resolution){0.125, 0.125, false},
+                                          check_arena()),
+                         close);
         close_scenes += close;
     }
-    arena_free(&arena);
     assert_in_range(close_scenes, 1000, 4000);
 }
 
@@ -212,7 +208,6 @@ TEST(a_crowd_clusters_as_if_every_pair_were_asked)
  */
 TEST(the_larger_cell_of_two_echoes_counts)
 {
-    struct arena arena = {0};
     for (size_t wide = 0; wide < 3; wide++) {
         struct resolution_echo echoes[] = {{10, 1, 5, 0, 0}, {10.375, 0.5, 4, 0, 0}};
         size_t cell[2], shared = wide < 2;
@@ -220,9 +215,9 @@ TEST(the_larger_cell_of_two_echoes_counts)
             echoes[wide].widening = 2;
         assert_int_equal(cluster(echoes, 2, 0.125, 0.25, cell), 2 - shared);
         assert_int_equal(
-            resolution_close(echoes, 2, &(struct resolution){0.125, 0.25, false}, &arena), shared);
+            resolution_close(echoes, 2, &(struct resolution){0.125, 0.25, false}, check_arena()),
+            shared);
     }
-    arena_free(&arena);
 }
 
 /* How many cells a pair makes: the second echo `apart` half cells from the first in range and
@@ -273,7 +268,6 @@ TEST(a_coherent_crowd_clusters_as_if_every_pair_were_asked)
 {
     enum { CROWD = 60 };
     const struct resolution resolution = {0.5, 0.25, true};
-    struct arena arena = {0};
     for (uint64_t scene = 0; scene < 200; scene++) {
         struct resolution_echo echoes[CROWD];
         size_t cell[CROWD], expected[CROWD], cells = 0, count = (size_t)(draw(scene, 9999) * CROWD);
@@ -291,15 +285,15 @@ TEST(a_coherent_crowd_clusters_as_if_every_pair_were_asked)
             expected[leader] = cells;
             for (size_t i = leader + 1; i < count; i++) {
                 const struct resolution_echo pair[] = {echoes[leader], echoes[i]};
-                if (expected[i] == count && resolution_close(pair, 2, &resolution, &arena))
+                if (expected[i] == count && resolution_close(pair, 2, &resolution, check_arena()))
                     expected[i] = cells;
             }
             cells++;
         }
-        assert_int_equal(resolution_cluster(echoes, count, &resolution, cell, &arena), cells);
+        assert_int_equal(resolution_cluster(echoes, count, &resolution, cell, check_arena()),
+                         cells);
         assert_memory_equal(cell, expected, count * sizeof cell[0]);
     }
-    arena_free(&arena);
 }
 
 TEST(sorted_echoes_cluster_alike_in_every_input_order)

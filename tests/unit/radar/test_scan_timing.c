@@ -1,7 +1,5 @@
 #include "radar/scan_timing.h"
 
-#include <stdbool.h>
-
 #include "check.h"
 
 TEST(known_frames_have_known_instants)

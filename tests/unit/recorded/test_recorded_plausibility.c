@@ -1,9 +1,5 @@
 #include "check.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "base/units.h"
 #include "recorded/recorded_plausibility.h"
 

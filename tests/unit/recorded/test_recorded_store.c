@@ -1,10 +1,5 @@
 #include "recorded/recorded_store.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "check.h"
 
 /* A reader of rows that the test states. */

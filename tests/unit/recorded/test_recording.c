@@ -1,11 +1,6 @@
 #define SCRATCH_FILE "tracks.csv"
 #include "scratch.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/units.h"
 #include "recorded/resampling.h"
 #include "recorded_file.h"
@@ -487,8 +482,7 @@ TEST_OF(scratch, a_recorded_motorway_is_read)
     char path[4096];
     snprintf(path, sizeof path, "%s/csv/us101_interaction.csv", data);
     struct recording table;
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     recorded_file_open(&table, path, "all", &scratch->arena);
     size_t states = 0;
     for (; recorded_file_next(&table, &frame); states++) {
@@ -502,5 +496,4 @@ TEST_OF(scratch, a_recorded_motorway_is_read)
     assert_int_equal(states, 384);
     assert_int_equal(table.egos.count, 12);
     recording_close(&table);
-    arena_free(&arena);
 }

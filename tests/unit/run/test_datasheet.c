@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/arena.h"
 #include "base/units.h"
 #include "documents/consistency.h"
@@ -342,19 +339,17 @@ TEST(levels_stand_for_fluctuation)
 
 TEST(the_examples_lack_what_they_are_said_to_lack)
 {
-    struct arena arena = {0};
     struct diag diag = {0};
     const double reaches_m[] = {60, 250};
     for (int i = 0; i < 2; i++) {
         struct sensor sensor = {.range_max_m = reaches_m[i]};
         struct datasheet_example example = datasheet_example(&sensor);
-        const struct suite *suite = suite_file_load(example.name, &arena, &diag);
+        const struct suite *suite = suite_file_load(example.name, check_arena(), &diag);
         assert_non_null(suite);
         for (size_t k = 0; k < suite->sensors.count; k++)
             assert_true(datasheet_missing(&suite->sensors.items[k]) == example.missing);
         assert_string_equal(datasheet_example(&suite->sensors.items[0]).name, example.name);
     }
-    arena_free(&arena);
 }
 
 TEST(sensors_that_differ_in_their_mount_share_a_sheet)

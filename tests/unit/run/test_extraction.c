@@ -21,11 +21,10 @@ static int step(struct frame *frame, struct runner *runner, extraction_describe 
 
 TEST(sizes_of_zero_are_those_of_the_class)
 {
-    struct arena arena = {0};
     struct frame frame;
     struct runner runner;
     begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, &arena);
+    make_frame(&frame, check_arena());
     frame.objects.items[0].width_m = 2.5;
     assert_int_equal(step(&frame, &runner, NULL), 0);
     const struct vehicle *car = runner_vehicle(&runner, NULL, "car");
@@ -35,16 +34,14 @@ TEST(sizes_of_zero_are_those_of_the_class)
     assert_close(frame.objects.items[1].width_m, car->width_m, 0); /* the ego's, too */
     assert_true(frame.objects.items[2].length_m > car->length_m);
     runner_free(&runner);
-    arena_free(&arena);
 }
 
 TEST(objects_of_a_class_share_its_reflectors_and_the_ego_has_none)
 {
-    struct arena arena = {0};
     struct frame frame;
     struct runner runner;
     begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, &arena);
+    make_frame(&frame, check_arena());
     assert_int_equal(step(&frame, &runner, NULL), 0);
     assert_int_equal(frame.reflectors.count, 2);
     const struct reflector_set *cars = &frame.reflectors.items[0];
@@ -59,7 +56,6 @@ TEST(objects_of_a_class_share_its_reflectors_and_the_ego_has_none)
     assert_string_equal(frame.vehicles.items[0].digest,
                         runner_vehicle(&runner, NULL, "car")->digest);
     runner_free(&runner);
-    arena_free(&arena);
 }
 
 /* Names the only point of the set after the class. */
@@ -73,11 +69,10 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 
 TEST(a_description_takes_the_place_of_the_documents_reflectors)
 {
-    struct arena arena = {0};
     struct frame frame;
     struct runner runner;
     begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, &arena);
+    make_frame(&frame, check_arena());
     assert_int_equal(step(&frame, &runner, describe), 0);
     for (size_t i = 0; i < 2; i++) {
         const struct reflector_set *set = &frame.reflectors.items[i];
@@ -86,37 +81,32 @@ TEST(a_description_takes_the_place_of_the_documents_reflectors)
     }
     assert_true(runner_vehicle(&runner, NULL, "car")->reflectors.points.count > 1);
     runner_free(&runner);
-    arena_free(&arena);
 }
 
 TEST(the_message_names_the_object_as_the_frame_numbers_it)
 {
-    struct arena arena = {0};
     struct frame frame;
     struct runner runner;
     begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, &arena);
+    make_frame(&frame, check_arena());
     frame.objects.items[2].class = "hovercraft";
     assert_int_equal(step(&frame, &runner, NULL), -1);
     assert_non_null(strstr(runner.diag.text, "objects[2].class: there is no vehicles/hovercraft"));
     runner_free(&runner);
-    arena_free(&arena);
 }
 
 /* As when a stream that was extracted with other documents is extracted again. */
 TEST(a_frame_keeps_to_the_documents_that_it_was_extracted_with)
 {
-    struct arena arena = {0};
     struct frame frame;
     struct runner runner;
     begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, &arena);
-    *list_add(&frame.vehicles, &arena) =
+    make_frame(&frame, check_arena());
+    *list_add(&frame.vehicles, check_arena()) =
         (struct class_document){.class = "car", .digest = "0123456789abcdef"};
     assert_int_equal(step(&frame, &runner, NULL), -1);
     assert_non_null(strstr(runner.diag.text, "0123456789abcdef"));
     runner_free(&runner);
-    arena_free(&arena);
 }
 
 TEST(a_folder_that_is_not_there_is_refused_at_the_start)

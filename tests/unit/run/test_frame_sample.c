@@ -1,7 +1,5 @@
 #include "run_bench.h"
 
-#include <stdio.h>
-
 /* A sample of so many frames; scenes follow each other. */
 static struct frame_sample sample_of(int frames, int scenes, int64_t most, struct arena *arena)
 {
@@ -22,12 +20,10 @@ static struct frame_sample sample_of(int frames, int scenes, int64_t most, struc
 
 TEST(all_frames_are_kept_while_they_are_few)
 {
-    struct arena arena = {0};
-    struct frame_sample sample = sample_of(100, 1, 100, &arena);
+    struct frame_sample sample = sample_of(100, 1, 100, check_arena());
     assert_int_equal(sample.list.count, 100);
     for (size_t i = 0; i < 100; i++)
         assert_int_equal(sample.list.items[i].place, i);
-    arena_free(&arena);
 }
 
 TEST(exactly_as_many_frames_are_kept_as_are_asked_for)
@@ -52,21 +48,18 @@ TEST(exactly_as_many_frames_are_kept_as_are_asked_for)
 
 TEST(of_many_frames_one_of_each_stretch_is_kept)
 {
-    struct arena arena = {0};
-    struct frame_sample sample = sample_of(6400, 1, 100, &arena);
+    struct frame_sample sample = sample_of(6400, 1, 100, check_arena());
     assert_int_equal(sample.seen, 6400);
     assert_int_equal(sample.stride, 64);
     assert_int_equal(sample.list.count, 100);
     for (size_t i = 0; i < sample.list.count; i++)
         assert_int_equal(sample.list.items[i].place / 64, i);
-    arena_free(&arena);
 }
 
 /* A radar that measures in every second, third or eighth frame is met in all its phases. */
 TEST(a_sample_is_in_step_with_no_cycle)
 {
-    struct arena arena = {0};
-    struct frame_sample sample = sample_of(6400, 1, 100, &arena);
+    struct frame_sample sample = sample_of(6400, 1, 100, check_arena());
     for (int cycle = 2; cycle <= 8; cycle++)
         for (int phase = 0; phase < cycle; phase++) {
             int met = 0;
@@ -74,5 +67,4 @@ TEST(a_sample_is_in_step_with_no_cycle)
                 met += sample.list.items[i].place % cycle == phase;
             assert_in_range(met, 50 / cycle, 150 / cycle + 4);
         }
-    arena_free(&arena);
 }

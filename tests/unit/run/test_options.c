@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "run/options.h"
 #include "run/stage.h"
 #include "run/tool.h"

@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "base/text.h"
@@ -278,15 +275,14 @@ TEST(everything_else_is_refused_with_its_line)
 
 TEST(commands_know_their_lines)
 {
-    struct arena arena = {0};
     struct pipeline pipeline;
     struct diag diag;
-    assert_int_equal(parse("# x\n\na 'b\nc' \\\n d |\n\n e | f", &pipeline, &arena, &diag), 0);
+    assert_int_equal(parse("# x\n\na 'b\nc' \\\n d |\n\n e | f", &pipeline, check_arena(), &diag),
+                     0);
     assert_int_equal(pipeline.commands.count, 3);
     assert_int_equal(pipeline.commands.items[0].line, 3);
     assert_int_equal(pipeline.commands.items[1].line, 7);
     assert_int_equal(pipeline.commands.items[2].line, 7);
-    arena_free(&arena);
 }
 
 TEST(a_nul_byte_is_refused)

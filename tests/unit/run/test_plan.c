@@ -1,7 +1,5 @@
 #include "run_bench.h"
 
-#include <stdio.h>
-
 #include "run/plan.h"
 
 struct bench {
@@ -168,14 +166,12 @@ TEST(a_part_is_dearer_only_by_more_than_rounds_lie_apart)
         {{-1, -2, 1}, true, 30, true},     {{-2, -4, -1}, true, 30, true},
         {{-5, -6, -3.5}, true, 35, false}, {{-2, -4, -1}, false, 32, false},
     };
-    struct arena arena = {0};
     const struct trial trial = {.effects = "auto", .programs = {"glint-sensor", "glint-noise"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct cost_chain chain = {0};
         cost_table_chain(&chain, &trial, (struct trial_time){30, 28, 31}, cases[i].saved,
-                         cases[i].part, &arena);
+                         cases[i].part, check_arena());
         assert_true(chain.us_per_frame == cases[i].us);
         assert_int_equal(chain.close, cases[i].close);
     }
-    arena_free(&arena);
 }

@@ -165,8 +165,7 @@ static void begin_frame(struct frame *frame)
 
 TEST(a_change_that_is_not_declared_is_found)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     struct stage stage = {
         .name = "meddle", .options = STAGE_OPTIONS(int, field_none), .step = meddle};
     struct runner runner;
@@ -176,13 +175,11 @@ TEST(a_change_that_is_not_declared_is_found)
     stage.reads = stage.writes = PART_OBJECTS;
     assert_true(keeps_to_its_part(&runner, &frame));
     runner_free(&runner);
-    arena_free(&arena);
 }
 
 TEST(a_stage_that_writes_an_invalid_frame_fails_itself)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     const struct stage stage = {.name = "invalid",
                                 .options = STAGE_OPTIONS(int, field_none),
                                 .reads = PART_OBJECTS,
@@ -196,7 +193,6 @@ TEST(a_stage_that_writes_an_invalid_frame_fails_itself)
     assert_string_equal(runner.diag.text,
                         "wrote an invalid frame: objects[1].length_m: -1 is outside [0, 1e6] m");
     runner_free(&runner);
-    arena_free(&arena);
 }
 
 static void describe_negative_ercs(const void *state, const struct vehicle *vehicle,
@@ -217,8 +213,7 @@ static int extract_negative_ercs(void *state, struct frame *frame, struct runner
 /* A document's reflectors were checked when it was read; others in their place were not. */
 TEST(a_list_in_place_of_the_documents_is_checked)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     const struct stage stage = {.name = "invalid",
                                 .options = &extraction_record,
                                 .reads = PART_OBJECTS,
@@ -232,5 +227,4 @@ TEST(a_list_in_place_of_the_documents_is_checked)
         runner.diag.text,
         "wrote an invalid frame: reflectors[0].points[0].ercs: -1 is outside [0, 1000]");
     runner_free(&runner);
-    arena_free(&arena);
 }

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdbool.h>
-
 #include "sample.h"
 #include "score/energy_distance.h"
 #include "score/relative_error.h"

@@ -221,27 +221,23 @@ TEST(costs_that_tie_are_paired_as_cheaply_as_trying_all_finds)
 /* Pairing the nearest first would cost 1 + 9; the best is 2 + 3. */
 TEST(a_row_moves_on_where_that_is_cheaper)
 {
-    struct arena arena = {0};
     size_t column_of[2];
-    gospa_assign((double[]){1, 2, 3, 9}, 2, 2, column_of, &arena);
+    gospa_assign((double[]){1, 2, 3, 9}, 2, 2, column_of, check_arena());
     assert_int_equal(column_of[0], 1);
     assert_int_equal(column_of[1], 0);
-    arena_free(&arena);
 }
 
 TEST(equal_costs_are_paired_in_order)
 {
-    struct arena arena = {0};
     size_t column_of[3];
     const double cost[6] = {0};
-    gospa_assign(cost, 2, 3, column_of, &arena);
+    gospa_assign(cost, 2, 3, column_of, check_arena());
     assert_int_equal(column_of[0], 0);
     assert_int_equal(column_of[1], 1);
-    gospa_assign(cost, 3, 2, column_of, &arena);
+    gospa_assign(cost, 3, 2, column_of, check_arena());
     assert_int_equal(column_of[0], 0);
     assert_int_equal(column_of[1], 1);
     assert_true(column_of[2] == GOSPA_NONE);
-    arena_free(&arena);
 }
 
 /* The sum of costs i j is least when the longest go with the shortest: rows ascend, columns
@@ -249,13 +245,11 @@ TEST(equal_costs_are_paired_in_order)
 TEST(a_large_matrix_is_paired_as_the_rearrangement_inequality_says)
 {
     enum { LARGE = 200 };
-    struct arena arena = {0};
-    double *cost = arena_get(&arena, LARGE * LARGE * sizeof *cost);
+    double *cost = arena_get(check_arena(), LARGE * LARGE * sizeof *cost);
     size_t column_of[LARGE];
     for (size_t i = 0; i < LARGE * LARGE; i++)
         cost[i] = (double)(i / LARGE) * (double)(i % LARGE);
-    gospa_assign(cost, LARGE, LARGE, column_of, &arena);
+    gospa_assign(cost, LARGE, LARGE, column_of, check_arena());
     for (size_t row = 0; row < LARGE; row++)
         assert_int_equal(column_of[row], LARGE - 1 - row);
-    arena_free(&arena);
 }

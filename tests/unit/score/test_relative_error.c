@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdbool.h>
-
 #include "base/random.h"
 #include "score/relative_error.h"
 
@@ -58,7 +56,6 @@ TEST(ideal_echoes_have_an_error_of_exactly_1)
 /* 0 and 1 apart: 2 x 1 - 0 - 0 and 2 x 0.5 - 0 - 3/5 by the definition. */
 TEST(the_squared_error_is_the_ratio_of_energy_distances)
 {
-    struct arena arena = {0};
     double chain[ALL * ALL] = {0}, ideal[ALL * ALL] = {0};
     for (int i = 0; i < ALL; i++)
         for (int k = 0; k < ALL; k++) {
@@ -69,8 +66,8 @@ TEST(the_squared_error_is_the_ratio_of_energy_distances)
     assert_near(relative_error_of(&of_ideal, NULL).value, 2.0, 1e-15);
     assert_near(relative_error_of(&of_chain, NULL).value, 0.4, 1e-15);
     assert_near(relative_error_of(&of_chain, &of_ideal).value, 0.2, 1e-15);
-    assert_near(relative_error_added(&of_ideal, &of_chain, &of_ideal, &arena).value, 0.8, 1e-15);
-    arena_free(&arena);
+    assert_near(relative_error_added(&of_ideal, &of_chain, &of_ideal, check_arena()).value, 0.8,
+                1e-15);
 }
 
 /* Numbers as lists: the deviation is that of ratios that are made again without each list, and the

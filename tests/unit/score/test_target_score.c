@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "base/units.h"
 #include "sample.h"
 #include "score/gospa.h"
@@ -92,20 +90,18 @@ TEST(one_cell_is_a_distance_of_one_in_each_component)
 
 TEST(azimuths_differ_the_short_way_round)
 {
-    struct arena arena = {0};
     struct score_scene left = {.targets = {{.sensor = "front", .azimuth_rad = PI - 0.01}}};
     struct score_scene right = {.targets = {{.sensor = "front", .azimuth_rad = 0.02 - PI}}};
     fill(&left, 1);
     fill(&right, 1);
     assert_close(target_score_distance(&left.targets[0], &right.targets[0], &cell), 0.3, 1e-14);
-    struct score score = score_scan(&left, &right, &arena);
+    struct score score = score_scan(&left, &right, check_arena());
     assert_close(score.differences[SCORE_AZIMUTH].mean, 0.03, 1e-15);
-    arena_free(&arena);
 }
 
 TEST(the_order_of_targets_changes_no_bit)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     uint64_t sample = 1;
     for (int round = 0; round < 2000; round++) {
         struct score_scene truth, listed, turned;
@@ -115,25 +111,24 @@ TEST(the_order_of_targets_changes_no_bit)
         for (size_t i = 0; i < count; i++)
             turned.targets[i] = listed.targets[count - 1 - i];
         fill(&turned, count);
-        struct score one = score_scan(&truth, &listed, &arena);
-        struct score other = score_scan(&truth, &turned, &arena);
+        struct score one = score_scan(&truth, &listed, arena);
+        struct score other = score_scan(&truth, &turned, arena);
         assert_same_text(&one, &other);
-        arena_clear(&arena);
+        arena_clear(arena);
     }
-    arena_free(&arena);
 }
 
 /* With both lists exchanged, missed targets are false ones and differences change their sign. */
 TEST(scores_are_symmetric)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     uint64_t sample = 2;
     for (int round = 0; round < 2000; round++) {
         struct score_scene truth, listed;
         draw(&truth, &sample);
         draw(&listed, &sample);
-        struct score there = score_scan(&truth, &listed, &arena);
-        struct score back = score_scan(&listed, &truth, &arena);
+        struct score there = score_scan(&truth, &listed, arena);
+        struct score back = score_scan(&listed, &truth, arena);
         assert_close(back.gospa, there.gospa, 1e-14);
         assert_close(back.ospa, there.ospa, 1e-14);
         assert_int_equal(back.missed_count, there.false_count);
@@ -143,26 +138,23 @@ TEST(scores_are_symmetric)
             assert_close(back.differences[i].mean, -there.differences[i].mean, 1e-13);
             assert_close(back.differences[i].wasserstein, there.differences[i].wasserstein, 1e-13);
         }
-        arena_clear(&arena);
+        arena_clear(arena);
     }
-    arena_free(&arena);
 }
 
 TEST(a_list_has_no_distance_from_itself)
 {
-    struct arena arena = {0};
     uint64_t sample = 3;
     for (int round = 0; round < 200; round++) {
         struct score_scene scene;
         draw(&scene, &sample);
-        struct score score = score_scan(&scene, &scene, &arena);
+        struct score score = score_scan(&scene, &scene, check_arena());
         assert_close(score.gospa, 0, 0);
         assert_close(score.ospa, 0, 0);
         assert_int_equal(score.pair_count, scene.frame.targets.count);
         assert_close(score.differences[SCORE_RANGE].wasserstein, 0, 0);
-        arena_clear(&arena);
+        arena_clear(check_arena());
     }
-    arena_free(&arena);
 }
 
 /* Half the squared cut-off for every target without a partner, and the squares of the pairs. */
@@ -174,7 +166,7 @@ static double cost_of(double squares, size_t pairs, size_t targets)
 TEST(groups_are_paired_as_cheaply_as_whole_lists)
 {
     uint64_t sample = 9;
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     size_t found = 0;
     for (int round = 0; round < 5000; round++) {
         struct score_scene truth, list;
@@ -184,7 +176,7 @@ TEST(groups_are_paired_as_cheaply_as_whole_lists)
         for (size_t i = 0; i < columns; i++)
             list.targets[i].range_m = sample_between(&sample, 9, 14);
         struct target_pairs pairs =
-            target_score_pairs("front", &truth.frame, &list.frame, &cell, &arena);
+            target_score_pairs("front", &truth.frame, &list.frame, &cell, arena);
         double squares = 0, whole = 0, distance[MOST * MOST];
         size_t count = 0, item_of[MOST];
         for (size_t i = 0; i < pairs.list.count; i++) {
@@ -198,46 +190,43 @@ TEST(groups_are_paired_as_cheaply_as_whole_lists)
         for (size_t i = 0; i < rows * columns; i++)
             distance[i] = target_score_distance(&truth.targets[i / columns],
                                                 &list.targets[i % columns], &cell);
-        size_t wanted = gospa_pair(distance, rows, columns, TARGET_SCORE_CUTOFF, item_of, &arena);
+        size_t wanted = gospa_pair(distance, rows, columns, TARGET_SCORE_CUTOFF, item_of, arena);
         for (size_t i = 0; i < rows; i++)
             whole += item_of[i] < columns ? pow(distance[i * columns + item_of[i]], 2) : 0;
         assert_close(cost_of(squares, count, rows + columns),
                      cost_of(whole, wanted, rows + columns), 1e-12);
         found += count;
-        arena_clear(&arena);
+        arena_clear(arena);
     }
     assert_true(found > 5000);
-    arena_free(&arena);
 }
 
 TEST(targets_of_other_sensors_do_not_count)
 {
-    struct arena arena = {0};
     struct score_scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
     struct score_scene listed = {
         .targets = {{.sensor = "front", .range_m = 5}, {.sensor = "rear", .range_m = 5}}};
     fill(&truth, 1);
     fill(&listed, 2);
-    assert_int_equal(score_scan(&truth, &listed, &arena).listed_count, 1);
-    arena_free(&arena);
+    assert_int_equal(score_scan(&truth, &listed, check_arena()).listed_count, 1);
 }
 
 /* Means are over scans, differences over all pairs; the merged tally of parts equals the tally of
  * all. */
 TEST(tallies_add_up)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct score_tally near = {.sensor = "front"}, far = {.sensor = "front"}, both = {0};
     struct score_scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
     struct score_scene one = {.targets = {{.sensor = "front", .range_m = 5.25}}};
     fill(&truth, 1);
     fill(&one, 1);
-    target_score_scan(&near, &truth.frame, &one.frame, &cell, &arena);
+    target_score_scan(&near, &truth.frame, &one.frame, &cell, arena);
     fill(&one, 0);
-    target_score_scan(&far, &truth.frame, &one.frame, &cell, &arena);
-    score_merge(&both, &near, &arena);
-    score_merge(&both, &far, &arena);
-    struct score score = score_of(&both, 1, &arena);
+    target_score_scan(&far, &truth.frame, &one.frame, &cell, arena);
+    score_merge(&both, &near, arena);
+    score_merge(&both, &far, arena);
+    struct score score = score_of(&both, 1, arena);
     assert_int_equal(score.scans, 2);
     assert_int_equal(score.true_count, 2);
     assert_int_equal(score.missed_count, 1);
@@ -249,18 +238,15 @@ TEST(tallies_add_up)
     assert_close(score.gospa_missed, 1, 0);
     assert_close(score.differences[SCORE_RANGE].mean, 0.25, 1e-15);
     assert_close(score.differences[SCORE_RANGE].wasserstein, 0.25, 1e-15);
-    arena_free(&arena);
 }
 
 TEST(without_scans_all_is_zero)
 {
-    struct arena arena = {0};
     struct score_tallies none = {0};
     struct score_summary summary = {0};
-    score_summarize(&none, &summary, &arena);
+    score_summarize(&none, &summary, check_arena());
     assert_int_equal(summary.all.scans, 0);
     assert_close(summary.all.gospa_rms, 0, 0);
     assert_int_equal(summary.all.differences[SCORE_RANGE].present, 0);
     assert_int_equal(summary.sensors.count, 0);
-    arena_free(&arena);
 }

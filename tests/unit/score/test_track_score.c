@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "base/units.h"
 #include "score/track_score.h"
 
@@ -93,66 +91,62 @@ TEST(a_frame_without_the_part_that_decides_is_refused)
 
 TEST(a_switch_is_another_track_than_last_in_its_scene)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct track_memory memory = {0};
-    assert_null(track_score_replaced(&memory, "s", "a", "1", &arena));
-    assert_null(track_score_replaced(&memory, "s", "b", "2", &arena));
-    assert_null(track_score_replaced(&memory, "s", "a", "1", &arena));
-    assert_null(track_score_replaced(&memory, "t", "a", "2", &arena));
-    assert_non_null(track_score_replaced(&memory, "s", "a", "2", &arena));
-    assert_non_null(track_score_replaced(&memory, "s", "b", "1", &arena));
-    assert_non_null(track_score_replaced(&memory, "s", "a", "1", &arena));
+    assert_null(track_score_replaced(&memory, "s", "a", "1", arena));
+    assert_null(track_score_replaced(&memory, "s", "b", "2", arena));
+    assert_null(track_score_replaced(&memory, "s", "a", "1", arena));
+    assert_null(track_score_replaced(&memory, "t", "a", "2", arena));
+    assert_non_null(track_score_replaced(&memory, "s", "a", "2", arena));
+    assert_non_null(track_score_replaced(&memory, "s", "b", "1", arena));
+    assert_non_null(track_score_replaced(&memory, "s", "a", "1", arena));
     track_score_forget(&memory, "s");
-    assert_null(track_score_replaced(&memory, "s", "a", "3", &arena));
-    assert_non_null(track_score_replaced(&memory, "t", "a", "3", &arena));
-    arena_free(&arena);
+    assert_null(track_score_replaced(&memory, "s", "a", "3", arena));
+    assert_non_null(track_score_replaced(&memory, "t", "a", "3", arena));
 }
 
 TEST(a_track_is_paired_with_an_object_nearer_than_five_metres)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct frame frame = frame_with_thing_at(90, 52);
-    frame.arena = &arena;
+    frame.arena = arena;
     struct track track = {.id = "1", .x_m = 91.5, .y_m = 50, .vx_mps = 3, .vy_mps = 2};
     struct track_list list = {.tracks = {&track, 1, 1}};
     struct track_memory memory = {0};
     struct score_tally tally = {0};
-    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_IN_VIEW, NULL, &memory, &arena);
-    struct score score = score_of(&tally, 1, &arena);
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_IN_VIEW, NULL, &memory, arena);
+    struct score score = score_of(&tally, 1, arena);
     assert_close(score.gospa, 2.5, 0);
     assert_close(score.differences[SCORE_POSITION].max, 2.5, 0);
     assert_close(score.differences[SCORE_VELOCITY].max, 2, 0);
     track.x_m = 93;
     track.y_m = 48;
-    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_IN_VIEW, NULL, &memory, &arena);
-    score = score_of(&tally, 1, &arena);
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_IN_VIEW, NULL, &memory, arena);
+    score = score_of(&tally, 1, arena);
     assert_int_equal(score.pair_count, 1);
     assert_int_equal(score.missed_count, 1);
     assert_int_equal(score.false_count, 1);
-    arena_free(&arena);
 }
 
 TEST(tracks_are_sorted_by_id)
 {
-    struct arena arena = {0};
     struct diag diag = {0};
     struct track tracks[] = {{.id = "b"}, {.id = "a"}, {.id = "c"}};
     struct track_list list = {.tracks = {tracks, 3, 3}};
-    assert_int_equal(track_score_order(&list, &arena, &diag), 0);
+    assert_int_equal(track_score_order(&list, check_arena(), &diag), 0);
     assert_string_equal(tracks[0].id, "a");
     tracks[2].id = "b";
-    assert_int_equal(track_score_order(&list, &arena, &diag), -1);
+    assert_int_equal(track_score_order(&list, check_arena(), &diag), -1);
     assert_string_equal(diag.text, "tracks: the id \"b\" stands twice");
-    arena_free(&arena);
 }
 
 /* A metre to each side with variances of 4 and 1 and a covariance of 1: (1 1) over [4 1; 1 1] is 1,
  * and without the covariance 1.25. */
 TEST(a_squared_distance_is_over_the_covariance)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct frame frame = frame_with_thing_at(90, 52);
-    frame.arena = &arena;
+    frame.arena = arena;
     struct track track = {.id = "1",
                           .x_m = 91,
                           .y_m = 53,
@@ -163,37 +157,35 @@ TEST(a_squared_distance_is_over_the_covariance)
     struct track_list list = {.tracks = {&track, 1, 1}};
     struct track_memory memory = {0};
     struct score_tally tally = {0};
-    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, &memory, &arena);
-    assert_close(score_of(&tally, 1, &arena).differences[SCORE_NEES].max, 1, 1e-12);
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, &memory, arena);
+    assert_close(score_of(&tally, 1, arena).differences[SCORE_NEES].max, 1, 1e-12);
     track.covariance_xy_m2 = 0;
-    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, &memory, &arena);
-    assert_close(score_of(&tally, 1, &arena).differences[SCORE_NEES].mean, 1.125, 1e-12);
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, &memory, arena);
+    assert_close(score_of(&tally, 1, arena).differences[SCORE_NEES].mean, 1.125, 1e-12);
     track.present = 0;
-    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, &memory, &arena);
-    assert_close(score_of(&tally, 1, &arena).differences[SCORE_NEES].mean, 1.125, 1e-12);
-    assert_close(score_of(&tally, 1, &arena).nees_low, 0, 0);
-    arena_free(&arena);
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, NULL, &memory, arena);
+    assert_close(score_of(&tally, 1, arena).differences[SCORE_NEES].mean, 1.125, 1e-12);
+    assert_close(score_of(&tally, 1, arena).nees_low, 0, 0);
 }
 
 /* Quantiles of chi squared by table: 3.247 and 20.483 with 10, 74.222 and 129.561 with 100 degrees
  * of freedom. */
 TEST(the_mean_of_the_nees_has_the_interval_of_chi_squared)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct score_tally tally = {0};
     for (int i = 0; i < 50; i++) {
-        *list_add(&tally.values[SCORE_ERROR][SCORE_NEES].list, &arena) = 2;
-        struct score score = score_of(&tally, 1, &arena);
+        *list_add(&tally.values[SCORE_ERROR][SCORE_NEES].list, arena) = 2;
+        struct score score = score_of(&tally, 1, arena);
         assert_true((score.nees_low > 0) == (i >= 4));
         if (i == 4) {
             assert_near(score.nees_low, 3.247 / 5, 0.01);
             assert_near(score.nees_high, 20.483 / 5, 0.01);
         }
     }
-    struct score score = score_of(&tally, 1, &arena);
+    struct score score = score_of(&tally, 1, arena);
     assert_near(score.nees_low, 74.222 / 50, 0.001);
     assert_near(score.nees_high, 129.561 / 50, 0.001);
-    arena_free(&arena);
 }
 
 TEST(a_covariance_is_positive_definite)

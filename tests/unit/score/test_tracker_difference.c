@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-
 #include "base/random.h"
 #include "score/tracker_difference.h"
 
@@ -19,34 +17,30 @@ static void add(struct tracker_scenes *scenes, int number, double gospa, struct 
  * freedom. A scene counts once, however many frames it has. */
 TEST(the_interval_is_students_over_scenes)
 {
-    struct arena arena = {0};
     struct diag diag = {0};
     struct tracker_scenes scenes = {0};
     struct tracker_difference difference;
     for (int scene = 1; scene <= 5; scene++)
         for (int frame = 0; frame < scene; frame++)
-            add(&scenes, scene, scene, &arena);
+            add(&scenes, scene, scene, check_arena());
     assert_int_equal(tracker_difference_of(&scenes, &difference, &diag), 0);
     assert_int_equal(difference.scenes, 5);
     assert_close(difference.figures[TRACKER_GOSPA].mean, 3, 1e-12);
     assert_close(difference.figures[TRACKER_GOSPA].low, 3 - 2.776 * sqrt(0.5), 0.02);
     assert_close(difference.figures[TRACKER_FALSE].high, 6 + 2 * 2.776 * sqrt(0.5), 0.04);
     assert_close(difference.figures[TRACKER_MISSED].high, 0, 0);
-    arena_free(&arena);
 }
 
 TEST(fewer_than_five_scenes_are_refused)
 {
-    struct arena arena = {0};
     struct diag diag = {0};
     struct tracker_scenes scenes = {0};
     struct tracker_difference difference;
     for (int scene = 0; scene < 4; scene++)
-        add(&scenes, scene, 1, &arena);
+        add(&scenes, scene, 1, check_arena());
     assert_int_equal(tracker_difference_of(&scenes, &difference, &diag), -1);
     assert_int_equal(diag.code, DIAG_DATA);
     assert_string_equal(diag.text, "--against: number of scenes: 4; expected at least 5");
-    arena_free(&arena);
 }
 
 /* Scenes differ by a Gaussian number, and by the square of one, which is skewed, less its mean. */

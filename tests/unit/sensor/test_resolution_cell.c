@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/units.h"
 #include "sample.h"
 #include "sensor/resolution_cell.h"
@@ -60,16 +57,14 @@ TEST(strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pattern)
 TEST(without_superposition_a_cell_is_one_echo_of_the_summed_strength)
 {
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
-    struct arena arena = {0};
     struct received_echo echoes[4];
     struct cell cell;
     for (int i = 0; i < 4; i++) {
         struct echo echo = echo_at(15, 0, 0, 0.1 * (4 - i));
         echoes[i] = received_echo_in_free_space(&sensor, &echo, i);
     }
-    assert_true(resolution_cell_of(&sensor, echoes, 4, false, &arena, &cell));
+    assert_true(resolution_cell_of(&sensor, echoes, 4, false, check_arena(), &cell));
     assert_near(hypot(cell.sum_re, cell.sum_im), 2.5 * 4 * (0.4 + 0.3 + 0.2 + 0.1), 1e-14);
-    arena_free(&arena);
 }
 
 static struct echo ghost_at(double azimuth_rad, double departure_azimuth_rad)
@@ -83,7 +78,6 @@ static struct echo ghost_at(double azimuth_rad, double departure_azimuth_rad)
 TEST(a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_reverse)
 {
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
-    struct arena arena = {0};
     for (double azimuth_rad = -1.4; azimuth_rad <= 1.4; azimuth_rad += 0.1) {
         struct echo out = ghost_at(azimuth_rad, 0.4), back = ghost_at(0.4, azimuth_rad);
         struct received_echo echoes[] = {received_echo_in_free_space(&sensor, &out, 0),
@@ -92,7 +86,7 @@ TEST(a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_reverse)
         for (size_t i = 0; i < 2; i++) {
             struct cell cell;
             assert_near(echoes[i].amplitude, 5 * sqrt(pattern(azimuth_rad) * pattern(0.4)), 1e-13);
-            assert_true(resolution_cell_of(&sensor, &echoes[i], 1, true, &arena, &cell));
+            assert_true(resolution_cell_of(&sensor, &echoes[i], 1, true, check_arena(), &cell));
             assert_close(cell.azimuth_rad, i == 0 ? azimuth_rad : 0.4, 1e-14);
             assert_near(hypot(cell.sum_re, cell.sum_im), echoes[i].amplitude, 1e-14);
         }
@@ -107,25 +101,22 @@ TEST(a_ghost_has_the_root_of_the_pattern_each_way_and_the_level_of_its_reverse)
     assert_close(received_echo_in_free_space(&sensor, &echo, 0).amplitude, 0, 0);
     echo = ghost_at(0.6, 0.3);
     assert_close(received_echo_in_free_space(&sensor, &echo, 0).amplitude, 0, 0);
-    arena_free(&arena);
 }
 
 TEST(a_single_echo_is_its_cell)
 {
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
-    struct arena arena = {0};
     for (double azimuth_rad = -1.5; azimuth_rad <= 1.5; azimuth_rad += 0.01) {
         struct echo echo = echo_at(12.3, azimuth_rad, 3.4, 0.7);
         struct received_echo received = received_echo_in_free_space(&sensor, &echo, 0);
         struct cell cell;
-        assert_true(resolution_cell_of(&sensor, &received, 1, true, &arena, &cell));
+        assert_true(resolution_cell_of(&sensor, &received, 1, true, check_arena(), &cell));
         assert_close(cell.range_m, 12.3, 0);
         assert_close(cell.range_rate_mps, 3.4, 0);
         assert_close(cell.azimuth_rad, azimuth_rad, 1e-14);
         assert_close(cell.members.items[0].weight, 1, 0);
         assert_near(hypot(cell.sum_re, cell.sum_im), received.amplitude, 1e-14);
     }
-    arena_free(&arena);
 }
 
 /* To the bit: auto leaves superposition out where no cell has two echoes. */
@@ -133,15 +124,13 @@ TEST(a_single_echo_of_an_array_has_one_cell_with_and_without_superposition)
 {
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     sensor.beams.count = 1;
-    struct arena arena = {0};
     struct echo echo = echo_at(12.3, -0.0, 3.4, 0.7);
     struct received_echo received = received_echo_in_free_space(&sensor, &echo, 0);
     for (int superpose = 0; superpose < 2; superpose++) {
         struct cell cell;
-        assert_true(resolution_cell_of(&sensor, &received, 1, superpose, &arena, &cell));
+        assert_true(resolution_cell_of(&sensor, &received, 1, superpose, check_arena(), &cell));
         assert_true(cell.azimuth_rad == 0 && signbit(cell.azimuth_rad));
     }
-    arena_free(&arena);
 }
 
 /* Equations (4) and (5): amplitudes 6 and 2, so weights 3/4 and 1/4. */
@@ -159,9 +148,8 @@ TEST(two_echoes_are_weighted_by_amplitude)
          .range_rate_mps = 1,
          .strength = 2,
          .amplitude = 2}};
-    struct arena arena = {0};
     struct cell cell;
-    assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
+    assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
     assert_string_equal(cell.sensor, "s");
     assert_close(cell.amplitude, 8, 0);
     assert_near(cell.range_m, 10.05, 1e-15);
@@ -176,7 +164,6 @@ TEST(two_echoes_are_weighted_by_amplitude)
     assert_close(cell.delta_re, 0, 0);
     assert_close(cell.delta_im, 0, 0);
     assert_close(cell.azimuth_rad, 0, 0);
-    arena_free(&arena);
 }
 
 /* Equation (8) for echoes at 30 degrees to the left and to the right, u = pi/4: with
@@ -185,7 +172,6 @@ TEST(two_echoes_are_weighted_by_amplitude)
 TEST(pointers_add_up_as_in_equation_8)
 {
     double part = sin(PI / 4) / (PI / 4) * cos(PI / 6) * sqrt(0.5);
-    struct arena arena = {0};
     for (int element = 0; element < 2; element++) {
         struct sensor sensor = paper_sensor(element ? PHASE_ELEMENT : PHASE_CENTRE);
         struct received_echo echoes[] = {
@@ -196,7 +182,7 @@ TEST(pointers_add_up_as_in_equation_8)
              .strength = 1,
              .amplitude = part}};
         struct cell cell;
-        assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
+        assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
         /* With phases from the first element each pointer turns by e^{ju} = (1 +- j) sqrt(1/2). */
         double root_half = sqrt(0.5);
         assert_close(cell.sum_re, element ? 4 * part * root_half : 4 * part, 1e-14);
@@ -207,13 +193,11 @@ TEST(pointers_add_up_as_in_equation_8)
         if (!element) /* |delta| : |sum| = 1 : 2 = tan u, to the left */
             assert_close(cell.azimuth_rad, asin(2 / PI * atan(0.5)), 1e-14);
     }
-    arena_free(&arena);
 }
 
 TEST(phases_turn_the_pointers)
 {
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
-    struct arena arena = {0};
     struct received_echo echoes[] = {
         {.echo = {.id.object = "a", .id.reflector = "r"}, .strength = 4, .amplitude = 4},
         {.echo = {.id.object = "b", .id.reflector = "r"},
@@ -221,16 +205,15 @@ TEST(phases_turn_the_pointers)
          .amplitude = 3,
          .phase_rad = PI / 2}};
     struct cell cell;
-    assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
+    assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
     assert_close(cell.sum_re, 4, 1e-15);
     assert_close(cell.sum_im, 3, 1e-15);
     assert_close(cell.amplitude, 7, 0);
     /* Equal echoes in antiphase leave nothing but rounding. */
     echoes[1].strength = 4;
     echoes[1].phase_rad = PI;
-    resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell);
+    resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell);
     assert_close(hypot(cell.sum_re, cell.sum_im), 0, 1e-14);
-    arena_free(&arena);
 }
 
 /* MODEL 14.18: two echoes half a separation to either side of boresight, the weaker one rho times
@@ -250,7 +233,6 @@ TEST(a_coherent_pair_is_read_at_its_coherent_position)
         {0.9, 150, 0.756507, 3.662438}, {0.9, 180, 19.000000, 19.000000},
     };
     const double half_rad = 1e-7;
-    struct arena arena = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         for (int rule = 0; rule < 4; rule++) {
             struct sensor sensor = paper_sensor(rule < 2 ? PHASE_CENTRE : PHASE_ELEMENT);
@@ -264,13 +246,12 @@ TEST(a_coherent_pair_is_read_at_its_coherent_position)
                  .amplitude = rho,
                  .phase_rad = -cases[i].psi_deg * PI / 180}};
             struct cell cell;
-            assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
+            assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
             double expected = rule % 2 ? cases[i].magnitude : cases[i].ratio;
             assert_close(fabs(cell.azimuth_rad) / half_rad, expected, 1e-6 + 1e-6 * expected);
             assert_true(rule % 2 || cell.azimuth_rad > 0);
             assert_near(cell.range_m, 10 + (1 - rho) / (1 + rho), 1e-14);
         }
-    arena_free(&arena);
 }
 
 /* The mean of g over all phases is exactly the stronger echo's place (MODEL 14.18). */
@@ -280,7 +261,6 @@ TEST(a_coherent_pair_is_at_its_stronger_echo_on_average)
     const double half_rad = 1e-5;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     sensor.angle_estimator = MONOPULSE_RATIO;
-    struct arena arena = {0};
     double sum = 0;
     for (int i = 0; i < PHASES; i++) {
         struct received_echo echoes[] = {
@@ -290,19 +270,17 @@ TEST(a_coherent_pair_is_at_its_stronger_echo_on_average)
              .amplitude = 0.9,
              .phase_rad = 2 * PI * (i + 0.5) / PHASES}};
         struct cell cell;
-        assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
+        assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
         sum += cell.azimuth_rad / half_rad;
-        arena_clear(&arena);
+        arena_clear(check_arena());
     }
     assert_close(sum / PHASES, 1, 1e-6);
-    arena_free(&arena);
 }
 
 TEST(weights_sum_to_one_and_means_stay_inside)
 {
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     uint64_t random = 4;
-    struct arena arena = {0};
     for (int round = 0; round < 3000; round++) {
         struct received_echo echoes[40];
         size_t count = 1 + sample_bits(&random) % 40;
@@ -317,7 +295,7 @@ TEST(weights_sum_to_one_and_means_stay_inside)
         }
         qsort(echoes, count, sizeof *echoes, resolution_cell_compare);
         struct cell cell;
-        assert_true(resolution_cell_of(&sensor, echoes, count, true, &arena, &cell));
+        assert_true(resolution_cell_of(&sensor, echoes, count, true, check_arena(), &cell));
         double total = 0, amplitude = 0;
         for (size_t i = 0; i < count; i++) {
             total += cell.members.items[i].weight;
@@ -329,9 +307,8 @@ TEST(weights_sum_to_one_and_means_stay_inside)
         assert_true(cell.range_m >= least && cell.range_m <= most);
         /* The denominator of equation (5) is an upper bound. */
         assert_true(hypot(cell.sum_re, cell.sum_im) <= cell.amplitude * (1 + 1e-14));
-        arena_clear(&arena);
+        arena_clear(check_arena());
     }
-    arena_free(&arena);
 }
 
 TEST(ties_of_amplitude_go_by_the_frames_order)

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "noise/target_list.h"
 
 #include "radar/resolution.h"

@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/sort.h"
 #include "base/units.h"
 #include "sample.h"

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "effects/effect.h"
 #include "sensor/resolution_cell.h"
 #include "sensor_signal/detections.h"

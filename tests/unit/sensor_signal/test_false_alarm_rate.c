@@ -5,10 +5,6 @@
  * at least 6 million bins of every waveform. */
 #include "check.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "sensor_signal/signal_cube.h"
 #include "support/array_sensor.h"
 

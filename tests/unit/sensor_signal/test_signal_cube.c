@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-
 #include "sensor/scan.h"
 #include "sensor_signal/signal_cube.h"
 #include "support/array_sensor.h"

@@ -1,9 +1,6 @@
 #define SCRATCH_FILE "table.csv"
 #include "scratch.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include <zlib.h>

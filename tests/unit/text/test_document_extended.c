@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "text/document.h"
 
 static int make_arena(void **state)
@@ -61,7 +58,8 @@ TEST_OF(arena, items_without_names_are_replaced)
 {
     assert_extended(arena, "{\"s\":[{\"v\":1},{\"v\":2}]}", "{\"s\":[{\"v\":3}]}",
                     "{\"s\":[{\"v\":3}]}");
-    assert_extended(arena, "{\"s\":[]}", "{\"s\":[{\"name\":\"p\"}]}", "{\"s\":[{\"name\":\"p\"}]}");
+    assert_extended(arena, "{\"s\":[]}", "{\"s\":[{\"name\":\"p\"}]}",
+                    "{\"s\":[{\"name\":\"p\"}]}");
     assert_extended(arena, "{\"s\":[{\"name\":\"p\"}]}", "{\"s\":[]}", "{\"s\":[]}");
 }
 

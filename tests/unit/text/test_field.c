@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "text/field.h"
 #include "text/record_read.h"
 #include "text/record_write.h"
@@ -111,7 +108,6 @@ TEST(members_are_found_by_their_whole_name)
 
 TEST(absent_members_have_their_value_and_are_recognized)
 {
-    struct arena arena = {0};
     struct thing thing;
     memset(&thing, 0xff, sizeof thing);
     field_clear(&record, &thing);
@@ -129,13 +125,12 @@ TEST(absent_members_have_their_value_and_are_recognized)
     thing.extra = "1";
     thing.maybe_s = 0;
     thing.tint = RED;
-    field_list_add(&fields[PARTS], &thing, &arena);
+    field_list_add(&fields[PARTS], &thing, check_arena());
     field_mark_present(&record, &fields[IN_GROUP], &thing);
     field_mark_present(&record, &fields[RANGE], &thing);
     assert_int_equal(thing.present, 4);
     for (size_t i = 0; i < COUNT(optional); i++)
         assert_true(field_present(&record, &fields[optional[i]], &thing));
-    arena_free(&arena);
 }
 
 static struct thing whole_thing(struct arena *arena)
@@ -215,10 +210,10 @@ static void change(struct thing *thing, int which)
 
 TEST(structs_are_the_same_if_their_texts_are)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     for (int i = 0; i < CHANGES; i++)
         for (int k = 0; k < CHANGES; k++) {
-            struct thing one = whole_thing(&arena), other = whole_thing(&arena);
+            struct thing one = whole_thing(arena), other = whole_thing(arena);
             struct text text = {0}, other_text = {0};
             assert_true(field_same(&record, &one, &other));
             change(&one, i);
@@ -233,11 +228,10 @@ TEST(structs_are_the_same_if_their_texts_are)
             text_free(&other_text);
         }
     /* Of a group that is absent no member counts. */
-    struct thing one = whole_thing(&arena), other = whole_thing(&arena);
+    struct thing one = whole_thing(arena), other = whole_thing(arena);
     one.present = other.present = 0;
     other.group.count = 0;
     assert_true(field_same(&record, &one, &other));
-    arena_free(&arena);
 }
 
 TEST(an_optional_record_with_groups_is_present_with_any_of_them)
@@ -344,11 +338,10 @@ TEST(seeds_have_64_bits)
                 {"9007199254740993", 9007199254740993},
                 {"18446744073709551615", UINT64_MAX},
                 {"18446744073709551609", UINT64_MAX - 6}};
-    struct arena arena = {0};
     struct thing thing = {0};
     struct diag diag;
     for (size_t i = 0; i < COUNT(good); i++) {
-        assert_int_equal(set_text(SEED, &thing, good[i].text, &arena, &diag), 0);
+        assert_int_equal(set_text(SEED, &thing, good[i].text, check_arena(), &diag), 0);
         assert_true(thing.seed == good[i].seed);
     }
     static const char *const bad[] = {"",
@@ -370,43 +363,41 @@ TEST(seeds_have_64_bits)
         snprintf(message, sizeof message,
                  "seed: \"%s\" is no seed; expected decimal digits up to 18446744073709551615",
                  bad[i]);
-        assert_int_equal(set_text(SEED, &thing, bad[i], &arena, &diag), -1);
+        assert_int_equal(set_text(SEED, &thing, bad[i], check_arena(), &diag), -1);
         assert_string_equal(diag.text, message);
     }
-    arena_free(&arena);
 }
 
 TEST(names_and_choices_are_checked)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct thing thing = {0};
     struct diag diag;
     char name[FIELD_NAME_SIZE + 2];
     memset(name, 'n', sizeof name);
     name[FIELD_NAME_SIZE + 1] = '\0';
-    assert_int_equal(set_text(NAME, &thing, name, &arena, &diag), -1);
+    assert_int_equal(set_text(NAME, &thing, name, arena, &diag), -1);
     assert_string_equal(diag.text, "name: a name of 1025 bytes; expected 1 to 1024");
     name[FIELD_NAME_SIZE] = '\0';
-    assert_int_equal(set_text(NAME, &thing, name, &arena, &diag), 0);
+    assert_int_equal(set_text(NAME, &thing, name, arena, &diag), 0);
     assert_string_equal(thing.name, name);
     assert_true(thing.name != name);
-    assert_int_equal(set_text(NAME, &thing, "", &arena, &diag), -1);
-    assert_int_equal(set_text(NAME, &thing, "a\x7f", &arena, &diag), -1);
+    assert_int_equal(set_text(NAME, &thing, "", arena, &diag), -1);
+    assert_int_equal(set_text(NAME, &thing, "a\x7f", arena, &diag), -1);
     assert_string_equal(diag.text, "name: control character 0x7f in a name");
-    assert_int_equal(set_text(NAME, &thing, "\t", &arena, &diag), -1);
+    assert_int_equal(set_text(NAME, &thing, "\t", arena, &diag), -1);
     for (int i = 0; colours[i] != NULL; i++) {
-        assert_int_equal(set_text(COLOUR, &thing, colours[i], &arena, &diag), 0);
+        assert_int_equal(set_text(COLOUR, &thing, colours[i], arena, &diag), 0);
         assert_int_equal(thing.colour, i);
     }
     static const char *const wrong[] = {"", "Red", "re", "redd", "red "};
     for (size_t i = 0; i < COUNT(wrong); i++)
-        assert_int_equal(set_text(COLOUR, &thing, wrong[i], &arena, &diag), -1);
+        assert_int_equal(set_text(COLOUR, &thing, wrong[i], arena, &diag), -1);
     assert_string_equal(
         diag.text,
         "colour: \"red \" is unknown (did you mean red?); expected one of red, green, blue");
-    assert_int_equal(set_text(RANGE, &thing, "1", &arena, &diag), -1);
+    assert_int_equal(set_text(RANGE, &thing, "1", arena, &diag), -1);
     assert_string_equal(diag.text, "range_m: a string; expected a number in [-1.5, 1e6] m");
-    arena_free(&arena);
 }
 
 TEST(a_text_is_a_number_only_as_a_whole)
@@ -473,19 +464,18 @@ TEST(a_table_may_have_more_than_64_members)
     const struct record wide_record = {.size = sizeof(struct wide), .fields = wide_fields};
     static const char good[] = "{\"m68\":1,\"m69\":2,\"m02\":4}", last[] = "{\"m02\":4,\"m68\":1}",
                       twice[] = "{\"m68\":1,\"m69\":2,\"m68\":1}";
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     struct wide wide = {0};
     struct diag diag = {0};
-    assert_int_equal(record_read(good, strlen(good), &wide_record, &wide, &arena, NULL, &diag), 0);
+    assert_int_equal(record_read(good, strlen(good), &wide_record, &wide, arena, NULL, &diag), 0);
     assert_true(wide.m68 == 1 && wide.m69 == 2 && wide.m02 == 4);
     assert_true(wide.m00 == 3 && wide.m63 == 3 && wide.m64 == 3 && wide.m67 == 3);
-    assert_int_equal(record_read(last, strlen(last), &wide_record, &wide, &arena, NULL, &diag), -1);
+    assert_int_equal(record_read(last, strlen(last), &wide_record, &wide, arena, NULL, &diag), -1);
     assert_string_equal(diag.text, "m69: missing; expected a number in [0, 9]");
     diag = (struct diag){0};
-    assert_int_equal(record_read(twice, strlen(twice), &wide_record, &wide, &arena, NULL, &diag),
+    assert_int_equal(record_read(twice, strlen(twice), &wide_record, &wide, arena, NULL, &diag),
                      -1);
     assert_string_equal(diag.text, "m68: the key stands twice");
-    arena_free(&arena);
 }
 
 TEST(a_number_is_that_of_the_fields_kind)

@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "text/file_format.h"
 
 static bool explains(const char *kind, const char *bytes, enum diag_code code, struct diag *diag)

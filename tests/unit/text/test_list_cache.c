@@ -1,9 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "frame/frame_text.h"
 #include "text/list_cache.h"
 

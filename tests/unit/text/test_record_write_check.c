@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "text/record_write.h"
 
 enum { IN_LATER = 1 << 0, IN_PARTS = 1 << 1 };
@@ -84,7 +82,6 @@ TEST(a_missing_name_is_refused_unless_it_is_optional)
 
 TEST(a_number_out_of_bounds_is_refused_with_its_path)
 {
-    struct arena arena = {0};
     struct thing thing = good_thing();
     thing.gain = 0.2;
     assert_string_equal(fault(&thing), "gain: 0.2 is outside [0, 0.1]");
@@ -95,13 +92,12 @@ TEST(a_number_out_of_bounds_is_refused_with_its_path)
     assert_string_equal(fault(&thing), "part.width_m: 11 is outside [1, 10] m");
     thing.part.width_m = 10;
     for (int i = 0; i < 20; i++)
-        field_list_add(&fields[MORE], &thing, &arena);
+        field_list_add(&fields[MORE], &thing, check_arena());
     assert_string_equal(fault(&thing), "");
     thing.more.items[17].number = -6;
     assert_string_equal(fault(&thing), "more[17].number: -6 is outside [-5, 5]");
     thing.more.items[19].width_m = 0.5;
     assert_string_equal(fault(&thing), "more[19].width_m: 0.5 is outside [1, 10] m");
-    arena_free(&arena);
 }
 
 /* 0 is outside [1, 10], but is the value of the optional member when it is absent. */
@@ -116,9 +112,8 @@ TEST(the_value_of_an_absent_member_passes_although_it_is_out_of_bounds)
 
 TEST(a_group_is_checked_only_if_it_is_present_and_wanted)
 {
-    struct arena arena = {0};
     struct thing thing = good_thing();
-    struct part *part = field_list_add(&fields[PARTS], &thing, &arena);
+    struct part *part = field_list_add(&fields[PARTS], &thing, check_arena());
     struct diag diag = {0};
     part->width_m = -1;
     thing.later_s = 2;
@@ -129,29 +124,26 @@ TEST(a_group_is_checked_only_if_it_is_present_and_wanted)
     thing.present |= IN_LATER;
     assert_int_equal(record_write_check(&record, &thing, IN_LATER, &diag), -1);
     assert_string_equal(diag.text, "later_s: 2 is outside [0, 1] s");
-    arena_free(&arena);
 }
 
 /* The bad name follows the same name that is good, and precedes another one. */
 TEST(among_items_the_bad_name_is_found)
 {
-    struct arena arena = {0};
     struct thing thing = good_thing();
     for (int i = 0; i < 20; i++)
-        ((struct part *)field_list_add(&fields[MORE], &thing, &arena))->name = i == 3 ? NULL : "b";
+        ((struct part *)field_list_add(&fields[MORE], &thing, check_arena()))->name =
+            i == 3 ? NULL : "b";
     assert_string_equal(fault(&thing), "");
     thing.more.items[18].name = "\n";
     assert_string_equal(fault(&thing), "more[18].name: control character 0x0a in a name");
     thing.more.items[4].name = thing.more.items[5].name = "\xff";
     assert_string_equal(fault(&thing), "more[4].name: byte 0xff in a name is not UTF-8");
-    arena_free(&arena);
 }
 
 TEST(lists_of_a_document_are_not_checked_again)
 {
-    struct arena arena = {0};
     struct thing document = good_thing();
-    struct part *part = field_list_add(&fields[MORE], &document, &arena);
+    struct part *part = field_list_add(&fields[MORE], &document, check_arena());
     part->number = 6;
     struct thing thing = document;
     assert_string_equal(fault(&thing), "more[0].number: 6 is outside [-5, 5]");
@@ -159,7 +151,6 @@ TEST(lists_of_a_document_are_not_checked_again)
     assert_string_equal(fault(&thing), "");
     thing.more.items = (struct part[]){{.number = 7}};
     assert_string_equal(fault(&thing), "more[0].number: 7 is outside [-5, 5]");
-    arena_free(&arena);
 }
 
 static bool names_pass(const char *name, struct arena *arena)
@@ -174,27 +165,26 @@ static bool names_pass(const char *name, struct arena *arena)
 
 TEST(every_byte_of_a_name_is_checked)
 {
-    struct arena arena = {0};
+    struct arena *arena = check_arena();
     char name[FIELD_NAME_SIZE + 2] = "";
-    assert_false(names_pass(name, &arena));
+    assert_false(names_pass(name, arena));
     for (size_t length = 1; length <= 40; length++) {
         memset(name, '~', length);
-        assert_true(names_pass(name, &arena));
+        assert_true(names_pass(name, arena));
         for (size_t i = 0; i < length; i++) {
             static const char bad[] = {1, 0x1f, 0x7f, (char)0x80, (char)0xff};
             for (size_t j = 0; j < sizeof bad; j++) {
                 name[i] = bad[j];
-                assert_false(names_pass(name, &arena));
+                assert_false(names_pass(name, arena));
             }
             name[i] = ' ';
-            assert_true(names_pass(name, &arena));
+            assert_true(names_pass(name, arena));
             name[i] = '~';
         }
     }
-    assert_true(names_pass("Straße", &arena));
+    assert_true(names_pass("Straße", arena));
     memset(name, 'a', FIELD_NAME_SIZE);
-    assert_true(names_pass(name, &arena));
+    assert_true(names_pass(name, arena));
     name[FIELD_NAME_SIZE] = 'a';
-    assert_false(names_pass(name, &arena));
-    arena_free(&arena);
+    assert_false(names_pass(name, arena));
 }

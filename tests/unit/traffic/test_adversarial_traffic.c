@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/units.h"
 #include "documents/suite_file.h"
 #include "soundness/adversarial_traffic.h"

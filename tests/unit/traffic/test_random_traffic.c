@@ -1,9 +1,6 @@
 #include "check.h"
 
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "documents/suite_file.h"
 #include "effects/effect.h"

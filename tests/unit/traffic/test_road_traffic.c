@@ -1,9 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/units.h"
 #include "frame/frame.h"
 #include "geometry/motion.h"

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "base/units.h"
 #include "text/record_write.h"
 #include "traffic/scenario.h"

@@ -1,8 +1,5 @@
 #include "check.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include <jansson.h>
 
 #include "frame/frame_text.h"

@@ -1,7 +1,5 @@
 #include "check.h"
 
-#include <string.h>
-
 #include "view/view_frame.h"
 
 /* The ego drives ahead at 10 m/s; its sensor is mounted 2 m ahead. */
