@@ -16,14 +16,6 @@ enum { FRAMES = 1000000, PRECISION = 320 };
 
 static const double rates_hz[] = {20, 10, 25, 30, 17};
 
-static void write_file(const struct scratch *scratch, const char *text)
-{
-    FILE *file = fopen(scratch->path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
-
 #define START_X_M 512345.678
 #define START_Y_M 5335123.4567
 #define SPEED_MPS 50.0
@@ -38,7 +30,7 @@ static struct scenario *open_scene(struct scratch *scratch, double rate_hz)
              "\"objects\": [{\"id\": \"e\", \"class\": \"car\", \"x_m\": %.17g, \"y_m\": %.17g, "
              "\"speed_mps\": %.17g, \"yaw_rad\": %.17g}]}",
              rate_hz, (FRAMES - 1) / rate_hz, START_X_M, START_Y_M, SPEED_MPS, YAW_RAD);
-    write_file(scratch, text);
+    scratch_write(scratch->path, text);
     struct diag diag = {0};
     struct scenario_document document;
     struct scenario *scene = NULL;

@@ -1,51 +1,10 @@
-#include "check.h"
-
-#include <dirent.h>
-#include <unistd.h>
+#define SCRATCH_FILE "suite.json"
+#include "scratch.h"
 
 #include "base/text.h"
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "traffic/scenario.h"
-
-struct scratch {
-    char directory[64];
-    char suite[96], table[96], pattern[96];
-    struct arena arena;
-};
-
-static int make_scratch(void **state)
-{
-    struct scratch *scratch = calloc(1, sizeof *scratch);
-    assert_non_null(scratch);
-    strcpy(scratch->directory, "/tmp/glint-documents-XXXXXX");
-    assert_non_null(mkdtemp(scratch->directory));
-    snprintf(scratch->suite, sizeof scratch->suite, "%s/suite.json", scratch->directory);
-    snprintf(scratch->table, sizeof scratch->table, "%s/levels.csv", scratch->directory);
-    snprintf(scratch->pattern, sizeof scratch->pattern, "%s/pattern.csv", scratch->directory);
-    *state = scratch;
-    return 0;
-}
-
-static int remove_scratch(void **state)
-{
-    struct scratch *scratch = *state;
-    unlink(scratch->suite);
-    unlink(scratch->table);
-    unlink(scratch->pattern);
-    rmdir(scratch->directory);
-    arena_free(&scratch->arena);
-    free(scratch);
-    return 0;
-}
-
-static void write_file(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
 
 /* Calls load with the name of every JSON file in data/KIND. */
 static size_t load_all(const char *kind, void (*load)(const char *name, struct arena *arena))
@@ -150,10 +109,10 @@ static const struct suite *suite_of(struct scratch *scratch, const char *documen
                                     const char *table, const char *rows, struct diag *diag)
 {
     *diag = (struct diag){0};
-    write_file(scratch->suite, document);
-    write_file(scratch->table, table);
-    write_file(scratch->pattern, rows);
-    return suite_file_load(scratch->suite, &scratch->arena, diag);
+    scratch_write(scratch->path, document);
+    scratch_write(scratch_in(scratch, "levels.csv"), table);
+    scratch_write(scratch_in(scratch, "pattern.csv"), rows);
+    return suite_file_load(scratch->path, &scratch->arena, diag);
 }
 
 TEST_OF(scratch, tables_are_found_beside_the_document_and_read)
@@ -348,7 +307,7 @@ TEST_OF(scratch, suites_with_contradictory_members_are_refused)
         struct diag diag;
         assert_null(suite_of(scratch, cases[i].document, cases[i].table, cases[i].rows, &diag));
         /* The message about a table follows the place that names it. */
-        assert_memory_equal(diag.text, scratch->suite, strlen(scratch->suite));
+        assert_memory_equal(diag.text, scratch->path, strlen(scratch->path));
         assert_string_equal(diag.text + strlen(diag.text) - strlen(cases[i].message),
                             cases[i].message);
         assert_int_equal(diag.code, DIAG_CONFIG);
@@ -381,7 +340,7 @@ TEST_OF(scratch, vehicles_with_contradictory_members_are_refused)
                     "\"reflectors\":{%s}}",
                     faults[i]);
         text_add(&text, "", 1);
-        write_file(scratch->suite, text.bytes);
+        scratch_write(scratch->path, text.bytes);
         assert_null(vehicle_load("suite", scratch->directory, &scratch->arena, &diag));
         assert_non_null(strstr(diag.text, "[0].zero_rad: "));
         assert_int_equal(diag.code, DIAG_CONFIG);
@@ -392,10 +351,10 @@ TEST_OF(scratch, vehicles_with_contradictory_members_are_refused)
 TEST_OF(scratch, scenarios_are_checked_and_named)
 {
     struct diag diag = {0};
-    write_file(scratch->suite, "{\"origin\":\"a test\",\"ego\":\"e\",\"rate_hz\":10,"
-                               "\"duration_s\":1,\"objects\":[]}");
-    assert_null(scene_of(scratch->suite, &scratch->arena, &diag));
-    assert_memory_equal(diag.text, scratch->suite, strlen(scratch->suite));
+    scratch_write(scratch->path, "{\"origin\":\"a test\",\"ego\":\"e\",\"rate_hz\":10,"
+                                 "\"duration_s\":1,\"objects\":[]}");
+    assert_null(scene_of(scratch->path, &scratch->arena, &diag));
+    assert_memory_equal(diag.text, scratch->path, strlen(scratch->path));
     assert_int_equal(diag.code, DIAG_CONFIG);
     diag = (struct diag){0};
     assert_null(vehicle_load("no_such_class", NULL, &scratch->arena, &diag));

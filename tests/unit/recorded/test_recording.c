@@ -47,10 +47,7 @@ static const struct recording_options *options_for(struct recording_options *opt
 static struct played *play(struct scratch *scratch, const char *text,
                            const struct recording_options *options)
 {
-    FILE *file = fopen(scratch->path, "wb");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
+    scratch_write(scratch->path, text);
     struct played *played = arena_get(&scratch->arena, sizeof *played);
     struct recording table = {.options = *options};
     struct arena arena = {0};

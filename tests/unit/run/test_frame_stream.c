@@ -20,9 +20,7 @@ struct bench {
 static void begin(struct bench *bench, struct scratch *scratch, const char *text, size_t times)
 {
     static const char *paths[3];
-    FILE *file = fopen(scratch->path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    scratch_write(scratch->path, text);
     for (size_t i = 0; i < times; i++)
         paths[i] = scratch->path;
     *bench = (struct bench){.stream = {.paths = paths, .count = times}};

@@ -1,4 +1,3 @@
-#define SCRATCH_FILE "broken.json"
 #include "scratch.h"
 
 #include <sys/stat.h>
@@ -145,40 +144,18 @@ TEST(documents_tell_what_they_are)
     assert_null(strstr(sensors, "without an origin"));
 }
 
-/* Puts a document of the user's own into a folder of the scratch directory. */
-static void write_document(const struct scratch *scratch, const char *kind, const char *name,
-                           const char *content)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", scratch->directory, kind);
-    assert_int_equal(mkdir(path, 0700), 0);
-    snprintf(path, sizeof path, "%s/%s/%s", scratch->directory, kind, name);
-    FILE *file = fopen(path, "w");
-    assert_true(fputs(content, file) >= 0 && fclose(file) == 0);
-}
-
-static void remove_document(const struct scratch *scratch, const char *kind, const char *name)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s/%s", scratch->directory, kind, name);
-    assert_int_equal(unlink(path), 0);
-    snprintf(path, sizeof path, "%s/%s", scratch->directory, kind);
-    assert_int_equal(rmdir(path), 0);
-}
-
-TEST_WITH(make_scratch, remove_scratch, struct scratch *scratch,
-          documents_of_the_user_are_listed_also_if_they_cannot_be_read)
+SCRATCH_TEST(documents_of_the_user_are_listed_also_if_they_cannot_be_read)
 {
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
-    write_document(scratch, "vehicles", "broken.json", "{}");
-    write_document(scratch, "pipelines", "mine.sh",
-                   "#!/bin/sh\n# A title. What it shows, and\n# how. More.\n\n# Less.\n");
+    assert_int_equal(mkdir(scratch_in(scratch, "vehicles"), 0700), 0);
+    assert_int_equal(mkdir(scratch_in(scratch, "pipelines"), 0700), 0);
+    scratch_write(scratch_in(scratch, "vehicles/broken.json"), "{}");
+    scratch_write(scratch_in(scratch, "pipelines/mine.sh"),
+                  "#!/bin/sh\n# A title. What it shows, and\n# how. More.\n\n# Less.\n");
     expect_line("pipelines", "mine                   A title. What it shows, and how.\n", true);
     expect_line("vehicles", "broken                 ", true);
     assert_non_null(strstr(listed("vehicles"), "missing; expected"));
     unsetenv("GLINT_DATA");
-    remove_document(scratch, "vehicles", "broken.json");
-    remove_document(scratch, "pipelines", "mine.sh");
 }
 
 TEST(an_unknown_kind_is_refused_with_what_was_meant)

@@ -1,7 +1,5 @@
-#include "check.h"
-
-#include <dirent.h>
-#include <unistd.h>
+#define SCRATCH_FILE "frames"
+#include "scratch.h"
 
 #include "run/chain.h"
 #include "text/document.h"
@@ -75,52 +73,20 @@ static const struct stage counter = {.name = "counter",
     "\"travelled_m\":0}]}\n"
 #define FRAME(number, seed) HEAD(number, seed) OBJECTS
 
-struct scratch {
-    char folder[64];
-    char frames[96];
-};
-
-static void write_text(const char *folder, const char *name, const char *text)
+/* The scratch with an old output and two frames. */
+static int make_folder(void **state)
 {
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
-}
-
-static int make_scratch(void **state)
-{
-    struct scratch *scratch = calloc(1, sizeof *scratch);
-    assert_non_null(scratch);
-    strcpy(scratch->folder, "/tmp/glint-tool-XXXXXX");
-    assert_non_null(mkdtemp(scratch->folder));
-    snprintf(scratch->frames, sizeof scratch->frames, "%s/frames", scratch->folder);
-    write_text(scratch->folder, "first", "old");
-    write_text(scratch->folder, "frames", FRAME("0", "7") FRAME("1", "8"));
-    *state = scratch;
-    return 0;
-}
-
-static int remove_scratch(void **state)
-{
-    struct scratch *scratch = *state;
-    static const char *const names[] = {"first", "second", "frames"};
-    for (size_t i = 0; i < 3; i++) {
-        char path[128];
-        snprintf(path, sizeof path, "%s/%s", scratch->folder, names[i]);
-        unlink(path);
-    }
-    assert_int_equal(rmdir(scratch->folder), 0);
-    free(scratch);
+    make_scratch(state);
+    scratch_write(scratch_in(*state, "first"), "old");
+    scratch_write(scratch_in(*state, "frames"), FRAME("0", "7") FRAME("1", "8"));
     return 0;
 }
 
 /* The exit code of the tool; its words are the folder's name and those given, NULL after the last.
  */
-static int run(const struct stage *tool, const struct scratch *scratch, const char *const *more)
+static int run(const struct stage *tool, struct scratch *scratch, const char *const *more)
 {
-    const char *words[8] = {scratch->folder};
+    const char *words[8] = {scratch->directory};
     size_t count = 1;
     for (; more[count - 1] != NULL; count++)
         words[count] = more[count - 1];
@@ -131,55 +97,41 @@ static int run(const struct stage *tool, const struct scratch *scratch, const ch
     return code;
 }
 
-static void assert_holds(const struct scratch *scratch, const char *name, const char *expected)
+static void assert_holds(struct scratch *scratch, const char *name, const char *expected)
 {
-    char path[128];
     struct text text = {0};
     struct diag diag = {0};
-    snprintf(path, sizeof path, "%s/%s", scratch->folder, name);
-    if (document_bytes(path, &text, &diag) != 0)
+    if (document_bytes(scratch_in(scratch, name), &text, &diag) != 0)
         fail_msg("%s", diag.text);
     text_add(&text, "", 1);
     assert_string_equal(text.bytes, expected);
     text_free(&text);
 }
 
-static int files_in(const struct scratch *scratch)
-{
-    DIR *list = opendir(scratch->folder);
-    int count = -2; /* . and .. */
-    while (readdir(list) != NULL)
-        count++;
-    closedir(list);
-    return count;
-}
-
-#define TOOL_TEST(name) TEST_WITH(make_scratch, remove_scratch, struct scratch *scratch, name)
+#define TOOL_TEST(name) TEST_WITH(make_folder, remove_scratch, struct scratch *scratch, name)
 
 TOOL_TEST(every_output_takes_its_name_when_all_went_well)
 {
     assert_int_equal(run(&writer, scratch, (const char *[]){NULL}), 0);
     assert_holds(scratch, "first", "one\n");
     assert_holds(scratch, "second", "two\n");
-    assert_int_equal(files_in(scratch), 3);
+    assert_int_equal(scratch_count(scratch), 3);
 }
 
 TOOL_TEST(no_output_takes_its_name_if_the_tool_fails)
 {
     assert_int_equal(run(&writer, scratch, (const char *[]){"--fail", NULL}), DIAG_DATA);
     assert_holds(scratch, "first", "old");
-    assert_int_equal(files_in(scratch), 2);
+    assert_int_equal(scratch_count(scratch), 2);
 }
 
 /* The first is whole by then, and on the disk. */
 TOOL_TEST(no_output_takes_its_name_if_another_cannot_be_written)
 {
-    char full[96];
-    snprintf(full, sizeof full, "%s/second", scratch->folder);
-    assert_int_equal(symlink("/dev/full", full), 0);
+    assert_int_equal(symlink("/dev/full", scratch_in(scratch, "second")), 0);
     assert_int_equal(run(&writer, scratch, (const char *[]){NULL}), DIAG_IO);
     assert_holds(scratch, "first", "old");
-    assert_int_equal(files_in(scratch), 3);
+    assert_int_equal(scratch_count(scratch), 3);
 }
 
 TOOL_TEST(an_output_that_cannot_be_made_fails_the_tool)
@@ -187,7 +139,7 @@ TOOL_TEST(an_output_that_cannot_be_made_fails_the_tool)
     assert_int_equal(run(&writer, scratch, (const char *[]){"--second", "nowhere/a", NULL}),
                      DIAG_CANNOT_CREATE);
     assert_holds(scratch, "first", "old");
-    assert_int_equal(files_in(scratch), 2);
+    assert_int_equal(scratch_count(scratch), 2);
 }
 
 TOOL_TEST(a_tool_that_fails_without_a_word_is_told_of)
@@ -197,23 +149,23 @@ TOOL_TEST(a_tool_that_fails_without_a_word_is_told_of)
 
 TOOL_TEST(a_tool_gets_every_frame_with_the_seed_that_is_given)
 {
-    assert_int_equal(run(&counter, scratch, (const char *[]){scratch->frames, NULL}), 0);
+    assert_int_equal(run(&counter, scratch, (const char *[]){scratch->path, NULL}), 0);
     assert_holds(scratch, "first", "1");
-    assert_int_equal(run(&counter, scratch, (const char *[]){"--seed", "7", scratch->frames, NULL}),
+    assert_int_equal(run(&counter, scratch, (const char *[]){"--seed", "7", scratch->path, NULL}),
                      0);
     assert_holds(scratch, "first", "2");
 }
 
 TOOL_TEST(a_tool_gets_no_frame_without_what_it_reads)
 {
-    write_text(scratch->folder, "frames", FRAME("0", "7") HEAD("1", "7") "}\n");
-    assert_int_equal(run(&counter, scratch, (const char *[]){scratch->frames, NULL}), DIAG_DATA);
+    scratch_write(scratch->path, FRAME("0", "7") HEAD("1", "7") "}\n");
+    assert_int_equal(run(&counter, scratch, (const char *[]){scratch->path, NULL}), DIAG_DATA);
     assert_holds(scratch, "first", "old");
 }
 
 TOOL_TEST(a_tool_fails_at_the_end_of_scenes_that_should_be_whole)
 {
-    assert_int_equal(run(&counter, scratch, (const char *[]){"--complete", scratch->frames, NULL}),
+    assert_int_equal(run(&counter, scratch, (const char *[]){"--complete", scratch->path, NULL}),
                      DIAG_DATA);
     assert_holds(scratch, "first", "old");
 }

@@ -1,8 +1,6 @@
 #define SCRATCH_FILE "table.csv"
 #include "scratch.h"
 
-#include <unistd.h>
-
 #include <zlib.h>
 
 #include "text/csv_table.h"
@@ -102,19 +100,13 @@ TEST_OF(scratch, rows_come_one_after_the_other)
 /* A fault comes after the rows before it. */
 TEST_OF(scratch, rows_before_a_fault_come_first)
 {
-    FILE *file = fopen(scratch->path, "wb");
-    assert_non_null(file);
-    fputs("a,b\r1,2\r3\r5,6\r", file);
-    assert_int_equal(fclose(file), 0);
+    scratch_write(scratch->path, "a,b\r1,2\r3\r5,6\r");
     struct diag diag = {0};
     struct input *input = input_open(scratch->path, &diag);
     assert_null(csv_table_open(input, NULL, &diag));
     assert_string_equal(diag.text, "row 3: 1 cell; expected 2 as in the header");
     input_close(input);
-    file = fopen(scratch->path, "wb");
-    assert_non_null(file);
-    fputs("a,b\n1,2\n3\n5,6\n", file);
-    assert_int_equal(fclose(file), 0);
+    scratch_write(scratch->path, "a,b\n1,2\n3\n5,6\n");
     diag = (struct diag){0};
     input = input_open(scratch->path, &diag);
     struct csv_table_rows *rows = csv_table_open(input, NULL, &diag);
@@ -137,10 +129,7 @@ static const struct csv_table_form other_form = {
 static void rows_of(struct scratch *scratch, const char *text, const struct csv_table_form *form,
                     char *out, size_t room)
 {
-    FILE *file = fopen(scratch->path, "wb");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
+    scratch_write(scratch->path, text);
     struct diag diag = {0};
     struct input *input = input_open(scratch->path, &diag);
     struct csv_table_rows *rows = csv_table_open(input, form, &diag);

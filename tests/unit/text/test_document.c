@@ -1,18 +1,12 @@
-#include "check.h"
+#define SCRATCH_FILE "vehicles/mine.json"
+#include "scratch.h"
 
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "text/document.h"
 #include "traffic/scenario.h"
-
-struct scratch {
-    char directory[64];
-    char path[128];
-    struct arena arena;
-};
 
 static int read_document(const char *path, const struct record *record, void *base,
                          struct arena *arena, struct diag *diag)
@@ -25,39 +19,18 @@ static int read_document(const char *path, const struct record *record, void *ba
     return result;
 }
 
-static int make_scratch(void **state)
+/* The scratch with a folder of vehicles. */
+static int make_data(void **state)
 {
     document_guard_memory();
-    struct scratch *scratch = calloc(1, sizeof *scratch);
-    assert_non_null(scratch);
-    strcpy(scratch->directory, "/tmp/glint-document-XXXXXX");
-    assert_non_null(mkdtemp(scratch->directory));
-    snprintf(scratch->path, sizeof scratch->path, "%s/vehicles", scratch->directory);
-    assert_int_equal(mkdir(scratch->path, 0777), 0);
-    snprintf(scratch->path, sizeof scratch->path, "%s/vehicles/mine.json", scratch->directory);
-    *state = scratch;
-    return 0;
+    make_scratch(state);
+    return mkdir(scratch_in(*state, "vehicles"), 0777);
 }
 
-static int remove_scratch(void **state)
+static int remove_data(void **state)
 {
-    struct scratch *scratch = *state;
-    unlink(scratch->path);
-    *strrchr(scratch->path, '/') = '\0';
-    rmdir(scratch->path);
-    rmdir(scratch->directory);
-    arena_free(&scratch->arena);
     unsetenv("GLINT_DATA");
-    free(scratch);
-    return 0;
-}
-
-static void write_document(const struct scratch *scratch, const char *text)
-{
-    FILE *file = fopen(scratch->path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
+    return remove_scratch(state);
 }
 
 static const char vehicle_text[] =
@@ -65,20 +38,19 @@ static const char vehicle_text[] =
     " \"reflectors\": {\"blocks\": true, \"points\": [{\"name\": \"p\", \"x\": 0.5, \"y\": -0.5,\n"
     "  \"facing_rad\": 0, \"full_rad\": 1, \"zero_rad\": 2, \"ercs\": 1}]}}\n";
 
-FIXTURE(make_scratch, remove_scratch);
+FIXTURE(make_data, remove_data);
 
 TEST_OF(scratch, names_are_looked_up_in_the_data_folder_first)
 {
     struct diag diag = {0};
-    write_document(scratch, vehicle_text);
+    scratch_write(scratch->path, vehicle_text);
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
     assert_string_equal(document_find(NULL, "vehicles", "mine", ".json", &scratch->arena, &diag),
                         scratch->path);
     /* A name that is not there is found in the places after it. */
     assert_non_null(document_find(NULL, "vehicles", "car", ".json", &scratch->arena, &diag));
     /* A name that is in both is found in the first. */
-    char car[128];
-    snprintf(car, sizeof car, "%s/vehicles/car.json", scratch->directory);
+    const char *car = scratch_in(scratch, "vehicles/car.json");
     assert_int_equal(link(scratch->path, car), 0);
     assert_string_equal(document_find(NULL, "vehicles", "car", ".json", &scratch->arena, &diag),
                         car);
@@ -152,7 +124,7 @@ TEST_OF(scratch, a_document_fills_its_struct)
 {
     struct diag diag = {0};
     struct vehicle vehicle;
-    write_document(scratch, vehicle_text);
+    scratch_write(scratch->path, vehicle_text);
     assert_int_equal(
         read_document(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), 0);
     assert_string_equal(vehicle.origin, "a test");
@@ -172,7 +144,7 @@ static void write_changed(const struct scratch *scratch, const char *from, const
     char text[2048];
     snprintf(text, sizeof text, "%.*s%s%s", (int)(at - vehicle_text), vehicle_text, to,
              at + strlen(from));
-    write_document(scratch, text);
+    scratch_write(scratch->path, text);
 }
 
 TEST_OF(scratch, faults_are_named_with_path_member_and_expectation)
@@ -228,7 +200,7 @@ TEST_OF(scratch, text_that_is_not_a_document_is_refused_with_its_line)
         struct vehicle vehicle;
         struct diag diag = {0};
         char begin[256];
-        write_document(scratch, cases[i].text);
+        scratch_write(scratch->path, cases[i].text);
         int length = snprintf(begin, sizeof begin, "%s%s", scratch->path, cases[i].message);
         assert_int_equal(
             read_document(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
@@ -245,9 +217,9 @@ TEST_OF(scratch, notes_are_strings)
     static const struct record record = {.name = "thing", .size = 1, .fields = fields};
     char nothing;
     struct diag diag = {0};
-    write_document(scratch, "{\"sources\": {\"a\": \"b\", \"c\": \"d\"}}");
+    scratch_write(scratch->path, "{\"sources\": {\"a\": \"b\", \"c\": \"d\"}}");
     assert_int_equal(read_document(scratch->path, &record, &nothing, &scratch->arena, &diag), 0);
-    write_document(scratch, "{\"sources\": {\"a\": \"b\", \"c\": 1}}");
+    scratch_write(scratch->path, "{\"sources\": {\"a\": \"b\", \"c\": 1}}");
     assert_int_equal(read_document(scratch->path, &record, &nothing, &scratch->arena, &diag), -1);
     assert_non_null(strstr(diag.text, "mine.json: sources.c: a number; expected a string"));
 }

@@ -1,40 +1,14 @@
 /* For F_SETPIPE_SZ. */
 #define _GNU_SOURCE
-#include "check.h"
+#include "scratch.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <zlib.h>
 
 #include "sample.h"
 #include "text/input.h"
-
-struct scratch {
-    char directory[64];
-    char path[96];
-};
-
-static int make_scratch(void **state)
-{
-    struct scratch *scratch = calloc(1, sizeof *scratch);
-    assert_non_null(scratch);
-    strcpy(scratch->directory, "/tmp/glint-input-XXXXXX");
-    assert_non_null(mkdtemp(scratch->directory));
-    snprintf(scratch->path, sizeof scratch->path, "%s/file", scratch->directory);
-    *state = scratch;
-    return 0;
-}
-
-static int remove_scratch(void **state)
-{
-    struct scratch *scratch = *state;
-    unlink(scratch->path);
-    rmdir(scratch->directory);
-    free(scratch);
-    return 0;
-}
 
 static struct input *open_bytes(const struct scratch *scratch, const char *bytes, size_t length)
 {

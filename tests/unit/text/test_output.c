@@ -1,8 +1,8 @@
 /* For O_TMPFILE. */
 #define _GNU_SOURCE
-#include "check.h"
+#define SCRATCH_FILE "a"
+#include "scratch.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -12,7 +12,6 @@
 #include <sys/stat.h>
 #include <sys/utsname.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include "text/input.h"
 #include "text/output.h"
@@ -62,45 +61,6 @@ int __wrap_rename(const char *from, const char *to)
     return irreplaceable ? -1 : __real_rename(from, to);
 }
 
-struct scratch {
-    char directory[64];
-    char path[96], packed[96], fifo[96];
-};
-
-static int make_scratch(void **state)
-{
-    struct scratch *scratch = calloc(1, sizeof *scratch);
-    assert_non_null(scratch);
-    strcpy(scratch->directory, "/tmp/glint-output-XXXXXX");
-    assert_non_null(mkdtemp(scratch->directory));
-    snprintf(scratch->path, sizeof scratch->path, "%s/a", scratch->directory);
-    snprintf(scratch->packed, sizeof scratch->packed, "%s/a.gz", scratch->directory);
-    snprintf(scratch->fifo, sizeof scratch->fifo, "%s/fifo", scratch->directory);
-    *state = scratch;
-    return 0;
-}
-
-static int remove_scratch(void **state)
-{
-    struct scratch *scratch = *state;
-    unlink(scratch->path);
-    unlink(scratch->packed);
-    unlink(scratch->fifo);
-    rmdir(scratch->directory);
-    free(scratch);
-    return 0;
-}
-
-static int files_in(const char *directory)
-{
-    DIR *list = opendir(directory);
-    int count = -2; /* . and .. */
-    while (readdir(list) != NULL)
-        count++;
-    closedir(list);
-    return count;
-}
-
 static struct text read_all(const char *path)
 {
     struct text text = {0};
@@ -142,7 +102,7 @@ TEST_OF(scratch, written_bytes_can_be_read)
     for (size_t i = 0; i < 6; i++)
         for (size_t j = i > 4 ? 1 : 0; j < 5; j++)
             for (int packed = 0; packed < 2; packed++) {
-                const char *path = packed ? scratch->packed : scratch->path;
+                const char *path = packed ? scratch_in(scratch, "a.gz") : scratch->path;
                 struct text text = sample_text(lengths[i]);
                 write_file(path, &text, pieces[j]);
                 struct text back = read_all(path);
@@ -152,7 +112,7 @@ TEST_OF(scratch, written_bytes_can_be_read)
                 text_free(&back);
                 text_free(&text);
             }
-    assert_int_equal(files_in(scratch->directory), 2);
+    assert_int_equal(scratch_count(scratch), 2);
 }
 
 TEST_OF(scratch, appended_text_is_written_in_whole_pieces)
@@ -201,12 +161,12 @@ TEST_OF(scratch, gz_is_gzip_and_depends_on_nothing_but_its_content)
     text_free(&text);
 }
 
-static void rewrite(const struct scratch *scratch, const char *path, bool whole)
+static void rewrite(struct scratch *scratch, const char *path, bool whole)
 {
     struct text old = {0}, new = sample_text(100000), back;
     text_add_word(&old, "old");
     write_file(path, &old, 3);
-    int before = files_in(scratch->directory);
+    int before = scratch_count(scratch);
     int temporary = has_unnamed(scratch->directory) ? 0 : 1;
     struct diag diag = {0};
     struct output *output = output_open(path, &diag);
@@ -215,9 +175,9 @@ static void rewrite(const struct scratch *scratch, const char *path, bool whole)
     back = read_all(path);
     assert_int_equal(back.length, 3);
     text_free(&back);
-    assert_int_equal(files_in(scratch->directory), before + temporary);
+    assert_int_equal(scratch_count(scratch), before + temporary);
     assert_int_equal(output_close(output, whole, &diag), 0);
-    assert_int_equal(files_in(scratch->directory), before);
+    assert_int_equal(scratch_count(scratch), before);
     back = read_all(path);
     assert_int_equal(back.length, whole ? new.length : old.length);
     text_free(&back);
@@ -229,7 +189,7 @@ TEST_OF(scratch, the_name_is_taken_only_when_the_file_is_complete)
 {
     for (int i = 0; i < 8; i++) {
         names_only = (i & 1) != 0;
-        rewrite(scratch, (i & 2) != 0 ? scratch->packed : scratch->path, (i & 4) != 0);
+        rewrite(scratch, (i & 2) != 0 ? scratch_in(scratch, "a.gz") : scratch->path, (i & 4) != 0);
     }
     names_only = false;
 }
@@ -341,7 +301,7 @@ TEST_OF(scratch, files_that_belong_together_are_never_old_beside_new)
 {
     char names[TOGETHER][96];
     const char *paths[TOGETHER] = {names[0], names[1], names[2]};
-    int kills = 0, before = files_in(scratch->directory);
+    int kills = 0, before = scratch_count(scratch);
     bool killed = true;
     for (int i = 0; i < TOGETHER; i++)
         snprintf(names[i], sizeof names[i], "%s/%d.csv", scratch->directory, i);
@@ -363,13 +323,13 @@ TEST_OF(scratch, files_that_belong_together_are_never_old_beside_new)
     }
     assert_int_equal(kills,
                      3 * TOGETHER); /* an old file goes aside, a new one comes, the old ends */
-    assert_int_equal(files_in(scratch->directory), before + TOGETHER);
+    assert_int_equal(scratch_count(scratch), before + TOGETHER);
     for (int i = 0; i < TOGETHER; i++)
         unlink(paths[i]);
 }
 
 /* "DIRECTORY/.glint-PROCESS-NUMBER@HOST" */
-static const char *temporary(const struct scratch *scratch, pid_t process, int number)
+static const char *temporary(struct scratch *scratch, pid_t process, int number)
 {
     static char path[256];
     struct utsname system;
@@ -383,27 +343,27 @@ TEST_OF(scratch, a_run_that_is_ended_leaves_the_folder_as_it_was)
 {
     static const int signals[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, 0};
     write_word(scratch->path, "old");
-    int before = files_in(scratch->directory);
+    int before = scratch_count(scratch);
     for (int i = 0; i < 7; i++) {
         if (signals[i] != 0 && !has_unnamed(scratch->directory))
             continue;
         end_early(scratch->path, signals[i]);
-        assert_int_equal(files_in(scratch->directory), before);
+        assert_int_equal(scratch_count(scratch), before);
         expect_bytes(scratch->path, "old");
     }
     end_early(scratch->path, SIGKILL);
     if (has_unnamed(scratch->directory))
-        assert_int_equal(files_in(scratch->directory), before);
+        assert_int_equal(scratch_count(scratch), before);
 }
 
 TEST_OF(scratch, what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next)
 {
     struct diag diag = {0};
     write_word(scratch->path, "old");
-    unlink(scratch->packed);
-    int before = files_in(scratch->directory);
+    unlink(scratch_in(scratch, "a.gz"));
+    int before = scratch_count(scratch);
     names_only = true;
-    struct output *running = output_open(scratch->packed, &diag);
+    struct output *running = output_open(scratch_in(scratch, "a.gz"), &diag);
     pid_t killed = end_early(scratch->path, SIGKILL);
     assert_int_equal(access(temporary(scratch, killed, 1), F_OK), 0);
     expect_bytes(scratch->path, "old");
@@ -411,16 +371,15 @@ TEST_OF(scratch, what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_ne
     assert_int_equal(access(temporary(scratch, killed, 1), F_OK), -1);
     assert_int_equal(access(temporary(scratch, getpid(), 1), F_OK), 0);
     assert_int_equal(output_close(running, true, &diag), 0);
-    unlink(scratch->packed);
-    assert_int_equal(files_in(scratch->directory), before);
+    unlink(scratch_in(scratch, "a.gz"));
+    assert_int_equal(scratch_count(scratch), before);
     names_only = false;
 }
 
 /* Whose file another host's temporary is, nobody here can know, and without locks nobody at all. */
 TEST_OF(scratch, a_temporary_file_that_may_be_in_use_stays)
 {
-    char foreign[128];
-    snprintf(foreign, sizeof foreign, "%s/.glint-1-1@elsewhere", scratch->directory);
+    const char *foreign = scratch_in(scratch, ".glint-1-1@elsewhere");
     names_only = true;
     write_word(scratch->path, "old");
     write_word(foreign, "another host's");
@@ -440,7 +399,7 @@ TEST_OF(scratch, a_full_disk_leaves_the_folder_as_it_was)
 {
     struct text new = sample_text(100000);
     write_word(scratch->path, "old");
-    int before = files_in(scratch->directory);
+    int before = scratch_count(scratch);
     for (int i = 0; i < 2; i++) {
         names_only = i == 1;
         int code = -1;
@@ -456,7 +415,7 @@ TEST_OF(scratch, a_full_disk_leaves_the_folder_as_it_was)
         }
         assert_int_equal(waitpid(child, &code, 0), child);
         assert_int_equal(WEXITSTATUS(code), DIAG_IO);
-        assert_int_equal(files_in(scratch->directory), before);
+        assert_int_equal(scratch_count(scratch), before);
         expect_bytes(scratch->path, "old");
     }
     names_only = false;
@@ -466,20 +425,19 @@ TEST_OF(scratch, a_full_disk_leaves_the_folder_as_it_was)
 /* Somebody who guessed the temporary name has made a link of that name. */
 TEST_OF(scratch, a_planted_link_is_neither_followed_nor_removed)
 {
-    char victim[128];
-    snprintf(victim, sizeof victim, "%s/victim", scratch->directory);
+    const char *victim = scratch_in(scratch, "victim");
     write_word(victim, "precious");
     const char *planted = temporary(scratch, getpid(), 1);
     assert_int_equal(symlink("victim", planted), 0);
     for (int i = 0; i < 2; i++) {
         names_only = i == 1;
         write_word(scratch->path, "old");
-        int before = files_in(scratch->directory);
+        int before = scratch_count(scratch);
         write_word(scratch->path, "new");
         expect_bytes(scratch->path, "new");
         expect_bytes(victim, "precious");
         expect_bytes(planted, "precious");
-        assert_int_equal(files_in(scratch->directory), before);
+        assert_int_equal(scratch_count(scratch), before);
     }
     names_only = false;
     unlink(planted);
@@ -488,7 +446,7 @@ TEST_OF(scratch, a_planted_link_is_neither_followed_nor_removed)
 
 TEST_OF(scratch, two_writers_of_one_name_each_leave_a_whole_file)
 {
-    int before = files_in(scratch->directory);
+    int before = scratch_count(scratch);
     for (int i = 0; i < 2; i++) {
         names_only = i == 1;
         struct diag diag = {0};
@@ -500,15 +458,14 @@ TEST_OF(scratch, two_writers_of_one_name_each_leave_a_whole_file)
         expect_bytes(scratch->path, "first");
         assert_int_equal(output_close(second, true, &diag), 0);
         expect_bytes(scratch->path, "second");
-        assert_int_equal(files_in(scratch->directory), before);
+        assert_int_equal(scratch_count(scratch), before);
     }
     names_only = false;
 }
 
 TEST_OF(scratch, the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
 {
-    char twin[128];
-    snprintf(twin, sizeof twin, "%s/twin", scratch->directory);
+    const char *twin = scratch_in(scratch, "twin");
     for (int i = 0; i < 2; i++) {
         names_only = i == 1;
         write_word(scratch->path, "old");
@@ -526,7 +483,7 @@ TEST_OF(scratch, the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
 TEST_OF(scratch, a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
 {
     write_word(scratch->path, "old");
-    int before = files_in(scratch->directory);
+    int before = scratch_count(scratch);
     for (int i = 0; i < 2; i++) {
         struct diag diag = {0};
         names_only = i == 1;
@@ -538,13 +495,13 @@ TEST_OF(scratch, a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
         assert_int_equal(diag.code, DIAG_CANNOT_CREATE);
         assert_non_null(strstr(diag.text, "busy; no new file can take the place of this one"));
         expect_bytes(scratch->path, "old");
-        assert_int_equal(files_in(scratch->directory), before);
+        assert_int_equal(scratch_count(scratch), before);
     }
     names_only = false;
 }
 
 /* What a user without rights finds: the message, and the old bytes. */
-static void expect_refused(const struct scratch *scratch, const char *message)
+static void expect_refused(struct scratch *scratch, const char *message)
 {
     int code = -1;
     pid_t child = fork();
@@ -615,17 +572,16 @@ TEST_OF(scratch, a_file_that_may_not_be_written_is_refused_at_once)
 
 TEST_OF(scratch, a_link_to_nothing_makes_the_file_that_it_names)
 {
-    char second[128];
+    const char *second = scratch_in(scratch, "link");
     struct stat status;
-    snprintf(second, sizeof second, "%s/link", scratch->directory);
     unlink(scratch->path);
     assert_int_equal(symlink("fifo", second), 0);
-    assert_int_equal(symlink("a", scratch->fifo), 0);
+    assert_int_equal(symlink("a", scratch_in(scratch, "fifo")), 0);
     for (int i = 0; i < 2; i++) {
         write_word(second, i == 0 ? "made" : "again");
         expect_bytes(scratch->path, i == 0 ? "made" : "again");
         assert_true(lstat(second, &status) == 0 && S_ISLNK(status.st_mode));
-        assert_true(lstat(scratch->fifo, &status) == 0 && S_ISLNK(status.st_mode));
+        assert_true(lstat(scratch_in(scratch, "fifo"), &status) == 0 && S_ISLNK(status.st_mode));
         assert_true(lstat(scratch->path, &status) == 0 && S_ISREG(status.st_mode));
     }
     unlink(scratch->path);
@@ -634,7 +590,7 @@ TEST_OF(scratch, a_link_to_nothing_makes_the_file_that_it_names)
     assert_null(output_open(second, &diag));
     assert_non_null(strstr(diag.text, ": Too many levels of symbolic links"));
     unlink(second);
-    unlink(scratch->fifo);
+    unlink(scratch_in(scratch, "fifo"));
     unlink(scratch->path);
 }
 
@@ -692,7 +648,7 @@ TEST_OF(scratch, a_descriptor_that_cannot_be_written_is_refused)
 
 TEST_OF(scratch, the_message_says_why_a_file_cannot_be_created_and_nothing_is_left)
 {
-    int before = files_in(scratch->directory);
+    int before = scratch_count(scratch);
     struct diag diag = {0};
     assert_null(output_open("/nonexistent/a", &diag));
     assert_string_equal(diag.text, "/nonexistent/a: No such file or directory");
@@ -701,7 +657,7 @@ TEST_OF(scratch, the_message_says_why_a_file_cannot_be_created_and_nothing_is_le
     assert_null(output_open(scratch->directory, &diag));
     assert_non_null(strstr(diag.text, ": Is a directory"));
     assert_int_equal(diag.code, DIAG_CANNOT_CREATE);
-    assert_int_equal(files_in(scratch->directory), before);
+    assert_int_equal(scratch_count(scratch), before);
 }
 
 TEST(a_full_device_is_noticed_at_the_latest_when_it_is_closed)
@@ -731,14 +687,14 @@ TEST_OF(scratch, pipes_and_devices_are_written_directly)
     struct stat status;
     assert_int_equal(stat("/dev/null", &status), 0);
     assert_true(S_ISCHR(status.st_mode));
-    assert_int_equal(mkfifo(scratch->fifo, 0600), 0);
+    assert_int_equal(mkfifo(scratch_in(scratch, "fifo"), 0600), 0);
     pid_t child = fork();
     if (child == 0) {
-        output = output_open(scratch->fifo, &diag);
+        output = output_open(scratch_in(scratch, "fifo"), &diag);
         output_write(output, "through", 7, &diag);
         _exit(output_close(output, 1, &diag) != 0);
     }
-    struct text back = read_all(scratch->fifo);
+    struct text back = read_all(scratch_in(scratch, "fifo"));
     assert_int_equal(back.length, 7);
     assert_memory_equal(back.bytes, "through", 7);
     int code = -1;
@@ -757,10 +713,10 @@ static long waiting_in(int fd)
 TEST_OF(scratch, what_a_pipe_holds_back_is_flushed)
 {
     struct diag diag = {0};
-    unlink(scratch->fifo);
-    assert_int_equal(mkfifo(scratch->fifo, 0600), 0);
-    int reader = open(scratch->fifo, O_RDONLY | O_NONBLOCK);
-    struct output *output = output_open(scratch->fifo, &diag);
+    unlink(scratch_in(scratch, "fifo"));
+    assert_int_equal(mkfifo(scratch_in(scratch, "fifo"), 0600), 0);
+    int reader = open(scratch_in(scratch, "fifo"), O_RDONLY | O_NONBLOCK);
+    struct output *output = output_open(scratch_in(scratch, "fifo"), &diag);
     assert_int_equal(output_flush(output, &diag), 0);
     assert_int_equal(output_write(output, "held", 4, &diag), 0);
     assert_int_equal(waiting_in(reader), 0);
@@ -776,7 +732,8 @@ TEST_OF(scratch, files_keep_what_they_hold_back)
 {
     for (int packed = 0; packed <= 1; packed++) {
         struct diag diag = {0};
-        struct output *output = output_open(packed ? scratch->packed : scratch->path, &diag);
+        struct output *output =
+            output_open(packed ? scratch_in(scratch, "a.gz") : scratch->path, &diag);
         assert_int_equal(output_write(output, "held", 4, &diag), 0);
         assert_int_equal(output_flush(output, &diag), 0);
         assert_int_equal(output_text(output)->length, 4);

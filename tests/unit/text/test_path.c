@@ -1,4 +1,3 @@
-#define SCRATCH_FILE "file"
 #include "scratch.h"
 
 #include "text/path.h"
@@ -37,41 +36,31 @@ SCRATCH_TEST(devices_and_pipes_are_special)
     assert_false(path_is_special(scratch->path));
 }
 
-/* The path of a name in the scratch directory. */
-static const char *in(const struct scratch *scratch, const char *name)
-{
-    static char paths[4][128];
-    static int next;
-    next = (next + 1) % 4;
-    snprintf(paths[next], sizeof paths[next], "%s/%s", scratch->directory, name);
-    return paths[next];
-}
-
 /* file <- link <- longer, and other <- absolute; none of the files is there at first. */
-static void make_links(const struct scratch *scratch)
+static void make_links(struct scratch *scratch)
 {
-    assert_int_equal(symlink(SCRATCH_FILE, in(scratch, "link")), 0);
-    assert_int_equal(symlink("./link", in(scratch, "longer")), 0);
-    assert_int_equal(symlink(in(scratch, "other"), in(scratch, "absolute")), 0);
+    assert_int_equal(symlink(SCRATCH_FILE, scratch_in(scratch, "link")), 0);
+    assert_int_equal(symlink("./link", scratch_in(scratch, "longer")), 0);
+    assert_int_equal(symlink(scratch_in(scratch, "other"), scratch_in(scratch, "absolute")), 0);
 }
 
-static void remove_links(const struct scratch *scratch)
+static void remove_links(struct scratch *scratch)
 {
     static const char *const names[] = {"link", "longer", "absolute", "twin"};
     for (size_t i = 0; i < 4; i++)
-        unlink(in(scratch, names[i]));
+        unlink(scratch_in(scratch, names[i]));
 }
 
 SCRATCH_TEST(links_lead_to_a_path_whether_its_file_is_there_or_not)
 {
     make_links(scratch);
     for (int there = 0; there < 2; there++) {
-        char *target = path_target(in(scratch, "longer"));
+        char *target = path_target(scratch_in(scratch, "longer"));
         assert_true(path_same_file(target, scratch->path));
         assert_string_equal(path_name(target), SCRATCH_FILE);
         free(target);
-        target = path_target(in(scratch, "absolute"));
-        assert_string_equal(target, in(scratch, "other"));
+        target = path_target(scratch_in(scratch, "absolute"));
+        assert_string_equal(target, scratch_in(scratch, "other"));
         free(target);
         fclose(fopen(scratch->path, "w"));
     }
@@ -86,15 +75,17 @@ SCRATCH_TEST(two_paths_to_one_file_are_the_same_whether_it_is_there_or_not)
     for (int there = 0; there < 2; there++) {
         for (size_t i = 0; i < 4; i++) {
             for (size_t j = 0; j < 4; j++)
-                assert_true(path_same_file(in(scratch, same[i]), in(scratch, same[j])));
+                assert_true(
+                    path_same_file(scratch_in(scratch, same[i]), scratch_in(scratch, same[j])));
             for (size_t j = 0; j < 3; j++)
-                assert_false(path_same_file(in(scratch, same[i]), in(scratch, others[j])));
+                assert_false(
+                    path_same_file(scratch_in(scratch, same[i]), scratch_in(scratch, others[j])));
         }
-        assert_true(path_same_file(in(scratch, "other"), in(scratch, "absolute")));
+        assert_true(path_same_file(scratch_in(scratch, "other"), scratch_in(scratch, "absolute")));
         fclose(fopen(scratch->path, "w"));
     }
-    assert_int_equal(link(scratch->path, in(scratch, "twin")), 0);
-    assert_true(path_same_file(in(scratch, "twin"), in(scratch, "longer")));
+    assert_int_equal(link(scratch->path, scratch_in(scratch, "twin")), 0);
+    assert_true(path_same_file(scratch_in(scratch, "twin"), scratch_in(scratch, "longer")));
     assert_false(path_same_file("/dev/null", "/dev/null"));
     remove_links(scratch);
 }
