@@ -359,6 +359,7 @@ TEST(an_amplitude_at_the_threshold_is_detected)
     double naive = 0, ours = 0;
     for (int i = -500; i < 500; i++) {
         struct sensor sensor = {.name = "s",
+                                .carrier_hz = 77e9,
                                 .threshold_db = i / 10.0,
                                 .calibration_ercs = 1,
                                 .calibration_range_m = 10};

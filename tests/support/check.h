@@ -58,6 +58,14 @@ struct check_entry {
  * struct scratch *scratch. */
 #define TEST_OF(subject, name) TEST_WITH(NULL, NULL, struct subject *subject, name)
 
+/* What a setup makes: zeroed memory, which its teardown frees. */
+static inline void *check_make(void **state, size_t size)
+{
+    *state = calloc(1, size);
+    assert_non_null(*state);
+    return *state;
+}
+
 /* Memory of the test that runs; it is freed when the test has passed. */
 struct arena *check_arena(void);
 

@@ -18,8 +18,7 @@ struct effect_bench {
 
 static inline int make_effect_bench(void **state)
 {
-    struct effect_bench *bench = calloc(1, sizeof *bench);
-    assert_non_null(bench);
+    struct effect_bench *bench = check_make(state, sizeof *bench);
     struct frame *frame = &bench->frame;
     *frame = (struct frame){.scene = "s", .ego = "ego", .seed = 1, .arena = &bench->arena};
     *list_add(&frame->objects, &bench->arena) = (struct object){.id = "ego", .class = "car"};
@@ -40,7 +39,6 @@ static inline int make_effect_bench(void **state)
                                     .cell_range_m = 1,
                                     .cell_range_rate_mps = 1};
     suite_derive(&bench->sensor);
-    *state = bench;
     return 0;
 }
 

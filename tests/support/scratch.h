@@ -47,12 +47,10 @@ static inline int scratch_count(const struct scratch *scratch)
 
 static inline int make_scratch(void **state)
 {
-    struct scratch *scratch = calloc(1, sizeof *scratch);
-    assert_non_null(scratch);
+    struct scratch *scratch = check_make(state, sizeof *scratch);
     strcpy(scratch->directory, "/tmp/glint-test-XXXXXX");
     assert_non_null(mkdtemp(scratch->directory));
     snprintf(scratch->path, sizeof scratch->path, "%s/%s", scratch->directory, SCRATCH_FILE);
-    *state = scratch;
     return 0;
 }
 

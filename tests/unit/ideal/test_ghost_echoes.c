@@ -38,10 +38,8 @@ static void clear_scene(struct scene *scene)
 
 static int make_scene(void **state)
 {
-    struct scene *scene = calloc(1, sizeof *scene);
-    assert_non_null(scene);
+    struct scene *scene = check_make(state, sizeof *scene);
     clear_scene(scene);
-    *state = scene;
     return 0;
 }
 

@@ -39,12 +39,11 @@ static struct recorded_row circling(const char *id, double time_ms, size_t place
     return row;
 }
 
-static struct recorded_reader stored(struct given *given, double rate_hz, struct arena *arena,
-                                     struct diag *diag)
+static struct recorded_reader stored(struct given *given, double rate_hz, struct diag *diag)
 {
     struct recorded_plausibility plausibility = {0};
     return recorded_store_open((struct recorded_reader){&format, given}, rate_hz, &plausibility,
-                               arena, diag);
+                               check_arena(), diag);
 }
 
 static int compare_letters(const void *one, const void *other)
@@ -87,23 +86,7 @@ static void assert_circling(const struct recorded_row *row, double tolerance)
     assert_close(row->yaw_rate_radps, exact.yaw_rate_radps, tolerance);
 }
 
-static int make_arena(void **state)
-{
-    *state = memory_get(sizeof(struct arena));
-    memset(*state, 0, sizeof(struct arena));
-    return 0;
-}
-
-static int remove_arena(void **state)
-{
-    arena_free(*state);
-    free(*state);
-    return 0;
-}
-
-FIXTURE(make_arena, remove_arena);
-
-TEST_OF(arena, stamps_within_a_tenth_of_the_usual_step_are_one_step)
+TEST(stamps_within_a_tenth_of_the_usual_step_are_one_step)
 {
     struct diag diag = {0};
     const struct recorded_row rows[] = {
@@ -111,11 +94,11 @@ TEST_OF(arena, stamps_within_a_tenth_of_the_usual_step_are_one_step)
         circling("b", 9, 5),   circling("b", 91, 6),  circling("b", 200, 7), circling("b", 310, 8),
         circling("c", 100, 9), circling("c", 300, 10)};
     struct given given = {rows, 10, 0};
-    assert_steps(stored(&given, 0, arena, &diag), "0 a b;100 a b c;200 a b;300 a b c;");
+    assert_steps(stored(&given, 0, &diag), "0 a b;100 a b c;200 a b;300 a b c;");
 }
 
 /* b's stamp is 10 ms after a's: it turns with the yaw rate of its own stamps. */
-TEST_OF(arena, a_row_is_moved_to_the_time_of_its_step)
+TEST(a_row_is_moved_to_the_time_of_its_step)
 {
     struct diag diag = {0};
     struct recorded_row rows[9], row;
@@ -126,7 +109,7 @@ TEST_OF(arena, a_row_is_moved_to_the_time_of_its_step)
         rows[3 * i + 1].yaw_rate_radps = (double)NAN;
     }
     struct given given = {rows, 9, 0};
-    struct recorded_reader reader = stored(&given, 0, arena, &diag);
+    struct recorded_reader reader = stored(&given, 0, &diag);
     size_t moved = 0;
     for (int event; (event = reader.format->next(reader.state, &row, &diag)) > 0;) {
         if (event == RECORDED_ROW)
@@ -137,7 +120,7 @@ TEST_OF(arena, a_row_is_moved_to_the_time_of_its_step)
 }
 
 /* Without velocities those of the rows' own stamps move a row. */
-TEST_OF(arena, velocities_that_lack_are_those_of_the_own_stamps)
+TEST(velocities_that_lack_are_those_of_the_own_stamps)
 {
     struct diag diag = {0};
     struct recorded_row rows[8], row;
@@ -148,7 +131,7 @@ TEST_OF(arena, velocities_that_lack_are_those_of_the_own_stamps)
         rows[2 * i + 1].vx_mps = rows[2 * i + 1].vy_mps = (double)NAN;
     }
     struct given given = {rows, 8, 0};
-    struct recorded_reader reader = stored(&given, 0, arena, &diag);
+    struct recorded_reader reader = stored(&given, 0, &diag);
     for (int event; (event = reader.format->next(reader.state, &row, &diag)) > 0;) {
         struct recorded_row exact = circling("b", (double)row.time_ns * 1e-6, 0);
         if (event == RECORDED_ROW && *row.id == 'b')
@@ -157,7 +140,7 @@ TEST_OF(arena, velocities_that_lack_are_those_of_the_own_stamps)
 }
 
 /* At 100 ms the stamps are 8 and 4 ms after each other: after 10 ms the next step begins. */
-TEST_OF(arena, a_chain_of_stamps_is_cut_at_a_tenth)
+TEST(a_chain_of_stamps_is_cut_at_a_tenth)
 {
     struct diag diag = {0};
     struct recorded_row rows[36];
@@ -169,23 +152,23 @@ TEST_OF(arena, a_chain_of_stamps_is_cut_at_a_tenth)
     }
     struct given given = {rows, 36, 0};
     assert_steps(
-        stored(&given, 0, arena, &diag),
+        stored(&given, 0, &diag),
         "0 a b c;100 a b;112 c;200 a b c;300 a b c;400 a b c;500 a b c;600 a b c;700 a b c;"
         "800 a b c;900 a b c;1000 a b c;1100 a b c;");
 }
 
-TEST_OF(arena, a_step_has_no_two_stamps_of_one_road_user)
+TEST(a_step_has_no_two_stamps_of_one_road_user)
 {
     struct diag diag = {0};
     const struct recorded_row rows[] = {circling("a", 0, 1),   circling("a", 100, 2),
                                         circling("a", 101, 3), circling("a", 200, 4),
                                         circling("a", 300, 5), circling("b", 101, 6)};
     struct given given = {rows, 6, 0};
-    assert_steps(stored(&given, 0, arena, &diag), "0 a;100 a;101 a b;200 a;300 a;");
+    assert_steps(stored(&given, 0, &diag), "0 a;100 a;101 a b;200 a;300 a;");
 }
 
 /* Whoever is absent for steps has left; that makes no times of its own. */
-TEST_OF(arena, absences_are_no_times_of_their_own)
+TEST(absences_are_no_times_of_their_own)
 {
     struct diag diag = {0};
     const struct recorded_row rows[] = {
@@ -193,7 +176,7 @@ TEST_OF(arena, absences_are_no_times_of_their_own)
         circling("b", 0, 5),   circling("b", 100, 6), circling("b", 200, 7), circling("b", 300, 8),
         circling("b", 400, 9), circling("b", 500, 10)};
     struct given given = {rows, 10, 0};
-    struct recorded_reader reader = stored(&given, 0, arena, &diag);
+    struct recorded_reader reader = stored(&given, 0, &diag);
     assert_steps(reader, "0 a b;100 a b;200 b;300 a b;400 b;500 a b;");
     recorded_store_rewind(reader);
     assert_steps(reader, "0 a b;100 a b;200 b;300 a b;400 b;500 a b;");
@@ -215,23 +198,23 @@ static size_t rows_apart(struct recorded_row *rows)
     return count;
 }
 
-TEST_OF(arena, times_of_their_own_need_a_rate)
+TEST(times_of_their_own_need_a_rate)
 {
     struct diag diag = {0};
     struct recorded_row rows[90];
     struct given given = {rows, rows_apart(rows), 0};
-    assert_null(stored(&given, 0, arena, &diag).format);
+    assert_null(stored(&given, 0, &diag).format);
     assert_int_equal(diag.code, DIAG_DATA);
     assert_non_null(strstr(diag.text, "the road users have times of their own"));
     assert_non_null(strstr(diag.text, "--rate-hz 10 interpolates each between its own rows"));
 }
 
-TEST_OF(arena, each_is_interpolated_between_its_own_rows)
+TEST(each_is_interpolated_between_its_own_rows)
 {
     struct diag diag = {0};
     struct recorded_row rows[90], row;
     struct given given = {rows, rows_apart(rows), 0};
-    struct recorded_reader reader = stored(&given, 20, arena, &diag);
+    struct recorded_reader reader = stored(&given, 20, &diag);
     size_t counts[3] = {0}, steps = 0;
     for (int event; (event = reader.format->next(reader.state, &row, &diag)) > 0;) {
         steps += event == RECORDED_STEP;
@@ -249,17 +232,17 @@ TEST_OF(arena, each_is_interpolated_between_its_own_rows)
     assert_int_equal(counts[2], 23 + 28);
 }
 
-TEST_OF(arena, rows_of_one_time_that_differ_are_refused_at_a_rate_too)
+TEST(rows_of_one_time_that_differ_are_refused_at_a_rate_too)
 {
     struct diag diag = {0};
     struct recorded_row rows[92];
     size_t count = rows_apart(rows);
     rows[count] = rows[count - 1];
     struct given given = {rows, count + 1, 0};
-    assert_non_null(stored(&given, 20, arena, &diag).format);
+    assert_non_null(stored(&given, 20, &diag).format);
     rows[count].x_m += 1;
     rows[count].place = count;
     given.at = 0;
-    assert_null(stored(&given, 20, arena, &diag).format);
+    assert_null(stored(&given, 20, &diag).format);
     assert_non_null(strstr(diag.text, " is in row "));
 }

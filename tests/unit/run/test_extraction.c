@@ -2,60 +2,73 @@
 
 #include "run/extraction.h"
 
-/* Two cars, a truck and the ego, another car. */
-static void make_frame(struct frame *frame, struct arena *arena)
+/* A stage that has begun and a frame of two cars, a truck and the ego, another car. */
+struct bench {
+    struct arena arena;
+    struct runner runner;
+    struct frame frame;
+};
+
+static int make_bench(void **state)
 {
     static const char *const objects[][2] = {
         {"z", "car"}, {"ego", "car"}, {"b", "truck"}, {"a", "car"}};
-    *frame = (struct frame){.ego = "ego", .present = PART_OBJECTS, .arena = arena};
-    for (size_t i = 0; i < 4; i++)
-        *list_add(&frame->objects, arena) =
+    struct bench *bench = check_make(state, sizeof *bench);
+    begin_stage(&bench->runner, "extract", NO_WORDS);
+    bench->frame = (struct frame){.ego = "ego", .present = PART_OBJECTS, .arena = &bench->arena};
+    for (size_t i = 0; i < COUNT(objects); i++)
+        *list_add(&bench->frame.objects, &bench->arena) =
             (struct object){.id = objects[i][0], .class = objects[i][1]};
+    return 0;
+}
+
+static int remove_bench(void **state)
+{
+    struct bench *bench = *state;
+    runner_free(&bench->runner);
+    arena_free(&bench->arena);
+    free(bench);
+    return 0;
 }
 
 /* One step on the frame: its result. */
-static int step(struct frame *frame, struct runner *runner, extraction_describe *describe)
+static int step(struct bench *bench, extraction_describe *describe)
 {
-    return extraction_step(runner->state, frame, runner, describe);
+    return extraction_step(bench->runner.state, &bench->frame, &bench->runner, describe);
 }
 
-TEST(sizes_of_zero_are_those_of_the_class)
+static const struct vehicle *car_of(struct bench *bench)
 {
-    struct frame frame;
-    struct runner runner;
-    begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, check_arena());
-    frame.objects.items[0].width_m = 2.5;
-    assert_int_equal(step(&frame, &runner, NULL), 0);
-    const struct vehicle *car = runner_vehicle(&runner, NULL, "car");
-    assert_close(frame.objects.items[0].length_m, car->length_m, 0);
-    assert_close(frame.objects.items[0].width_m, 2.5, 0);
-    assert_close(frame.objects.items[0].height_m, car->height_m, 0);
-    assert_close(frame.objects.items[1].width_m, car->width_m, 0); /* the ego's, too */
-    assert_true(frame.objects.items[2].length_m > car->length_m);
-    runner_free(&runner);
+    return runner_vehicle(&bench->runner, NULL, "car");
 }
 
-TEST(objects_of_a_class_share_its_reflectors_and_the_ego_has_none)
+#define EXTRACTION_TEST(name) TEST_WITH(make_bench, remove_bench, struct bench *bench, name)
+
+EXTRACTION_TEST(sizes_of_zero_are_those_of_the_class)
 {
-    struct frame frame;
-    struct runner runner;
-    begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, check_arena());
-    assert_int_equal(step(&frame, &runner, NULL), 0);
-    assert_int_equal(frame.reflectors.count, 2);
-    const struct reflector_set *cars = &frame.reflectors.items[0];
+    bench->frame.objects.items[0].width_m = 2.5;
+    assert_int_equal(step(bench, NULL), 0);
+    const struct vehicle *car = car_of(bench);
+    assert_close(bench->frame.objects.items[0].length_m, car->length_m, 0);
+    assert_close(bench->frame.objects.items[0].width_m, 2.5, 0);
+    assert_close(bench->frame.objects.items[0].height_m, car->height_m, 0);
+    assert_close(bench->frame.objects.items[1].width_m, car->width_m, 0); /* the ego's, too */
+    assert_true(bench->frame.objects.items[2].length_m > car->length_m);
+}
+
+EXTRACTION_TEST(objects_of_a_class_share_its_reflectors_and_the_ego_has_none)
+{
+    assert_int_equal(step(bench, NULL), 0);
+    assert_int_equal(bench->frame.reflectors.count, 2);
+    const struct reflector_set *cars = &bench->frame.reflectors.items[0];
     assert_string_equal(cars->model, "car");
     assert_int_equal(cars->objects.count, 2);
     assert_string_equal(cars->objects.items[0], "a");
     assert_string_equal(cars->objects.items[1], "z");
-    assert_int_equal(cars->points.count,
-                     runner_vehicle(&runner, NULL, "car")->reflectors.points.count);
-    assert_string_equal(frame.reflectors.items[1].objects.items[0], "b");
-    assert_int_equal(frame.vehicles.count, 2);
-    assert_string_equal(frame.vehicles.items[0].digest,
-                        runner_vehicle(&runner, NULL, "car")->digest);
-    runner_free(&runner);
+    assert_int_equal(cars->points.count, car_of(bench)->reflectors.points.count);
+    assert_string_equal(bench->frame.reflectors.items[1].objects.items[0], "b");
+    assert_int_equal(bench->frame.vehicles.count, 2);
+    assert_string_equal(bench->frame.vehicles.items[0].digest, car_of(bench)->digest);
 }
 
 /* Names the only point of the set after the class. */
@@ -67,46 +80,32 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
     list_add(&set->points, arena)->name = vehicle->reflectors.model;
 }
 
-TEST(a_description_takes_the_place_of_the_documents_reflectors)
+EXTRACTION_TEST(a_description_takes_the_place_of_the_documents_reflectors)
 {
-    struct frame frame;
-    struct runner runner;
-    begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, check_arena());
-    assert_int_equal(step(&frame, &runner, describe), 0);
+    assert_int_equal(step(bench, describe), 0);
     for (size_t i = 0; i < 2; i++) {
-        const struct reflector_set *set = &frame.reflectors.items[i];
+        const struct reflector_set *set = &bench->frame.reflectors.items[i];
         assert_int_equal(set->points.count, 1);
         assert_string_equal(set->points.items[0].name, set->model);
     }
-    assert_true(runner_vehicle(&runner, NULL, "car")->reflectors.points.count > 1);
-    runner_free(&runner);
+    assert_true(car_of(bench)->reflectors.points.count > 1);
 }
 
-TEST(the_message_names_the_object_as_the_frame_numbers_it)
+EXTRACTION_TEST(the_message_names_the_object_as_the_frame_numbers_it)
 {
-    struct frame frame;
-    struct runner runner;
-    begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, check_arena());
-    frame.objects.items[2].class = "hovercraft";
-    assert_int_equal(step(&frame, &runner, NULL), -1);
-    assert_non_null(strstr(runner.diag.text, "objects[2].class: there is no vehicles/hovercraft"));
-    runner_free(&runner);
+    bench->frame.objects.items[2].class = "hovercraft";
+    assert_int_equal(step(bench, NULL), -1);
+    assert_non_null(
+        strstr(bench->runner.diag.text, "objects[2].class: there is no vehicles/hovercraft"));
 }
 
 /* As when a stream that was extracted with other documents is extracted again. */
-TEST(a_frame_keeps_to_the_documents_that_it_was_extracted_with)
+EXTRACTION_TEST(a_frame_keeps_to_the_documents_that_it_was_extracted_with)
 {
-    struct frame frame;
-    struct runner runner;
-    begin_stage(&runner, "extract", NO_WORDS);
-    make_frame(&frame, check_arena());
-    *list_add(&frame.vehicles, check_arena()) =
+    *list_add(&bench->frame.vehicles, &bench->arena) =
         (struct class_document){.class = "car", .digest = "0123456789abcdef"};
-    assert_int_equal(step(&frame, &runner, NULL), -1);
-    assert_non_null(strstr(runner.diag.text, "0123456789abcdef"));
-    runner_free(&runner);
+    assert_int_equal(step(bench, NULL), -1);
+    assert_non_null(strstr(bench->runner.diag.text, "0123456789abcdef"));
 }
 
 TEST(a_folder_that_is_not_there_is_refused_at_the_start)

@@ -73,7 +73,6 @@ struct result {
     struct choice choice;
     struct common_options common;
     struct diag diag;
-    struct arena arena;
 };
 
 /* The words are parted by single blanks. */
@@ -85,10 +84,10 @@ static int read_line(const struct stage *stage, const char *line, struct result 
     for (const char *at = line; *at != '\0'; at += strspn(at, " ")) {
         size_t length = strcspn(at, " ");
         assert_true(count < COUNT(words));
-        words[count++] = arena_text(&result->arena, at, length);
+        words[count++] = arena_text(check_arena(), at, length);
         at += length;
     }
-    return options_read(stage, count, words, &result->choice, &result->common, &result->arena,
+    return options_read(stage, count, words, &result->choice, &result->common, check_arena(),
                         &result->diag);
 }
 
@@ -115,7 +114,6 @@ TEST(options_come_in_any_order_and_both_spellings)
         assert_int_equal(result.common.seed, 5);
         assert_int_equal(result.common.files.count, 2);
         assert_string_equal(result.common.files.items[1], "b");
-        arena_free(&result.arena);
     }
 }
 
@@ -129,7 +127,6 @@ TEST(what_is_not_given_is_absent)
     assert_false(result.common.seed_given);
     assert_int_equal(result.common.seed, 1);
     assert_int_equal(result.common.files.count, 0);
-    arena_free(&result.arena);
 }
 
 TEST(values_and_files_may_begin_with_a_dash)
@@ -141,11 +138,9 @@ TEST(values_and_files_may_begin_with_a_dash)
     assert_int_equal(result.common.files.count, 3);
     assert_string_equal(result.common.files.items[0], "-");
     assert_string_equal(result.common.files.items[1], "--where");
-    arena_free(&result.arena);
     assert_int_equal(read_line(&source, "--seed 18446744073709551615 here", &result), 0);
     assert_string_equal(result.choice.where, "here");
     assert_true(result.common.seed == UINT64_MAX);
-    arena_free(&result.arena);
 }
 
 TEST(help_and_version_need_nothing_else)
@@ -153,10 +148,8 @@ TEST(help_and_version_need_nothing_else)
     struct result result;
     assert_int_equal(read_line(&filter, "--help", &result), 0);
     assert_true(result.common.help);
-    arena_free(&result.arena);
     assert_int_equal(read_line(&source, "--version", &result), 0);
     assert_true(result.common.version);
-    arena_free(&result.arena);
 }
 
 TEST(wrong_command_lines_are_refused)
@@ -195,7 +188,6 @@ TEST(wrong_command_lines_are_refused)
         assert_int_equal(read_line(cases[i].stage, cases[i].line, &result), -1);
         assert_string_equal(result.diag.text, cases[i].message);
         assert_int_equal(result.diag.code, DIAG_USAGE);
-        arena_free(&result.arena);
     }
 }
 
@@ -207,11 +199,9 @@ TEST(a_tools_operand_comes_before_the_files_that_it_reads)
     assert_int_equal(result.common.files.count, 2);
     assert_string_equal(result.common.files.items[0], "a");
     assert_true(result.common.complete);
-    arena_free(&result.arena);
     assert_int_equal(read_line(&reader, "--where x a -o out", &result), 0);
     assert_int_equal(result.common.files.count, 1);
     assert_string_equal(result.common.output, "out");
-    arena_free(&result.arena);
 }
 
 TEST(only_what_writes_frames_or_draws_takes_a_seed)
@@ -222,13 +212,11 @@ TEST(only_what_writes_frames_or_draws_takes_a_seed)
     sink.sink = true;
     assert_int_equal(read_line(&drawer, "folder --seed 3", &result), 0);
     assert_true(result.common.seed_given && result.common.seed == 3);
-    arena_free(&result.arena);
     for (int i = 0; i < 2; i++) {
         assert_int_equal(i == 0 ? read_line(&tables, "folder --seed 3", &result)
                                 : read_line(&sink, "--where x --seed 3", &result),
                          -1);
         assert_string_equal(result.diag.text, "unknown option --seed; see --help");
-        arena_free(&result.arena);
     }
 }
 
@@ -250,7 +238,6 @@ TEST(a_tool_refuses_options_that_would_do_nothing)
         assert_int_equal(read_line(cases[i].tool, cases[i].line, &result), -1);
         assert_string_equal(result.diag.text, cases[i].message);
         assert_int_equal(result.diag.code, DIAG_USAGE);
-        arena_free(&result.arena);
     }
 }
 

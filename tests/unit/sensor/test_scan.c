@@ -17,8 +17,7 @@ struct bench {
 
 static int make_bench(void **state)
 {
-    struct bench *bench = calloc(1, sizeof *bench);
-    assert_non_null(bench);
+    struct bench *bench = check_make(state, sizeof *bench);
     bench->frame = (struct frame){.scene = "s", .ego = "ego", .arena = &bench->arena};
     bench->sensor = (struct sensor){.name = "radar",
                                     .carrier_hz = 76.5e9,
@@ -32,7 +31,6 @@ static int make_bench(void **state)
                                     .cell_extent = CELL_WIDTH};
     suite_derive(&bench->sensor);
     bench->selection = (struct selection){.allowed = EVERYTHING, .log = &bench->log};
-    *state = bench;
     return 0;
 }
 

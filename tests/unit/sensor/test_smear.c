@@ -37,10 +37,8 @@ static const char *const names[MOST] = {"a", "b", "c", "d", "e", "f", "g", "h"};
 
 static int make_scene(void **state)
 {
-    struct scene *scene = calloc(1, sizeof *scene);
-    assert_non_null(scene);
+    struct scene *scene = check_make(state, sizeof *scene);
     scene->sensor = test_sensor();
-    *state = scene;
     return 0;
 }
 

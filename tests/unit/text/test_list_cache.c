@@ -43,10 +43,8 @@ struct bench {
 
 static int make_bench(void **state)
 {
-    struct bench *bench = calloc(1, sizeof *bench);
-    assert_non_null(bench);
+    struct bench *bench = check_make(state, sizeof *bench);
     bench->frame = (struct frame){.arena = &bench->arena, .list_cache = &bench->cache};
-    *state = bench;
     return 0;
 }
 

@@ -20,8 +20,7 @@ struct bench {
 
 static int make_bench(void **state)
 {
-    struct bench *bench = calloc(1, sizeof *bench);
-    assert_non_null(bench);
+    struct bench *bench = check_make(state, sizeof *bench);
     struct diag diag = {0};
     bench->frame.arena = &bench->scratch;
     bench->frame.seed = 1;
@@ -30,7 +29,6 @@ static int make_bench(void **state)
     bench->suite = suite_file_load("srr24-pair-every-frame", &bench->documents, &diag);
     if (bench->suite == NULL)
         fail_msg("%s", diag.text);
-    *state = bench;
     return 0;
 }
 
