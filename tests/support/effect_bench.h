@@ -104,6 +104,16 @@ static inline double effect_bench_factor(struct effect_bench *bench, enum effect
     return reception.amplitude;
 }
 
+/* The echoes that effects add to a list of one echo. */
+static inline struct echo_span effect_bench_added(struct effect_bench *bench, uint64_t effects,
+                                                  struct echo echo)
+{
+    bench->frame.echoes.count = 0;
+    *list_add(&bench->frame.echoes, &bench->arena) = echo;
+    struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_SENSOR);
+    return effect_added_echoes(&scan);
+}
+
 /* The draws of an echo's own address for one purpose. */
 static inline void effect_bench_draw(const struct effect_bench *bench, const struct echo *echo,
                                      enum random_purpose purpose, uint32_t index, double uniform[4])

@@ -13,14 +13,6 @@ static struct echo torso(void)
     return echo;
 }
 
-static struct echo_span limbs_of(struct effect_bench *bench, uint64_t effects, struct echo echo)
-{
-    bench->frame.echoes.count = 0;
-    *list_add(&bench->frame.echoes, &bench->arena) = echo;
-    struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_SENSOR);
-    return effect_added_echoes(&scan);
-}
-
 /* P(X <= x) of the triangular distribution from -1 to 1.5 with its peak at 0. */
 static double triangle(double x)
 {
@@ -33,7 +25,7 @@ EFFECT_TEST(limbs_have_the_count_the_swing_and_the_place_of_their_draws)
     size_t all = 0;
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++) {
         const struct echo parent = torso();
-        struct echo_span limbs = limbs_of(bench, EVERY_EFFECT, parent);
+        struct echo_span limbs = effect_bench_added(bench, EVERY_EFFECT, parent);
         double uniform[4];
         effect_bench_draw(bench, &parent, effect_limbs.purposes[0], 0, uniform);
         assert_true(uniform[0] < 0.998); /* a Poisson count of mean 0.5 is at most 3 up to here */
@@ -64,8 +56,8 @@ EFFECT_TEST(a_person_who_does_not_walk_along_the_sight_line_has_no_limbs)
     wheel.moving_part = MOVING_WHEEL;
     uint64_t limbs = EFFECT_BIT(EFFECT_LIMBS);
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++) {
-        assert_int_equal(limbs_of(bench, limbs, still).count, 0);
-        assert_int_equal(limbs_of(bench, limbs, wheel).count, 0);
-        assert_int_equal(limbs_of(bench, EVERY_EFFECT & ~limbs, torso()).count, 0);
+        assert_int_equal(effect_bench_added(bench, limbs, still).count, 0);
+        assert_int_equal(effect_bench_added(bench, limbs, wheel).count, 0);
+        assert_int_equal(effect_bench_added(bench, EVERY_EFFECT & ~limbs, torso()).count, 0);
     }
 }

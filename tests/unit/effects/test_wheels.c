@@ -12,14 +12,6 @@ static struct echo hub(void)
     return echo;
 }
 
-static struct echo_span points_of(struct effect_bench *bench, uint64_t effects, struct echo echo)
-{
-    bench->frame.echoes.count = 0;
-    *list_add(&bench->frame.echoes, &bench->arena) = echo;
-    struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_SENSOR);
-    return effect_added_echoes(&scan);
-}
-
 /* The least k with P(N <= k) >= uniform, for a Poisson count. */
 static size_t poisson(double mean, double uniform)
 {
@@ -37,7 +29,7 @@ EFFECT_TEST(points_have_the_count_and_the_rates_of_their_draws)
     size_t all = 0;
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++) {
         const struct echo parent = hub();
-        struct echo_span points = points_of(bench, EVERY_EFFECT, parent);
+        struct echo_span points = effect_bench_added(bench, EVERY_EFFECT, parent);
         double uniform[4];
         effect_bench_draw(bench, &parent, effect_wheels.purposes[0], 0, uniform);
         assert_int_equal(points.count, poisson(1.5, uniform[0]));
@@ -70,7 +62,7 @@ EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_no_points)
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++)
         for (size_t i = 0; i < COUNT(echoes); i++) {
             uint64_t effects = EFFECT_BIT(EFFECT_WHEELS);
-            assert_int_equal(points_of(bench, effects, echoes[i]).count, 0);
+            assert_int_equal(effect_bench_added(bench, effects, echoes[i]).count, 0);
             assert_true(bench->log.simulated == 0);
         }
 }
@@ -86,7 +78,7 @@ EFFECT_TEST(points_fade_in_with_the_speed_and_none_is_made_of_rounding)
         for (size_t i = 0; i < COUNT(rates); i++) {
             struct echo slow = hub();
             slow.ground_rate_mps = rates[i];
-            struct echo_span points = points_of(bench, EFFECT_BIT(EFFECT_WHEELS), slow);
+            struct echo_span points = effect_bench_added(bench, EFFECT_BIT(EFFECT_WHEELS), slow);
             for (size_t j = 0; j < points.count; j++)
                 assert_close(points.items[j].ercs, shares[i] * pow(10, -0.5), 1e-15);
             assert_true(shares[i] > 0 || points.count == 0);
@@ -99,5 +91,5 @@ EFFECT_TEST(without_the_effect_a_wheel_has_no_points)
 {
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_WHEELS);
     for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++)
-        assert_int_equal(points_of(bench, without, hub()).count, 0);
+        assert_int_equal(effect_bench_added(bench, without, hub()).count, 0);
 }

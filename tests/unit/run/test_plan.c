@@ -11,7 +11,6 @@ struct bench {
 static void begin(struct bench *bench, const char *effects)
 {
     const struct suite_choice choice = {"srr24-pair-every-frame", effects};
-    *bench = (struct bench){0};
     begin_tool(&bench->runner, choice.sensors);
     assert_int_equal(plan_begin(&bench->plan, &choice, &bench->runner), 0);
 }
@@ -35,12 +34,23 @@ static void plan_traffic(struct bench *bench, const char *effects)
     arena_free(&scratch);
 }
 
-static void end(struct bench *bench)
+static int end(void **state)
 {
+    struct bench *bench = *state;
     plan_free(&bench->plan);
     runner_free(&bench->runner);
     arena_free(&bench->arena);
+    free(bench);
+    return 0;
 }
+
+static int make_bench(void **state)
+{
+    check_make(state, sizeof(struct bench));
+    return 0;
+}
+
+#define PLAN_TEST(name) TEST_WITH(make_bench, end, struct bench *bench, name)
 
 static void assert_writes(const struct plan *plan, bool all, const char *part, bool expected)
 {
@@ -53,18 +63,17 @@ static void assert_writes(const struct plan *plan, bool all, const char *part, b
 }
 
 /* An effect is idle, or it changes a list and stays. */
-TEST(what_changes_no_list_leaves_the_pipeline)
+PLAN_TEST(what_changes_no_list_leaves_the_pipeline)
 {
-    struct bench bench;
-    plan_traffic(&bench, NULL);
-    const struct plan *plan = &bench.plan;
+    plan_traffic(bench, NULL);
+    const struct plan *plan = &bench->plan;
     assert_int_equal(plan->left_out, plan->idle);
     assert_int_equal(plan->pipeline.changed, 0);
     assert_int_equal(plan->table.lists, 24); /* of two sensors */
     assert_int_equal(plan->table.frames, 12);
     assert_int_equal(plan->table.chains.count, 3);
     assert_string_equal(plan->table.chains.items[1].effects,
-                        trial_request(~plan->idle & plan->bench.allowed, &bench.arena));
+                        trial_request(~plan->idle & plan->bench.allowed, &bench->arena));
     for (size_t i = 0; i < plan->table.effects.count; i++) {
         const struct cost_effect *row = &plan->table.effects.items[i];
         assert_int_equal((plan->idle & EFFECT_BIT(row->effect)) != 0, row->lists_changed == 0);
@@ -74,83 +83,74 @@ TEST(what_changes_no_list_leaves_the_pipeline)
     }
     assert_true((plan->idle & EFFECT_BIT(EFFECT_ANGLE_NOISE)) == 0);
     assert_true((plan->idle & EFFECT_BIT(EFFECT_LIST_LIMIT)) != 0);
-    end(&bench);
 }
 
 /* All effects in all scans have the lists of those that auto chooses. */
-TEST(the_choice_in_each_scan_stands_beside_all_effects)
+PLAN_TEST(the_choice_in_each_scan_stands_beside_all_effects)
 {
-    struct bench bench;
-    plan_traffic(&bench, "auto,-rows");
-    const struct cost_chain *row = &bench.plan.table.chains.items[2];
+    plan_traffic(bench, "auto,-rows");
+    const struct cost_chain *row = &bench->plan.table.chains.items[2];
     assert_string_equal(row->chain, "all,-rows");
     assert_int_equal(row->present, COST_ENERGY | COST_ERROR);
     assert_true(row->us_per_frame > 0 && row->relative_distance.high == 0);
-    end(&bench);
-    plan_traffic(&bench, "rows,merging");
-    assert_int_equal(bench.plan.table.chains.count, 2);
-    end(&bench);
 }
 
-TEST(idle_effects_are_rows_only_with_all)
+PLAN_TEST(a_choice_that_holds_for_all_scans_has_no_row_of_its_own)
 {
-    struct bench bench;
-    plan_traffic(&bench, NULL);
-    assert_writes(&bench.plan, false, "\n# Idle, as no list changes without one of them: ", true);
-    assert_writes(&bench.plan, false, "\n# list_limit ", false);
-    assert_writes(&bench.plan, true, "\n# list_limit                0 of 24 ", true);
-    assert_writes(&bench.plan, false, "\n# merging ", true);
-    assert_writes(&bench.plan, true, "\n# rain              off: rain_mmph is 0\n", true);
-    assert_writes(&bench.plan, true, "\n# threshold         on in 24 of 24 scans: ", true);
-    assert_writes(&bench.plan, false, " on in 24 of 24 scans: ", false);
-    end(&bench);
+    plan_traffic(bench, "rows,merging");
+    assert_int_equal(bench->plan.table.chains.count, 2);
 }
 
-TEST(what_was_not_asked_for_says_so)
+PLAN_TEST(idle_effects_are_rows_only_with_all)
 {
-    struct bench bench;
-    plan_traffic(&bench, "all,-merging");
-    assert_writes(&bench.plan, true, "\n# merging           off: not asked for\n", true);
-    assert_writes(&bench.plan, false, " --effects auto,-", true);
-    assert_string_equal(bench.plan.table.chains.items[0].chain, "all,-merging");
-    end(&bench);
+    plan_traffic(bench, NULL);
+    assert_writes(&bench->plan, false, "\n# Idle, as no list changes without one of them: ", true);
+    assert_writes(&bench->plan, false, "\n# list_limit ", false);
+    assert_writes(&bench->plan, true, "\n# list_limit                0 of 24 ", true);
+    assert_writes(&bench->plan, false, "\n# merging ", true);
+    assert_writes(&bench->plan, true, "\n# rain              off: rain_mmph is 0\n", true);
+    assert_writes(&bench->plan, true, "\n# threshold         on in 24 of 24 scans: ", true);
+    assert_writes(&bench->plan, false, " on in 24 of 24 scans: ", false);
+}
+
+PLAN_TEST(what_was_not_asked_for_says_so)
+{
+    plan_traffic(bench, "all,-merging");
+    assert_writes(&bench->plan, true, "\n# merging           off: not asked for\n", true);
+    assert_writes(&bench->plan, false, " --effects auto,-", true);
+    assert_string_equal(bench->plan.table.chains.items[0].chain, "all,-merging");
 }
 
 /* Without an effect at home in noise, glint-noise-none writes the same. */
-TEST(a_stage_goes_where_another_gives_the_same_lists)
+PLAN_TEST(a_stage_goes_where_another_gives_the_same_lists)
 {
-    struct bench bench;
-    plan_traffic(&bench, "occlusion,merging,superposition,threshold");
-    assert_writes(&bench.plan, false,
+    plan_traffic(bench, "occlusion,merging,superposition,threshold");
+    assert_writes(&bench->plan, false,
                   "\n# glint-noise goes: with glint-noise-none, 0 of 24 lists change\n", true);
-    assert_writes(&bench.plan, false, "  | glint-sensor \\\n  | glint-noise-none\n", true);
-    assert_writes(&bench.plan, false, "\n# glint-sensor stays: with glint-sensor-perfect, 2", true);
-    end(&bench);
+    assert_writes(&bench->plan, false, "  | glint-sensor \\\n  | glint-noise-none\n", true);
+    assert_writes(&bench->plan, false, "\n# glint-sensor stays: with glint-sensor-perfect, 2",
+                  true);
 }
 
 /* Effects of which each does for the other: alone they change no list, and together they do. */
-TEST(what_is_put_back_is_named)
+PLAN_TEST(what_is_put_back_is_named)
 {
-    struct bench bench;
-    plan_traffic(&bench, NULL);
-    struct plan *plan = &bench.plan;
+    plan_traffic(bench, NULL);
+    struct plan *plan = &bench->plan;
     plan->idle = EFFECT_BIT(EFFECT_ANGLE_NOISE) | EFFECT_BIT(EFFECT_LIST_LIMIT);
     plan->left_out = EFFECT_BIT(EFFECT_LIST_LIMIT);
     assert_writes(plan, false, "\n# Put back, as lists change without all of them: angle_noise\n",
                   true);
-    end(&bench);
 }
 
-TEST(no_frames_make_no_plan)
+PLAN_TEST(no_frames_make_no_plan)
 {
-    struct bench bench;
     struct text text = {0};
-    begin(&bench, NULL);
-    assert_int_equal(plan_end(&bench.plan), 0);
-    plan_write(&bench.plan, true, &text);
+    begin(bench, NULL);
+    assert_int_equal(plan_end(&bench->plan), 0);
+    plan_write(&bench->plan, true, &text);
     assert_int_equal(text.length, 0);
     text_free(&text);
-    end(&bench);
 }
 
 /* The rounds of the whole chain lie 3 us apart. */

@@ -11,9 +11,10 @@ struct bench {
     struct frame frame; /* as glint-ideal writes it: suite, digest and views */
 };
 
-static void begin(struct bench *bench)
+static int begin(void **state)
 {
-    *bench = (struct bench){.frame.arena = &bench->arena};
+    struct bench *bench = check_make(state, sizeof *bench);
+    bench->frame.arena = &bench->arena;
     begin_stage(&bench->runner, "noise", NO_WORDS);
     bench->suite = suite_choice_load(&bench->runner, suite_name);
     assert_non_null(bench->suite);
@@ -22,13 +23,19 @@ static void begin(struct bench *bench)
     for (size_t i = 0; i < bench->suite->sensors.count; i++)
         *list_add(&bench->frame.sensors.list, &bench->arena) =
             (struct sensor_view){.name = bench->suite->sensors.items[i].name, .measured = i == 0};
+    return 0;
 }
 
-static void end(struct bench *bench)
+static int end(void **state)
 {
+    struct bench *bench = *state;
     arena_free(&bench->arena);
     runner_free(&bench->runner);
+    free(bench);
+    return 0;
 }
+
+#define NOISE_TEST(name) TEST_WITH(begin, end, struct bench *bench, name)
 
 static void expect_refused(struct bench *bench, enum diag_code code, const char *message)
 {
@@ -71,54 +78,45 @@ TEST(an_unknown_effect_is_a_fault_of_whoever_names_it)
     assert_memory_equal(of_suite.text, "effects: ", 9);
 }
 
-TEST(a_stage_takes_the_suite_that_the_frame_was_seen_with)
+NOISE_TEST(a_stage_takes_the_suite_that_the_frame_was_seen_with)
 {
-    struct bench bench;
-    begin(&bench);
     struct suite_choice own = {0}, given = {.sensors = suite_name}, other = {.sensors = "lrr77"};
-    assert_ptr_equal(suite_choice_suite(&own, &bench.frame, &bench.runner), bench.suite);
-    assert_ptr_equal(suite_choice_suite(&given, &bench.frame, &bench.runner), bench.suite);
-    assert_null(suite_choice_suite(&other, &bench.frame, &bench.runner));
-    expect_refused(&bench, DIAG_CONFIG, "sensors.digest: the frame was seen with ");
-    bench.frame.sensors.digest = "0123456789abcdef";
-    assert_null(suite_choice_suite(&own, &bench.frame, &bench.runner));
-    expect_refused(&bench, DIAG_CONFIG,
+    assert_ptr_equal(suite_choice_suite(&own, &bench->frame, &bench->runner), bench->suite);
+    assert_ptr_equal(suite_choice_suite(&given, &bench->frame, &bench->runner), bench->suite);
+    assert_null(suite_choice_suite(&other, &bench->frame, &bench->runner));
+    expect_refused(bench, DIAG_CONFIG, "sensors.digest: the frame was seen with ");
+    bench->frame.sensors.digest = "0123456789abcdef";
+    assert_null(suite_choice_suite(&own, &bench->frame, &bench->runner));
+    expect_refused(bench, DIAG_CONFIG,
                    "seen with, 0123456789abcdef; give its path (--sensors PATH)");
-    end(&bench);
 }
 
-TEST(frame_and_suite_have_the_same_sensors)
+NOISE_TEST(frame_and_suite_have_the_same_sensors)
 {
-    struct bench bench;
     struct suite_choice choice = {0};
-    begin(&bench);
-    bench.frame.sensors.list.count = 1;
-    assert_null(suite_choice_suite(&choice, &bench.frame, &bench.runner));
-    expect_refused(&bench, DIAG_DATA, "sensors.list: 1 sensors; the suite ");
-    bench.frame.sensors.list.count = 2;
-    bench.frame.sensors.list.items[1].name = "roof";
-    assert_null(suite_choice_suite(&choice, &bench.frame, &bench.runner));
-    expect_refused(&bench, DIAG_DATA, "sensors.list[1].name: \"roof\" is not in the suite ");
-    end(&bench);
+    bench->frame.sensors.list.count = 1;
+    assert_null(suite_choice_suite(&choice, &bench->frame, &bench->runner));
+    expect_refused(bench, DIAG_DATA, "sensors.list: 1 sensors; the suite ");
+    bench->frame.sensors.list.count = 2;
+    bench->frame.sensors.list.items[1].name = "roof";
+    assert_null(suite_choice_suite(&choice, &bench->frame, &bench->runner));
+    expect_refused(bench, DIAG_DATA, "sensors.list[1].name: \"roof\" is not in the suite ");
 }
 
-TEST(effects_are_those_that_the_frame_was_seen_with)
+NOISE_TEST(effects_are_those_that_the_frame_was_seen_with)
 {
-    struct bench bench;
     struct selection selection;
     struct suite_choice own = {0}, same = {.effects = "rain,snow"}, other = {.effects = "rain"};
-    begin(&bench);
-    assert_int_equal(suite_choice_effects(&own, &bench.frame, &bench.runner, &selection), 0);
+    assert_int_equal(suite_choice_effects(&own, &bench->frame, &bench->runner, &selection), 0);
     assert_true(selection.automatic);
-    bench.frame.sensors.effects = "rain,snow";
-    assert_int_equal(suite_choice_effects(&same, &bench.frame, &bench.runner, &selection), 0);
+    bench->frame.sensors.effects = "rain,snow";
+    assert_int_equal(suite_choice_effects(&same, &bench->frame, &bench->runner, &selection), 0);
     assert_int_equal(selection.allowed, EFFECT_BIT(EFFECT_RAIN) | EFFECT_BIT(EFFECT_SNOW));
-    assert_int_equal(suite_choice_effects(&other, &bench.frame, &bench.runner, &selection), -1);
-    expect_refused(&bench, DIAG_CONFIG, "seen with \"rain,snow\", not with \"rain\"; give the ");
-    bench.frame.sensors.effects = "rian";
-    assert_int_equal(suite_choice_effects(&own, &bench.frame, &bench.runner, &selection), -1);
-    expect_refused(&bench, DIAG_CONFIG, "sensors.effects: ");
-    end(&bench);
+    assert_int_equal(suite_choice_effects(&other, &bench->frame, &bench->runner, &selection), -1);
+    expect_refused(bench, DIAG_CONFIG, "seen with \"rain,snow\", not with \"rain\"; give the ");
+    bench->frame.sensors.effects = "rian";
+    assert_int_equal(suite_choice_effects(&own, &bench->frame, &bench->runner, &selection), -1);
+    expect_refused(bench, DIAG_CONFIG, "sensors.effects: ");
 }
 
 /* Counts the visit at its sensor, and notes an effect. */
@@ -131,19 +129,17 @@ static void visit(struct frame *frame, const struct sensor *sensor,
     effects_note(selection, EFFECT_RAIN, true);
 }
 
-TEST(every_sensor_is_visited_once_and_only_scans_are_noted)
+NOISE_TEST(every_sensor_is_visited_once_and_only_scans_are_noted)
 {
-    struct bench bench;
     struct effect_log log = {0};
     static const struct stage stage = {.name = "visitor", .visit = visit};
-    begin(&bench);
-    bench.runner.log = &log;
-    bench.runner.stage = &stage;
-    assert_int_equal(suite_choice_step(&(struct suite_choice){0}, &bench.frame, &bench.runner), 0);
-    assert_int_equal(bench.frame.sensors.list.count, 2);
+    bench->runner.log = &log;
+    bench->runner.stage = &stage;
+    assert_int_equal(suite_choice_step(&(struct suite_choice){0}, &bench->frame, &bench->runner),
+                     0);
+    assert_int_equal(bench->frame.sensors.list.count, 2);
     for (size_t i = 0; i < 2; i++)
-        assert_close(bench.frame.sensors.list.items[i].cycle_s, 1, 0);
+        assert_close(bench->frame.sensors.list.items[i].cycle_s, 1, 0);
     assert_int_equal(log.scans, 1);
     assert_int_equal(log.scans_simulated[EFFECT_RAIN], 1);
-    end(&bench);
 }

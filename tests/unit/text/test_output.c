@@ -93,9 +93,16 @@ static void write_file(const char *path, const struct text *text, size_t piece)
     assert_int_equal(output_close(output, 1, &diag), 0);
 }
 
-FIXTURE(make_scratch, remove_scratch);
+/* The system is as it is again. */
+static int remove_output(void **state)
+{
+    names_only = lockless = irreplaceable = false;
+    return remove_scratch(state);
+}
 
-TEST_OF(scratch, written_bytes_can_be_read)
+#define OUTPUT_TEST(name) TEST_WITH(make_scratch, remove_output, struct scratch *scratch, name)
+
+OUTPUT_TEST(written_bytes_can_be_read)
 {
     static const size_t lengths[] = {0, 1, 65535, 65536, 65537, 500000},
                         pieces[] = {1, 100, 65536, 65537, 500000};
@@ -115,7 +122,7 @@ TEST_OF(scratch, written_bytes_can_be_read)
     assert_int_equal(scratch_count(scratch), 2);
 }
 
-TEST_OF(scratch, appended_text_is_written_in_whole_pieces)
+OUTPUT_TEST(appended_text_is_written_in_whole_pieces)
 {
     static const size_t lengths[] = {1, 1000, 65535, 65536, 200000};
     struct text all = {0};
@@ -138,7 +145,7 @@ TEST_OF(scratch, appended_text_is_written_in_whole_pieces)
     text_free(&all);
 }
 
-TEST_OF(scratch, gz_is_gzip_and_depends_on_nothing_but_its_content)
+OUTPUT_TEST(gz_is_gzip_and_depends_on_nothing_but_its_content)
 {
     struct text text = sample_text(200000);
     unsigned char first[70000], second[70000];
@@ -185,16 +192,15 @@ static void rewrite(struct scratch *scratch, const char *path, bool whole)
     text_free(&new);
 }
 
-TEST_OF(scratch, the_name_is_taken_only_when_the_file_is_complete)
+OUTPUT_TEST(the_name_is_taken_only_when_the_file_is_complete)
 {
     for (int i = 0; i < 8; i++) {
         names_only = (i & 1) != 0;
         rewrite(scratch, (i & 2) != 0 ? scratch_in(scratch, "a.gz") : scratch->path, (i & 4) != 0);
     }
-    names_only = false;
 }
 
-TEST_OF(scratch, a_file_that_is_replaced_keeps_its_mode)
+OUTPUT_TEST(a_file_that_is_replaced_keeps_its_mode)
 {
     struct diag diag = {0};
     struct stat status;
@@ -208,7 +214,6 @@ TEST_OF(scratch, a_file_that_is_replaced_keeps_its_mode)
         assert_int_equal(stat(scratch->path, &status), 0);
         assert_int_equal(status.st_mode & 07777, 0640);
     }
-    names_only = false;
 }
 
 static void expect_bytes(const char *path, const char *bytes)
@@ -297,7 +302,7 @@ static bool write_together(const char *const *paths, const char *word, int chang
     return WIFSIGNALED(code);
 }
 
-TEST_OF(scratch, files_that_belong_together_are_never_old_beside_new)
+OUTPUT_TEST(files_that_belong_together_are_never_old_beside_new)
 {
     char names[TOGETHER][96];
     const char *paths[TOGETHER] = {names[0], names[1], names[2]};
@@ -339,7 +344,7 @@ static const char *temporary(struct scratch *scratch, pid_t process, int number)
     return path;
 }
 
-TEST_OF(scratch, a_run_that_is_ended_leaves_the_folder_as_it_was)
+OUTPUT_TEST(a_run_that_is_ended_leaves_the_folder_as_it_was)
 {
     static const int signals[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, 0};
     write_word(scratch->path, "old");
@@ -356,7 +361,7 @@ TEST_OF(scratch, a_run_that_is_ended_leaves_the_folder_as_it_was)
         assert_int_equal(scratch_count(scratch), before);
 }
 
-TEST_OF(scratch, what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next)
+OUTPUT_TEST(what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next)
 {
     struct diag diag = {0};
     write_word(scratch->path, "old");
@@ -373,11 +378,10 @@ TEST_OF(scratch, what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_ne
     assert_int_equal(output_close(running, true, &diag), 0);
     unlink(scratch_in(scratch, "a.gz"));
     assert_int_equal(scratch_count(scratch), before);
-    names_only = false;
 }
 
 /* Whose file another host's temporary is, nobody here can know, and without locks nobody at all. */
-TEST_OF(scratch, a_temporary_file_that_may_be_in_use_stays)
+OUTPUT_TEST(a_temporary_file_that_may_be_in_use_stays)
 {
     const char *foreign = scratch_in(scratch, ".glint-1-1@elsewhere");
     names_only = true;
@@ -391,11 +395,9 @@ TEST_OF(scratch, a_temporary_file_that_may_be_in_use_stays)
     write_word(scratch->path, "newer");
     expect_bytes(scratch->path, "newer");
     expect_bytes(foreign, "another host's");
-    names_only = false;
-    unlink(foreign);
 }
 
-TEST_OF(scratch, a_full_disk_leaves_the_folder_as_it_was)
+OUTPUT_TEST(a_full_disk_leaves_the_folder_as_it_was)
 {
     struct text new = sample_text(100000);
     write_word(scratch->path, "old");
@@ -418,12 +420,11 @@ TEST_OF(scratch, a_full_disk_leaves_the_folder_as_it_was)
         assert_int_equal(scratch_count(scratch), before);
         expect_bytes(scratch->path, "old");
     }
-    names_only = false;
     text_free(&new);
 }
 
 /* Somebody who guessed the temporary name has made a link of that name. */
-TEST_OF(scratch, a_planted_link_is_neither_followed_nor_removed)
+OUTPUT_TEST(a_planted_link_is_neither_followed_nor_removed)
 {
     const char *victim = scratch_in(scratch, "victim");
     write_word(victim, "precious");
@@ -439,13 +440,11 @@ TEST_OF(scratch, a_planted_link_is_neither_followed_nor_removed)
         expect_bytes(planted, "precious");
         assert_int_equal(scratch_count(scratch), before);
     }
-    names_only = false;
-    unlink(planted);
-    unlink(victim);
 }
 
-TEST_OF(scratch, two_writers_of_one_name_each_leave_a_whole_file)
+OUTPUT_TEST(two_writers_of_one_name_each_leave_a_whole_file)
 {
+    write_word(scratch->path, "old");
     int before = scratch_count(scratch);
     for (int i = 0; i < 2; i++) {
         names_only = i == 1;
@@ -460,10 +459,9 @@ TEST_OF(scratch, two_writers_of_one_name_each_leave_a_whole_file)
         expect_bytes(scratch->path, "second");
         assert_int_equal(scratch_count(scratch), before);
     }
-    names_only = false;
 }
 
-TEST_OF(scratch, the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
+OUTPUT_TEST(the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
 {
     const char *twin = scratch_in(scratch, "twin");
     for (int i = 0; i < 2; i++) {
@@ -477,10 +475,9 @@ TEST_OF(scratch, the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes)
         expect_bytes(twin, "old");
         unlink(twin);
     }
-    names_only = false;
 }
 
-TEST_OF(scratch, a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
+OUTPUT_TEST(a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
 {
     write_word(scratch->path, "old");
     int before = scratch_count(scratch);
@@ -497,7 +494,6 @@ TEST_OF(scratch, a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
         expect_bytes(scratch->path, "old");
         assert_int_equal(scratch_count(scratch), before);
     }
-    names_only = false;
 }
 
 /* What a user without rights finds: the message, and the old bytes. */
@@ -516,7 +512,7 @@ static void expect_refused(struct scratch *scratch, const char *message)
     expect_bytes(scratch->path, "old");
 }
 
-TEST_OF(scratch, a_file_that_may_be_written_but_not_replaced_is_refused_at_once)
+OUTPUT_TEST(a_file_that_may_be_written_but_not_replaced_is_refused_at_once)
 {
     write_word(scratch->path, "old");
     assert_int_equal(chmod(scratch->path, 0666), 0);
@@ -529,11 +525,10 @@ TEST_OF(scratch, a_file_that_may_be_written_but_not_replaced_is_refused_at_once)
         print_message("left out, for it takes root: somebody else's file in a sticky folder\n");
     }
     assert_int_equal(chmod(scratch->directory, 0700), 0);
-    unlink(scratch->path);
 }
 
 /* The user who replaces it owns the new one, which gives no rights of the old owner's. */
-TEST_OF(scratch, somebody_elses_file_is_replaced)
+OUTPUT_TEST(somebody_elses_file_is_replaced)
 {
     struct stat status;
     if (geteuid() != 0) {
@@ -557,20 +552,18 @@ TEST_OF(scratch, somebody_elses_file_is_replaced)
     assert_int_equal(status.st_uid, 65534);
     assert_int_equal(status.st_mode & 07777, 0766);
     assert_int_equal(chmod(scratch->directory, 0700), 0);
-    unlink(scratch->path);
 }
 
-TEST_OF(scratch, a_file_that_may_not_be_written_is_refused_at_once)
+OUTPUT_TEST(a_file_that_may_not_be_written_is_refused_at_once)
 {
     write_word(scratch->path, "old");
     assert_int_equal(chmod(scratch->path, 0444), 0);
     assert_int_equal(chmod(scratch->directory, 0777), 0);
     expect_refused(scratch, ": Permission denied");
     assert_int_equal(chmod(scratch->directory, 0700), 0);
-    unlink(scratch->path);
 }
 
-TEST_OF(scratch, a_link_to_nothing_makes_the_file_that_it_names)
+OUTPUT_TEST(a_link_to_nothing_makes_the_file_that_it_names)
 {
     const char *second = scratch_in(scratch, "link");
     struct stat status;
@@ -589,12 +582,9 @@ TEST_OF(scratch, a_link_to_nothing_makes_the_file_that_it_names)
     struct diag diag = {0};
     assert_null(output_open(second, &diag));
     assert_non_null(strstr(diag.text, ": Too many levels of symbolic links"));
-    unlink(second);
-    unlink(scratch_in(scratch, "fifo"));
-    unlink(scratch->path);
 }
 
-TEST_OF(scratch, a_name_may_be_as_long_as_the_file_system_allows)
+OUTPUT_TEST(a_name_may_be_as_long_as_the_file_system_allows)
 {
     char path[400];
     struct diag diag = {0};
@@ -611,7 +601,7 @@ TEST_OF(scratch, a_name_may_be_as_long_as_the_file_system_allows)
 }
 
 /* What a shell's > would do: the bytes go where the descriptor stands, behind what is there. */
-TEST_OF(scratch, an_open_descriptor_is_written_directly)
+OUTPUT_TEST(an_open_descriptor_is_written_directly)
 {
     static const char *const folders[] = {"/dev/fd", "/proc/self/fd"};
     char path[64], link[128];
@@ -630,7 +620,7 @@ TEST_OF(scratch, an_open_descriptor_is_written_directly)
     }
 }
 
-TEST_OF(scratch, a_descriptor_that_cannot_be_written_is_refused)
+OUTPUT_TEST(a_descriptor_that_cannot_be_written_is_refused)
 {
     char path[64];
     write_word(scratch->path, "old");
@@ -646,7 +636,7 @@ TEST_OF(scratch, a_descriptor_that_cannot_be_written_is_refused)
     expect_bytes(scratch->path, "old");
 }
 
-TEST_OF(scratch, the_message_says_why_a_file_cannot_be_created_and_nothing_is_left)
+OUTPUT_TEST(the_message_says_why_a_file_cannot_be_created_and_nothing_is_left)
 {
     int before = scratch_count(scratch);
     struct diag diag = {0};
@@ -678,7 +668,7 @@ TEST(a_full_device_is_noticed_at_the_latest_when_it_is_closed)
     }
 }
 
-TEST_OF(scratch, pipes_and_devices_are_written_directly)
+OUTPUT_TEST(pipes_and_devices_are_written_directly)
 {
     struct diag diag = {0};
     struct output *output = output_open("/dev/null", &diag);
@@ -710,7 +700,7 @@ static long waiting_in(int fd)
     return bytes;
 }
 
-TEST_OF(scratch, what_a_pipe_holds_back_is_flushed)
+OUTPUT_TEST(what_a_pipe_holds_back_is_flushed)
 {
     struct diag diag = {0};
     unlink(scratch_in(scratch, "fifo"));
@@ -728,7 +718,7 @@ TEST_OF(scratch, what_a_pipe_holds_back_is_flushed)
 }
 
 /* Nobody can read a file before it has its name, and the bytes of a .gz do not depend on time. */
-TEST_OF(scratch, files_keep_what_they_hold_back)
+OUTPUT_TEST(files_keep_what_they_hold_back)
 {
     for (int packed = 0; packed <= 1; packed++) {
         struct diag diag = {0};

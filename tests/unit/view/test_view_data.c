@@ -73,15 +73,6 @@ static void finish(struct packed *packed)
         fail_msg("the head is not JSON: %s", error.text);
 }
 
-static void release(struct packed *packed)
-{
-    json_decref(packed->json);
-    text_free(&packed->head);
-    text_free(&packed->columns);
-    arena_free(&packed->arena);
-    arena_free(&packed->frame_arena);
-}
-
 static unsigned digit(char letter)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -141,18 +132,31 @@ static const char *name_at(const struct packed *packed, double index)
     return json_string_value(json_array_get(json_object_get(packed->json, "names"), (size_t)index));
 }
 
-static void begin(struct packed *packed)
+static int begin(void **state)
 {
-    *packed = (struct packed){0};
+    struct packed *packed = check_make(state, sizeof *packed);
     view_data_begin(&packed->data, &packed->arena);
+    return 0;
 }
 
-TEST(the_columns_hold_what_the_frames_held)
+static int end(void **state)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("x", "100", "4", "false", RICH));
-    finish(&packed);
+    struct packed *packed = *state;
+    json_decref(packed->json);
+    text_free(&packed->head);
+    text_free(&packed->columns);
+    arena_free(&packed->arena);
+    arena_free(&packed->frame_arena);
+    free(packed);
+    return 0;
+}
+
+#define VIEW_TEST(name) TEST_WITH(begin, end, struct packed *packed, name)
+
+VIEW_TEST(the_columns_hold_what_the_frames_held)
+{
+    add_line(packed, FRAME("x", "100", "4", "false", RICH));
+    finish(packed);
     static const struct {
         const char *column;
         size_t index;
@@ -183,96 +187,78 @@ TEST(the_columns_hold_what_the_frames_held)
         {"detail_shortfall_db", 0, 2.5},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        if (value_of(&packed, cases[i].column, cases[i].index) != cases[i].value)
+        if (value_of(packed, cases[i].column, cases[i].index) != cases[i].value)
             fail_msg("%s[%zu] is %g", cases[i].column, cases[i].index,
-                     value_of(&packed, cases[i].column, cases[i].index));
-    assert_string_equal(name_at(&packed, value_of(&packed, "contributor_reflector", 2)), "e");
-    assert_string_equal(name_at(&packed, value_of(&packed, "detail_reflector", 0)), "d");
-    assert_string_equal(name_at(&packed, value_of(&packed, "item_stage", 0)), "ideal");
-    release(&packed);
+                     value_of(packed, cases[i].column, cases[i].index));
+    assert_string_equal(name_at(packed, value_of(packed, "contributor_reflector", 2)), "e");
+    assert_string_equal(name_at(packed, value_of(packed, "detail_reflector", 0)), "d");
+    assert_string_equal(name_at(packed, value_of(packed, "item_stage", 0)), "ideal");
 }
 
-TEST(a_sensor_that_stays_the_same_is_listed_once)
+VIEW_TEST(a_sensor_that_stays_the_same_is_listed_once)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("x", "100", "4", "false", RICH));
-    add_line(&packed, FRAME("x", "101", "4.04", "true", RICH));
-    finish(&packed);
-    assert_int_equal(packed.data.sensors.count, 1);
-    release(&packed);
+    add_line(packed, FRAME("x", "100", "4", "false", RICH));
+    add_line(packed, FRAME("x", "101", "4.04", "true", RICH));
+    finish(packed);
+    assert_int_equal(packed->data.sensors.count, 1);
 }
 
-TEST(a_sensor_stands_and_moves_with_its_mount)
+VIEW_TEST(a_sensor_stands_and_moves_with_its_mount)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("x", "0", "4", "false", RICH));
-    finish(&packed);
+    add_line(packed, FRAME("x", "0", "4", "false", RICH));
+    finish(packed);
     /* Coordinates are relative to the ego's start; omega x r of r = (-1, 2) is (-0.2, -0.1). */
-    assert_close(value_of(&packed, "scan_x_m", 0), -1, 1e-6);
-    assert_close(value_of(&packed, "scan_y_m", 0), 2, 1e-6);
-    assert_close(value_of(&packed, "scan_yaw_rad", 0), acos(0) + 0.25, 1e-6);
-    assert_close(value_of(&packed, "scan_vx_mps", 0), -0.2, 1e-6);
-    assert_close(value_of(&packed, "scan_vy_mps", 0), 4.9, 1e-6);
-    assert_close(value_of(&packed, "object_y_m", 1), 10, 1e-6);
-    release(&packed);
+    assert_close(value_of(packed, "scan_x_m", 0), -1, 1e-6);
+    assert_close(value_of(packed, "scan_y_m", 0), 2, 1e-6);
+    assert_close(value_of(packed, "scan_yaw_rad", 0), acos(0) + 0.25, 1e-6);
+    assert_close(value_of(packed, "scan_vx_mps", 0), -0.2, 1e-6);
+    assert_close(value_of(packed, "scan_vy_mps", 0), 4.9, 1e-6);
+    assert_close(value_of(packed, "object_y_m", 1), 10, 1e-6);
 }
 
-TEST(a_sensor_stands_where_it_was_when_it_measured)
+VIEW_TEST(a_sensor_stands_where_it_was_when_it_measured)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, AGED("0.02", "x", "0", "4.02", "false",
-                           "\"targets\":[" TARGET("8", PART("a", "8.5", "1", "4")) "]"));
-    finish(&packed);
+    add_line(packed, AGED("0.02", "x", "0", "4.02", "false",
+                          "\"targets\":[" TARGET("8", PART("a", "8.5", "1", "4")) "]"));
+    finish(packed);
     /* 0.02 s earlier at 5 m/s, and turned 0.002 rad less. */
-    assert_close(value_of(&packed, "scan_age_s", 0), 0.02, 1e-6);
-    assert_close(value_of(&packed, "scan_yaw_rad", 0), acos(0) + 0.25 - 0.002, 1e-6);
-    assert_close(value_of(&packed, "scan_y_m", 0), 2 - 0.1 + 0.002 * 1, 1e-4);
-    release(&packed);
+    assert_close(value_of(packed, "scan_age_s", 0), 0.02, 1e-6);
+    assert_close(value_of(packed, "scan_yaw_rad", 0), acos(0) + 0.25 - 0.002, 1e-6);
+    assert_close(value_of(packed, "scan_y_m", 0), 2 - 0.1 + 0.002 * 1, 1e-4);
 }
 
-TEST(no_name_can_end_the_script_element)
+VIEW_TEST(no_name_can_end_the_script_element)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("<!--<script>", "0", "4", "false", RICH));
-    finish(&packed);
-    assert_null(memchr(packed.head.bytes, '<', packed.head.length));
-    assert_string_equal(name_at(&packed, 0), "<!--<script>");
-    assert_string_equal(name_at(&packed, value_of(&packed, "object_id", 1)), "</script>");
-    release(&packed);
+    add_line(packed, FRAME("<!--<script>", "0", "4", "false", RICH));
+    finish(packed);
+    assert_null(memchr(packed->head.bytes, '<', packed->head.length));
+    assert_string_equal(name_at(packed, 0), "<!--<script>");
+    assert_string_equal(name_at(packed, value_of(packed, "object_id", 1)), "</script>");
 }
 
-TEST(scenes_may_interleave_and_those_cut_short_are_marked)
+VIEW_TEST(scenes_may_interleave_and_those_cut_short_are_marked)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("x", "7", "4", "false", RICH));
-    add_line(&packed, FRAME("y", "0", "4", "false", RICH));
-    add_line(&packed, FRAME("x", "8", "5", "false", RICH));
-    add_line(&packed, FRAME("y", "1", "5", "true", RICH));
-    finish(&packed);
-    json_t *scenes = json_object_get(packed.json, "scenes");
+    add_line(packed, FRAME("x", "7", "4", "false", RICH));
+    add_line(packed, FRAME("y", "0", "4", "false", RICH));
+    add_line(packed, FRAME("x", "8", "5", "false", RICH));
+    add_line(packed, FRAME("y", "1", "5", "true", RICH));
+    finish(packed);
+    json_t *scenes = json_object_get(packed->json, "scenes");
     assert_int_equal(json_array_size(scenes), 2);
     assert_false(json_is_true(json_object_get(json_array_get(scenes, 0), "ended")));
     assert_true(json_is_true(json_object_get(json_array_get(scenes, 1), "ended")));
     static const double owner[] = {0, 1, 0, 1}, number[] = {0, 0, 1, 1}, time_s[] = {0, 0, 1, 1};
     for (size_t i = 0; i < 4; i++) {
-        assert_true(value_of(&packed, "frame_scene", i) == owner[i]);
-        assert_true(value_of(&packed, "frame_number", i) == number[i]);
-        assert_true(value_of(&packed, "frame_time_s", i) == time_s[i]);
+        assert_true(value_of(packed, "frame_scene", i) == owner[i]);
+        assert_true(value_of(packed, "frame_number", i) == number[i]);
+        assert_true(value_of(packed, "frame_time_s", i) == time_s[i]);
     }
-    release(&packed);
 }
 
 /* Two ghosts of one reflector, one in a target, one lost, and its direct echo, lost too. */
-TEST(echoes_keep_their_mirror_and_number)
+VIEW_TEST(echoes_keep_their_mirror_and_number)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed,
+    add_line(packed,
              FRAME("x", "0", "4", "false",
                    "\"targets\":[{\"sensor\":\"f\",\"range_m\":8,\"azimuth_rad\":0,"
                    "\"range_rate_mps\":0,\"amplitude_db\":1,\"cell_range_m\":8,"
@@ -286,116 +272,98 @@ TEST(echoes_keep_their_mirror_and_number)
                    "{\"object\":\"o\",\"reflector\":\"r\",\"path\":\"direct\",\"shortfall_db\":1},"
                    "{\"object\":\"o\",\"reflector\":\"r\",\"path\":\"object_wall\","
                    "\"mirror\":\"v\",\"number\":2,\"shortfall_db\":2}]}]"));
-    finish(&packed);
-    assert_string_equal(name_at(&packed, value_of(&packed, "contributor_mirror", 0) - 1), "w");
-    assert_true(value_of(&packed, "contributor_number", 0) == 3);
-    assert_true(value_of(&packed, "contributor_path", 0) == PATH_WALL_OBJECT);
-    assert_true(value_of(&packed, "item_mirror", 0) == 0 &&
-                value_of(&packed, "item_number", 0) == 0);
-    assert_string_equal(name_at(&packed, value_of(&packed, "item_mirror", 1) - 1), "v");
-    assert_true(value_of(&packed, "item_number", 1) == 2);
-    assert_true(value_of(&packed, "item_effect", 1) == EFFECT_THRESHOLD);
-    assert_true(value_of(&packed, "detail_number", 1) == 2);
-    assert_true(value_of(&packed, "detail_mirror", 0) == 0);
-    json_t *sets = json_object_get(packed.json, "effect_sets");
+    finish(packed);
+    assert_string_equal(name_at(packed, value_of(packed, "contributor_mirror", 0) - 1), "w");
+    assert_true(value_of(packed, "contributor_number", 0) == 3);
+    assert_true(value_of(packed, "contributor_path", 0) == PATH_WALL_OBJECT);
+    assert_true(value_of(packed, "item_mirror", 0) == 0 && value_of(packed, "item_number", 0) == 0);
+    assert_string_equal(name_at(packed, value_of(packed, "item_mirror", 1) - 1), "v");
+    assert_true(value_of(packed, "item_number", 1) == 2);
+    assert_true(value_of(packed, "item_effect", 1) == EFFECT_THRESHOLD);
+    assert_true(value_of(packed, "detail_number", 1) == 2);
+    assert_true(value_of(packed, "detail_mirror", 0) == 0);
+    json_t *sets = json_object_get(packed->json, "effect_sets");
     json_t *set = json_object_get(
-        json_array_get(sets, (size_t)value_of(&packed, "target_effects", 0)), "effects");
+        json_array_get(sets, (size_t)value_of(packed, "target_effects", 0)), "effects");
     assert_int_equal(json_array_size(set), 2);
     assert_string_equal(json_string_value(json_array_get(set, 1)), "list_limit");
-    release(&packed);
 }
 
-TEST(a_stages_own_reason_is_shown_with_the_stage)
+VIEW_TEST(a_stages_own_reason_is_shown_with_the_stage)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed,
+    add_line(packed,
              FRAME("x", "0", "4", "false",
                    "\"targets\":[],\"lost\":["
                    "{\"sensor\":\"f\",\"stage\":\"mud\",\"reason\":\"covered\",\"echoes\":["
                    "{\"object\":\"</script>\",\"reflector\":\"r\",\"path\":\"direct\"}]}]"));
-    finish(&packed);
-    json_t *own = json_array_get(json_object_get(packed.json, "reasons"), LOSS_OWN);
+    finish(packed);
+    json_t *own = json_array_get(json_object_get(packed->json, "reasons"), LOSS_OWN);
     assert_string_equal(json_string_value(json_object_get(own, "name")), "mud: covered");
     assert_true(json_is_true(json_object_get(own, "notable")));
-    assert_close(value_of(&packed, "item_reason", 0), LOSS_OWN, 0);
-    release(&packed);
+    assert_close(value_of(packed, "item_reason", 0), LOSS_OWN, 0);
 }
 
-TEST(every_reason_and_path_has_its_name)
+VIEW_TEST(every_reason_and_path_has_its_name)
 {
-    struct packed packed;
-    begin(&packed);
-    finish(&packed);
-    json_t *reasons = json_object_get(packed.json, "reasons");
+    finish(packed);
+    json_t *reasons = json_object_get(packed->json, "reasons");
     json_t *switched_off = json_array_get(reasons, LOSS_SWITCHED_OFF);
     assert_string_equal(json_string_value(json_object_get(switched_off, "name")), "switched_off");
-    json_t *paths = json_object_get(packed.json, "paths");
+    json_t *paths = json_object_get(packed->json, "paths");
     assert_string_equal(json_string_value(json_array_get(paths, PATH_FALSE_ALARM)), "false_alarm");
-    release(&packed);
 }
 
-TEST(the_same_losses_share_a_pattern)
+VIEW_TEST(the_same_losses_share_a_pattern)
 {
-    struct packed packed;
-    begin(&packed);
     for (int i = 0; i < 1000; i++)
-        add_line(&packed, FRAME("x", "0", "4", "false", RICH));
-    finish(&packed);
-    assert_int_equal(count_of(&packed, "pattern_items"), 1);
-    assert_int_equal(count_of(&packed, "fate_pattern"), 1000);
-    assert_int_equal(count_of(&packed, "detail_shortfall_db"), 1000);
-    release(&packed);
+        add_line(packed, FRAME("x", "0", "4", "false", RICH));
+    finish(packed);
+    assert_int_equal(count_of(packed, "pattern_items"), 1);
+    assert_int_equal(count_of(packed, "fate_pattern"), 1000);
+    assert_int_equal(count_of(packed, "detail_shortfall_db"), 1000);
 }
 
 /* The sensor at (9, 22) looks north and 0.25 rad to the left of it: the other car's centre, at (10,
  * 30), is hypot(1, 8) m away, at -atan(1/8) - 0.25 rad. Then the car is seen 0.02 s before the
  * frame's time, 0.02 m less far ahead; then another place of it is. */
-TEST(a_loss_is_at_its_spot_or_has_its_place)
+VIEW_TEST(a_loss_is_at_its_spot_or_has_its_place)
 {
 #define LOST_AT(range, azimuth)                                                                    \
     "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"facing_away\",\"echoes\":["      \
     "{\"object\":\"</script>\",\"reflector\":\"c\",\"path\":\"direct\",\"range_m\":" range         \
     ",\"azimuth_rad\":" azimuth "}]}]"
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("x", "0", "4", "false", LOST_AT("8.062", "-0.37435")));
-    add_line(&packed, AGED("0.02", "x", "1", "4.02", "false", LOST_AT("8.157", "-0.36796")));
-    add_line(&packed, FRAME("x", "2", "4.04", "false", LOST_AT("8.5", "-0.37435")));
-    finish(&packed);
-    assert_int_equal(count_of(&packed, "spot_x_m"), 1);
-    assert_close(value_of(&packed, "spot_x_m", 0), 0, 1e-3);
-    assert_close(value_of(&packed, "spot_y_m", 0), 0, 1e-3);
-    assert_string_equal(name_at(&packed, value_of(&packed, "spot_reflector", 0)), "c");
-    assert_int_equal(count_of(&packed, "detail_range_m"), 1);
-    assert_close(value_of(&packed, "detail_range_m", 0), 8.5, 1e-6);
-    assert_close(value_of(&packed, "detail_azimuth_rad", 0), -0.37435, 1e-6);
-    release(&packed);
+    add_line(packed, FRAME("x", "0", "4", "false", LOST_AT("8.062", "-0.37435")));
+    add_line(packed, AGED("0.02", "x", "1", "4.02", "false", LOST_AT("8.157", "-0.36796")));
+    add_line(packed, FRAME("x", "2", "4.04", "false", LOST_AT("8.5", "-0.37435")));
+    finish(packed);
+    assert_int_equal(count_of(packed, "spot_x_m"), 1);
+    assert_close(value_of(packed, "spot_x_m", 0), 0, 1e-3);
+    assert_close(value_of(packed, "spot_y_m", 0), 0, 1e-3);
+    assert_string_equal(name_at(packed, value_of(packed, "spot_reflector", 0)), "c");
+    assert_int_equal(count_of(packed, "detail_range_m"), 1);
+    assert_close(value_of(packed, "detail_range_m", 0), 8.5, 1e-6);
+    assert_close(value_of(packed, "detail_azimuth_rad", 0), -0.37435, 1e-6);
 }
 
-TEST(a_ghost_is_not_at_the_spot_of_its_reflector)
+VIEW_TEST(a_ghost_is_not_at_the_spot_of_its_reflector)
 {
 #define LOST_BY(path, range)                                                                       \
     "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"out_of_view\",\"echoes\":["      \
     "{\"object\":\"</script>\",\"reflector\":\"c\",\"path\":\"" path "\",\"range_m\":" range       \
     ",\"azimuth_rad\":-0.37435}]}]"
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("x", "0", "4", "false", LOST_BY("wall_object", "12")));
-    add_line(&packed, FRAME("x", "1", "4.04", "false", LOST_BY("direct", "8.062")));
-    add_line(&packed, FRAME("x", "2", "4.08", "false", LOST_BY("wall_object", "8.062")));
-    finish(&packed);
-    assert_int_equal(count_of(&packed, "spot_x_m"), 1);
-    assert_close(value_of(&packed, "spot_x_m", 0), 0, 1e-3);
-    assert_int_equal(count_of(&packed, "detail_range_m"), 2);
-    assert_close(value_of(&packed, "detail_range_m", 0), 12, 1e-6);
-    release(&packed);
+    add_line(packed, FRAME("x", "0", "4", "false", LOST_BY("wall_object", "12")));
+    add_line(packed, FRAME("x", "1", "4.04", "false", LOST_BY("direct", "8.062")));
+    add_line(packed, FRAME("x", "2", "4.08", "false", LOST_BY("wall_object", "8.062")));
+    finish(packed);
+    assert_int_equal(count_of(packed, "spot_x_m"), 1);
+    assert_close(value_of(packed, "spot_x_m", 0), 0, 1e-3);
+    assert_int_equal(count_of(packed, "detail_range_m"), 2);
+    assert_close(value_of(packed, "detail_range_m", 0), 12, 1e-6);
 }
 
 /* The sensor that the page has for this part of its record in the frame. */
-static struct sensor_view sensor_told(const char *part)
+static struct sensor_view sensor_told(struct packed *packed, const char *part)
 {
-    struct packed packed;
     char line[2048];
     snprintf(line, sizeof line,
              "{\"version\":0,\"scene\":\"x\",\"frame\":0,\"time_s\":4,\"interval_s\":0.04,"
@@ -404,44 +372,34 @@ static struct sensor_view sensor_told(const char *part)
              "\"mount_y_m\":1,\"mount_yaw_rad\":0.25,\"field_of_view_rad\":3,\"range_max_m\":30,"
              "\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,%s\"measured\":true}]}}",
              part);
-    begin(&packed);
-    add_line(&packed, line);
-    struct sensor_view sensor = packed.data.sensors.items[0];
-    finish(&packed);
-    release(&packed);
-    return sensor;
+    add_line(packed, line);
+    return packed->data.sensors.items[packed->data.sensors.count - 1];
 }
 
-TEST(the_resolution_is_the_frames_and_no_suites)
+VIEW_TEST(the_resolution_is_the_frames_and_no_suites)
 {
     struct sensor_view sensor =
-        sensor_told("\"resolution_range_m\":3.175,\"resolution_range_rate_mps\":0.25,");
+        sensor_told(packed, "\"resolution_range_m\":3.175,\"resolution_range_rate_mps\":0.25,");
     assert_close(sensor.resolution_range_m, 3.175, 0);
     assert_close(sensor.resolution_range_rate_mps, 0.25, 0);
-    assert_close(sensor_told("").resolution_range_m, 0, 0);
+    assert_close(sensor_told(packed, "").resolution_range_m, 0, 0);
 }
 
-TEST(a_column_is_as_wide_as_its_largest_number)
+VIEW_TEST(a_column_is_as_wide_as_its_largest_number)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("x", "10", "4", "false", RICH));
-    add_line(&packed, FRAME("x", "265", "5", "false", RICH));
-    add_line(&packed, FRAME("x", "70010", "6", "false", RICH));
-    finish(&packed);
-    assert_true(value_of(&packed, "frame_number", 1) == 255);
-    assert_true(value_of(&packed, "frame_number", 2) == 70000);
-    release(&packed);
+    add_line(packed, FRAME("x", "10", "4", "false", RICH));
+    add_line(packed, FRAME("x", "265", "5", "false", RICH));
+    add_line(packed, FRAME("x", "70010", "6", "false", RICH));
+    finish(packed);
+    assert_true(value_of(packed, "frame_number", 1) == 255);
+    assert_true(value_of(packed, "frame_number", 2) == 70000);
 }
 
-TEST(an_empty_stream_has_a_head)
+VIEW_TEST(an_empty_stream_has_a_head)
 {
-    struct packed packed;
-    begin(&packed);
-    finish(&packed);
-    assert_int_equal(json_array_size(json_object_get(packed.json, "scenes")), 0);
-    assert_int_equal(packed.columns.length, 0);
-    release(&packed);
+    finish(packed);
+    assert_int_equal(json_array_size(json_object_get(packed->json, "scenes")), 0);
+    assert_int_equal(packed->columns.length, 0);
 }
 
 TEST(columns_of_the_quality_are_those_of_its_table)
@@ -459,20 +417,17 @@ TEST(columns_of_the_quality_are_those_of_its_table)
     assert_int_equal(column, COLUMN_COUNT);
 }
 
-TEST(lines_on_the_ground_are_relative_to_the_ego_and_have_the_word_of_their_kind)
+VIEW_TEST(lines_on_the_ground_are_relative_to_the_ego_and_have_the_word_of_their_kind)
 {
-    struct packed packed;
-    begin(&packed);
-    add_line(&packed, FRAME("s", "0", "4", "true",
-                            "\"roadside\":[{\"kind\":\"poles\",\"from_x_m\":12,\"from_y_m\":21,"
-                            "\"to_x_m\":15,\"to_y_m\":26,\"width_m\":3}]"));
-    finish(&packed);
-    json_t *scene = json_array_get(json_object_get(packed.json, "scenes"), 0);
+    add_line(packed, FRAME("s", "0", "4", "true",
+                           "\"roadside\":[{\"kind\":\"poles\",\"from_x_m\":12,\"from_y_m\":21,"
+                           "\"to_x_m\":15,\"to_y_m\":26,\"width_m\":3}]"));
+    finish(packed);
+    json_t *scene = json_array_get(json_object_get(packed->json, "scenes"), 0);
     json_t *line = json_array_get(json_object_get(scene, "ground"), 0);
     assert_string_equal(json_string_value(json_object_get(line, "kind")), "poles");
     static const char *const members[] = {"from_x_m", "from_y_m", "to_x_m", "to_y_m", "width_m"};
     static const double expected[] = {2, 1, 5, 6, 3};
     for (size_t i = 0; i < 5; i++)
         assert_close(json_number_value(json_object_get(line, members[i])), expected[i], 1e-12);
-    release(&packed);
 }
