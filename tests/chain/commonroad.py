@@ -14,7 +14,8 @@ import xml.etree.ElementTree as ElementTree
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import recorded  # noqa: E402
-from recorded import BIN, DATA, check, compare, refuses, run, slopes  # noqa: E402
+from recorded import (  # noqa: E402
+    BIN, DATA, add_slopes, check, check_mirrored, compare, egos_as_if_alone, refuses, run, save)
 
 PROGRAM = "glint-traffic-commonroad"
 CLASSES = {"car": "car", "truck": "truck", "bus": "bus", "motorcycle": "motorcycle", "bicycle": "bicycle",
@@ -187,15 +188,6 @@ def track_of(obstacle, step_s):
     return track
 
 
-def add_slopes(track):
-    times = [time for time, _ in track]
-    for place, key in (("x_m", "vx_mps"), ("y_m", "vy_mps"), ("yaw_rad", "yaw_rate_radps")):
-        turn = (lambda angle: math.remainder(angle, 2 * math.pi)) if key == "yaw_rate_radps" else lambda way: way
-        for (_, one), slope in zip(track, slopes(times, [one[place] for _, one in track], turn), strict=True):
-            if one[key] is None:
-                one[key] = slope
-
-
 def expected_of(text):
     """{time: {id: state}} of a scenario."""
     root, steps, stills = ElementTree.fromstring(text), {}, {}
@@ -213,15 +205,8 @@ def expected_of(text):
     return {time: users | stills for time, users in steps.items()}
 
 
-def write(folder, name, text):
-    path = os.path.join(folder, name)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-    return path
-
-
 def exactness(folder):
-    new, old = write(folder, "new.xml", NEW), write(folder, "old.xml", OLD)
+    new, old = save(folder, "new.xml", NEW), save(folder, "old.xml", OLD)
     for ego in ("30", "31", "32", "9"):
         compare(run(PROGRAM, new, "--ego", ego), expected_of(NEW), ego)
     compare(run(PROGRAM, old, "--ego", "7"), expected_of(OLD), "7")
@@ -242,17 +227,13 @@ def exactness(folder):
 def shared_options(folder):
     path = os.path.join(folder, "new.xml")
     for words in ((), ("--radius-m", "20"), ("--rate-hz", "25"), ("--from-s", "0.25", "--to-s", "0.3")):
-        together = {}
-        for frame in run(PROGRAM, path, "--ego", "all", *words):
-            together.setdefault(frame["ego"], []).append(frame)
+        together = egos_as_if_alone(PROGRAM, path, *words)
         check("30" in together and "32" not in together, f"egos are all but pedestrians: {list(together)}")
-        for ego, frames in together.items():
-            check(frames == run(PROGRAM, path, "--ego", ego, *words), f"{ego} alone, {words}")
     near = run(PROGRAM, path, "--ego", "30", "--radius-m", "20")
     check([part["id"] for part in near[0]["objects"]] == ["30", "32"], "--radius-m")
     mapped = run(PROGRAM, path, "--ego", "30", "--class-map", "truck=bus,parkedVehicle=van")
     check([part["class"] for part in mapped[1]["objects"]] == ["car", "bus", "van"], "--class-map")
-    write(folder, "strange.xml", NEW.replace("<type>truck</type>", "<type>unknown</type>"))
+    save(folder, "strange.xml", NEW.replace("<type>truck</type>", "<type>unknown</type>"))
     mapped = run(PROGRAM, os.path.join(folder, "strange.xml"), "--ego", "30", "--class-default", "post")
     check(mapped[1]["objects"][1]["class"] == "post", "--class-default")
     lines = re.findall(r"\n    ([a-z]+): (.*)", os.popen(f"{BIN}/{PROGRAM} --help").read())
@@ -272,14 +253,8 @@ def a_mirrored_world_is_mirrored(folder):
         text = re.sub(r"(<rectangle>[^\n]*<orientation>)([^<]*)(</orientation>)", flip, text)
         text = re.sub(r"<orientation><intervalStart>([^<]*)</intervalStart><intervalEnd>([^<]*)</intervalEnd>",
                       r"<orientation><intervalStart>-\2</intervalStart><intervalEnd>-\1</intervalEnd>", text)
-        mirrored = run(PROGRAM, write(folder, "mirrored.xml", text), "--ego", ego)
-        for one, other in zip(run(PROGRAM, os.path.join(folder, name), "--ego", ego), mirrored, strict=True):
-            for a, b in zip(one["objects"], other["objects"], strict=True):
-                for key in ("x_m", "vx_mps", "length_m", "width_m", "travelled_m"):
-                    check(abs(a[key] - b[key]) < 1e-9, f"mirrored {key} of {a['id']}")
-                for key in ("y_m", "vy_mps", "yaw_rate_radps"):
-                    check(abs(a[key] + b[key]) < 1e-9, f"mirrored {key} of {a['id']}")
-                check(recorded.turn_between(a["yaw_rad"], -b["yaw_rad"]) < 1e-12, f"mirrored yaw of {a['id']}")
+        mirrored = run(PROGRAM, save(folder, "mirrored.xml", text), "--ego", ego)
+        check_mirrored(run(PROGRAM, os.path.join(folder, name), "--ego", ego), mirrored)
 
 
 def big(folder, count, steps=1000):
@@ -338,15 +313,15 @@ def what_stands_twice_is_refused(folder):
                            (f"<{name}>1<note/>{value}</{name}>", 'an element is "note"; expected no text before it'),
                            (f"<{name}>{value} m</{name}>", f'is "{value} m"; expected a number in ')]
             for new, message in broken:
-                path = write(folder, "twice.xml", text[:match.start()] + new + text[match.start() + len(whole):])
+                path = save(folder, "twice.xml", text[:match.start()] + new + text[match.start() + len(whole):])
                 done = subprocess.run([os.path.join(BIN, PROGRAM), path, "--ego", ego], capture_output=True, check=False)
                 said = done.stderr.decode()
                 check(done.returncode == 65 and message in said and ": line " in said, f"{whole} -> {new}: {said}")
             tried.add(name)
     check(len(tried) >= 18, f"elements: {sorted(tried)}")
-    plain = run(PROGRAM, write(folder, "same.xml", NEW), "--ego", "30")
+    plain = run(PROGRAM, save(folder, "same.xml", NEW), "--ego", "30")
     for new in ("<x> 10 </x>", "<x>\n\t10\n</x>", "<x>1<!-- m -->0</x>", "<x><![CDATA[10]]></x>", "<x>&#49;0</x>"):
-        check(run(PROGRAM, write(folder, "same.xml", NEW.replace("<x>10</x>", new, 1)), "--ego", "30") == plain,
+        check(run(PROGRAM, save(folder, "same.xml", NEW.replace("<x>10</x>", new, 1)), "--ego", "30") == plain,
               f"{new} is 10, as every reader of XML has it")
 
 

@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import recorded  # noqa: E402
 from osi_messages import VERSION, message, real, stamp, trace_of, vector, whole  # noqa: E402
-from recorded import BIN, PATIENCE_S, check, run  # noqa: E402
+from recorded import BIN, PATIENCE_S, check, run, save  # noqa: E402
 
 STEP_S, STEPS = 0.1, 60
 
@@ -112,13 +112,6 @@ def osi(scene, heights=True):
 
 FORMATS = (("glint-traffic-sumo", "fcd.xml", sumo), ("glint-traffic", "fcd.csv", sumo_table), ("glint-traffic", "log.csv", esmini),
            ("glint-traffic-osi", "trace.osi", osi))
-
-
-def save(folder, name, content):
-    path = os.path.join(folder, name)
-    with open(path, "wb") as file:
-        file.write(content)
-    return path
 
 
 def ids(frames):

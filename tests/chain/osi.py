@@ -7,7 +7,6 @@ import json
 import math
 import os
 import re
-import select
 import shutil
 import struct
 import subprocess
@@ -19,7 +18,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import recorded  # noqa: E402
 from osi_messages import (  # noqa: E402
     LANE, VERSION, box, decode, message, moving, stamp, stationary, trace_of, value_of, vector, whole)
-from recorded import BIN, DATA, PATIENCE_S, check, compare, run, slopes  # noqa: E402
+from recorded import (  # noqa: E402
+    BIN, DATA, PATIENCE_S, check, check_mirrored, compare, egos_as_if_alone, in_lock_step, run, save, slopes)
 
 PROGRAM = "glint-traffic-osi"
 VEHICLES = {"TYPE_SMALL_CAR": "car", "TYPE_CAR": "car", "TYPE_MEDIUM_CAR": "car", "TYPE_HEAVY_TRUCK": "truck",
@@ -75,13 +75,6 @@ def own_states(count=6, rear_axle=False):
         steps[time][str(2**64 - 1)] = {"class": "pedestrian", "x_m": xs[i], "y_m": ys[i], "vx_mps": vx, "vy_mps": vy,
                                        "yaw_rad": math.atan2(vy, vx), "length_m": 0, "width_m": 0, "height_m": 0}
     return {round(time, 9): users for time, users in steps.items()}
-
-
-def save(folder, name, content):
-    path = os.path.join(folder, name)
-    with open(path, "wb") as file:
-        file.write(content)
-    return path
 
 
 def sensor_view(truth):
@@ -183,12 +176,8 @@ def a_type_that_is_missing_is_said(folder):
 def shared_options(folder):
     path = os.path.join(folder, "own.osi")
     for words in ((), ("--radius-m", "25"), ("--rate-hz", "50"), ("--from-s", "0.1", "--to-s", "0.2")):
-        together = {}
-        for frame in run(PROGRAM, path, "--ego", "all", *words):
-            together.setdefault(frame["ego"], []).append(frame)
+        together = egos_as_if_alone(PROGRAM, path, *words)
         check(sorted(together) == ["0", "7", "8"], f"egos are all vehicles: {sorted(together)}")
-        for ego, frames in together.items():
-            check(frames == run(PROGRAM, path, "--ego", ego, *words), f"{ego} alone, {words}")
     mapped = run(PROGRAM, path, "--class-map", "semitrailer=van,pole=guardrail")
     check([part["class"] for part in mapped[0]["objects"]] == ["car", "truck", "van", "guardrail"], "--class-map")
     strange = save(folder, "strange.osi", trace_of(stamp(0) + moving(0, 25, 0, 0, 0.0)))
@@ -203,26 +192,14 @@ def shared_options(folder):
 def a_mirrored_world_is_mirrored(folder):
     path = save(folder, "mirrored.osi", trace_of(*own_trace(sign=-1)))
     for words in ((), ("--rear-axle-velocity",), ("--rate-hz", "70")):
-        for one, other in zip(run(PROGRAM, os.path.join(folder, "own.osi"), *words), run(PROGRAM, path, *words), strict=True):
-            for a, b in zip(one["objects"], other["objects"], strict=True):
-                for key in ("x_m", "vx_mps", "length_m", "travelled_m"):
-                    check(abs(a[key] - b[key]) < 1e-9, f"mirrored {key} of {a['id']}")
-                for key in ("y_m", "vy_mps", "yaw_rate_radps"):
-                    check(abs(a[key] + b[key]) < 1e-9, f"mirrored {key} of {a['id']}")
-                check(recorded.turn_between(a["yaw_rad"], -b["yaw_rad"]) < 1e-12, f"mirrored yaw of {a['id']}")
+        check_mirrored(run(PROGRAM, os.path.join(folder, "own.osi"), *words), run(PROGRAM, path, *words))
 
 
 def a_loop_in_lock_step_never_waits():
     """A stand-in of a simulator writes a message, and waits for its frame before it writes the next."""
-    with subprocess.Popen([os.path.join(BIN, PROGRAM), "-", "--live"], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as loop:
-        into, out = loop.stdin.fileno(), loop.stdout.fileno()
-        for i in range(200):
-            os.write(into, trace_of(stamp(i * STEP_NS) + message(3, b"") + moving(0, 4, 0.4 * i, 0, 0.0, zeros=False)))
-            check(bool(select.select([out], [], [], PATIENCE_S)[0]), f"no frame of message {i} before the next")
-            frame = json.loads(os.read(out, 1 << 16))
-            check(frame["frame"] == i and abs(frame["objects"][0]["vx_mps"] - 8 * (i > 0)) < 1e-9, f"live frame {i}: {frame}")
-        loop.stdin.close()
-        check(loop.wait(PATIENCE_S) == 0, "the loop ends well")
+    messages = [trace_of(stamp(i * STEP_NS) + message(3, b"") + moving(0, 4, 0.4 * i, 0, 0.0, zeros=False)) for i in range(200)]
+    for i, frame in enumerate(in_lock_step(PROGRAM, ["-", "--live"], messages)):
+        check(frame["frame"] == i and abs(frame["objects"][0]["vx_mps"] - 8 * (i > 0)) < 1e-9, f"live frame {i}: {frame}")
 
 
 def memory_is_constant():

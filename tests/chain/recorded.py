@@ -23,7 +23,8 @@ import time
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import recorded  # noqa: E402
-from recorded import BIN, DATA, PATIENCE_S, check, run  # noqa: E402
+from recorded import (  # noqa: E402
+    BIN, DATA, PATIENCE_S, add_slopes, check, check_mirrored, egos_as_if_alone, in_lock_step, refuses, run, save)
 
 # ---- a drive of our own: exact positions at any time ------------------------------------------------
 
@@ -68,9 +69,7 @@ def table_of(kind, rate_hz, seconds=6):
 def resampling_error(folder):
     """10 Hz in, 20 Hz out, against the original at 200 Hz, whose velocities are differences over 10 ms."""
     for kind in ("change", "turn", "stop"):
-        path = os.path.join(folder, f"{kind}.csv")
-        with open(path, "w", encoding="ascii") as file:
-            file.write(table_of(kind, 10))
+        path = save(folder, f"{kind}.csv", table_of(kind, 10))
         frames = run("glint-traffic", path, "--ego", kind, "--rate-hz", "20")
         check(len(frames) == 121, f"{kind}: {len(frames)} frames at 20 Hz")
         original = list(drive(kind, 200, 6))
@@ -157,90 +156,63 @@ def spread(visit, length):
     return out
 
 
-def spread_all(steps, every):
-    """The same for all vehicles of steps, which are unlike walkers and containers, visit by visit."""
+def visits_of(steps, every):
+    """Who is there in steps one after the other, as lists of (time, state)."""
     for name in {name for users in steps.values() for name in users}:
         visit = []
         for time in [*every, None]:
             state = steps.get(time, {}).get(name)
-            if state is not None and state["kind"] not in ("DEFAULT_PEDTYPE", "DEFAULT_CONTAINERTYPE"):
+            if state is not None:
                 visit.append((time, state))
             elif visit:
-                length = visit[0][1]["size"][0]
-                rows = [(at, complex(one["x"], one["y"]), one["yaw"], one["speed"]) for at, one in visit]
-                for (_, one), (place, yaw) in zip(visit, spread(rows, length), strict=True):
-                    one.update(x=place.real, y=place.imag, yaw=yaw)
+                yield visit
                 visit = []
+
+
+def move(visit):
+    """Makes of fronts, yaws and speeds the places, yaws and velocities of centres; vehicles alone have jumps."""
+    first = visit[0][1]
+    if first["kind"] not in ("DEFAULT_PEDTYPE", "DEFAULT_CONTAINERTYPE"):
+        rows = [(at, complex(one["x_m"], one["y_m"]), one["yaw_rad"], one["speed"]) for at, one in visit]
+        for (_, one), (place, yaw) in zip(visit, spread(rows, first["length_m"]), strict=True):
+            one.update(x_m=place.real, y_m=place.imag, yaw_rad=yaw)
+    for _, one in visit:
+        speed, yaw = one.pop("speed"), one["yaw_rad"]
+        del one["kind"]
+        one["x_m"] -= one["length_m"] / 2 * math.cos(yaw)
+        one["y_m"] -= one["length_m"] / 2 * math.sin(yaw)
+        if len(visit) == 1:
+            one.update(vx_mps=speed * math.cos(yaw), vy_mps=speed * math.sin(yaw))
+    add_slopes(visit)
 
 
 def states_of(text, sizes):
     """What the frames have to say: {time: {id: object}}, by differences over the steps."""
-    steps, times = {}, []
+    steps = {}
     for time, name, x, y, angle, kind, speed in users_of(text):
-        yaw = math.radians(90 - angle)
         class_, length, width, height = sizes[kind]
-        if time not in steps:
-            steps[time] = {}
-            times.append(time)
-        steps[time][name] = {"x": x, "y": y, "yaw": yaw, "kind": kind, "class": class_, "size": (length, width, height),
-                             "speed": speed}
+        steps.setdefault(time, {})[name] = {
+            "x_m": x, "y_m": y, "yaw_rad": math.radians(90 - angle), "kind": kind, "speed": speed, "class": class_,
+            "length_m": length, "width_m": width, "height_m": height}
     every = [float(time) for time in re.findall(r'<timestep time="([^"]*)"', re.sub(r"<!--.*?-->", "", text, flags=re.S))]
-    spread_all(steps, every)
-    for state in (state for users in steps.values() for state in users.values()):
-        state["x"] -= state["size"][0] / 2 * math.cos(state["yaw"])
-        state["y"] -= state["size"][0] / 2 * math.sin(state["yaw"])
-    for time in times:
-        at = every.index(time)
-        for name, state in steps[time].items():
-            before = steps.get(every[at - 1], {}).get(name) if at > 0 else None
-            after = steps.get(every[at + 1], {}).get(name) if at + 1 < len(every) else None
-            left = time - every[at - 1] if before else 0
-            right = every[at + 1] - time if after else 0
-
-            def slope(key, turn=lambda x: x, state=state, before=before, after=after, left=left, right=right):
-                if before and after:
-                    back, ahead = turn(state[key] - before[key]) / left, turn(after[key] - state[key]) / right
-                    return (back * right + ahead * left) / (left + right)
-                if before:
-                    return turn(state[key] - before[key]) / left
-                return turn(after[key] - state[key]) / right if after else None
-
-            state["vx"] = slope("x") if before or after else state["speed"] * math.cos(state["yaw"])
-            state["vy"] = slope("y") if before or after else state["speed"] * math.sin(state["yaw"])
-            state["rate"] = slope("yaw", lambda angle: math.remainder(angle, 2 * math.pi)) or 0
+    for visit in visits_of(steps, every):
+        move(visit)
     return steps
 
 
 def compare(frames, text, sizes, ego):
-    expected = {time: users for time, users in states_of(text, sizes).items() if ego in users}
-    check([frame["time_s"] for frame in frames] == sorted(expected), f"times of {ego}")
-    for frame in frames:
-        users, origin = expected[frame["time_s"]], (frame.get("origin_x_m", 0), frame.get("origin_y_m", 0))
-        check([part["id"] for part in frame["objects"]] == sorted(users), f"who is there at {frame['time_s']} s")
-        for part in frame["objects"]:
-            state = users[part["id"]]
-            check(part["class"] == state["class"], f"class of {part['id']}")
-            close = (math.dist((part["x_m"] + origin[0], part["y_m"] + origin[1]), (state["x"], state["y"])) < 1e-8 and
-                     abs(math.remainder(part["yaw_rad"] - state["yaw"], 2 * math.pi)) < 1e-12 and
-                     math.dist((part["vx_mps"], part["vy_mps"]), (state["vx"], state["vy"])) < 1e-8 and
-                     abs(part["yaw_rate_radps"] - state["rate"]) < 1e-8 and
-                     (part["length_m"], part["width_m"], part["height_m"]) == state["size"])
-            check(close, f"{part['id']} at {frame['time_s']} s: {part}, expected {state}")
+    recorded.compare(frames, states_of(text, sizes), ego)
 
 
 def exactness(folder):
-    path = os.path.join(folder, "own.xml")
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(FCD)
+    path = save(folder, "own.xml", FCD)
     compare(run("glint-traffic-sumo", path, "--ego", "ego"), FCD, SIZES, "ego")
     check(run("glint-traffic-sumo", "-", "--ego", "late", data=FCD.encode())[0]["ego"] == "late", "standard input")
     with gzip.open(path + ".gz", "wb") as file:
         file.write(FCD.encode())
     compare(run("glint-traffic-sumo", path + ".gz", "--ego", "ego"), FCD, SIZES, "ego")
-    types = os.path.join(folder, "types.rou.xml")
-    with open(types, "w", encoding="utf-8") as file:
-        file.write('<routes><vTypeDistribution id="d"><vType id="bus" vClass="coach" length="13"/></vTypeDistribution>'
-                   '<vType id="passenger" width="2" height="1.4"/></routes>')
+    types = save(folder, "types.rou.xml", '<routes><vTypeDistribution id="d"><vType id="bus" vClass="coach" length="13"/>'
+                 '</vTypeDistribution><vType id="passenger" width="2" height="1.4"/></routes>')
     sizes = dict(SIZES, bus=("bus", 13, 2.6, 4), passenger=("car", 5, 2, 1.4))
     compare(run("glint-traffic-sumo", path, "--ego", "ego", "--types", types), FCD, sizes, "ego")
     mapped = run("glint-traffic-sumo", path, "--ego", "late", "--class-map", "bus=truck")
@@ -269,15 +241,12 @@ def riders_are_hidden(folder):
     near = '<person id="n" x="{0}" y="2.01" angle="90" speed="10"/>'
     for riders in (f"{bus}/>{behind}", f"{bus}>{behind}</vehicle>", f"{bus}/>"):
         steps = "".join(f'<timestep time="{i}">{(riders + near + waiting).format(10 * i)}</timestep>' for i in range(3))
-        path = os.path.join(folder, "riders.xml")
-        with open(path, "w", encoding="ascii") as file:
-            file.write(f"<fcd-export>{steps}</fcd-export>")
+        path = save(folder, "riders.xml", f"<fcd-export>{steps}</fcd-export>")
         there = [[part["id"] for part in frame["objects"]] for frame in run("glint-traffic-sumo", path, "--ego", "bus")]
         check(there == [["bus", "k", "l", "n"]] * 3, f"riders: {there}")
-    path = os.path.join(folder, "riders.csv")
-    with open(path, "w", encoding="ascii") as file:
-        file.write("timestep_time;vehicle_id;vehicle_x;vehicle_y;vehicle_angle;person_id;person_x;person_y;person_angle\n"
-                   "0;bus;0;2;90;;;;\n0;;;;;p;0;2;90\n0;;;;;q;0;3;90\n1;bus;9;2;90;r;9;2;90\n1;;;;;p;0;2;90\n")
+    path = save(folder, "riders.csv",
+                "timestep_time;vehicle_id;vehicle_x;vehicle_y;vehicle_angle;person_id;person_x;person_y;person_angle\n"
+                "0;bus;0;2;90;;;;\n0;;;;;p;0;2;90\n0;;;;;q;0;3;90\n1;bus;9;2;90;r;9;2;90\n1;;;;;p;0;2;90\n")
     there = [[part["id"] for part in frame["objects"]] for frame in run("glint-traffic", path, "--ego", "bus")]
     check(there == [["bus", "q"], ["bus", "p"]], f"riders of a table: {there}")
 
@@ -285,13 +254,8 @@ def riders_are_hidden(folder):
 def every_ego_is_as_if_alone(folder):
     path = os.path.join(folder, "own.xml")
     for words in ((), ("--radius-m", "20"), ("--rate-hz", "8"), ("--from-s", "0.7", "--to-s", "1.9")):
-        together = {}
-        for frame in run("glint-traffic-sumo", path, "--ego", "all", *words):
-            together.setdefault(frame["ego"], []).append(frame)
+        together = egos_as_if_alone("glint-traffic-sumo", path, *words)
         check("walker" not in together and "ego" in together, "egos are all but pedestrians")
-        for ego, frames in together.items():
-            check(frames == run("glint-traffic-sumo", path, "--ego", ego, *words), f"{ego} alone, {words}")
-            check([frame.get("last", False) for frame in frames] == [False] * (len(frames) - 1) + [True], "last frames")
 
 
 def table_of_visits(folder, name, visits):
@@ -359,37 +323,19 @@ def lists_of_egos_may_be_long(folder):
 
 
 def a_mirrored_world_is_mirrored(folder):
-    path = os.path.join(folder, "mirrored.xml")
     def flip(match):
         return f'y="{-float(match[1]):.2f}" angle="{(180 - float(match[2])) % 360:.2f}"'
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(re.sub(r'y="([^"]*)" angle="([^"]*)"', flip, FCD))
-    plain = run("glint-traffic-sumo", os.path.join(folder, "own.xml"), "--ego", "ego", "--rate-hz", "7")
-    for a, b in zip(plain, run("glint-traffic-sumo", path, "--ego", "ego", "--rate-hz", "7"), strict=True):
-        for one, other in zip(a["objects"], b["objects"], strict=True):
-            for key in ("y_m", "vy_mps", "yaw_rate_radps"):
-                check(abs(one[key] + other[key]) < 1e-9, f"mirrored {key}")
-            check(abs(math.remainder(one["yaw_rad"] + other["yaw_rad"], 2 * math.pi)) < 1e-9, "mirrored yaw")
-            for key in ("x_m", "vx_mps", "travelled_m"):
-                check(abs(one[key] - other[key]) < 1e-9, f"mirrored {key}")
+    path = save(folder, "mirrored.xml", re.sub(r'y="([^"]*)" angle="([^"]*)"', flip, FCD))
+    check_mirrored(*(run("glint-traffic-sumo", one, "--ego", "ego", "--rate-hz", "7") for one in (os.path.join(folder, "own.xml"), path)))
 
 
 def a_loop_in_lock_step_never_waits():
     """SUMO's stand-in writes a step, and waits for its frame before it writes the next."""
-    words = [os.path.join(BIN, "glint-traffic-sumo"), "-", "--ego", "a", "--live"]
-    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as loop:
-        into, out = loop.stdin.fileno(), loop.stdout.fileno()
-        os.write(into, b"<fcd-export>\n")
-        for i in range(200):
-            os.write(into, b'<timestep time="%.2f"><vehicle id="a" x="%d" y="0" angle="90" speed="8"/></timestep>\n'
-                     % (i / 4, 2 * i))
-            check(bool(select.select([out], [], [], PATIENCE_S)[0]), f"no frame of step {i} before the next")
-            frame = json.loads(os.read(out, 1 << 16))
-            check(frame["frame"] == i and abs(frame["objects"][0]["vx_mps"] - 8) < 1e-9, f"live frame {i}: {frame}")
-            check("last" not in frame, "nobody knows which frame is the last one")
-        os.write(into, b"</fcd-export>\n")
-        loop.stdin.close()
-        check(loop.wait(PATIENCE_S) == 0, "the loop ends well")
+    steps = [step_of(i / 4, [("a", 2 * i, 8)]) for i in range(200)]
+    frames = in_lock_step("glint-traffic-sumo", ["-", "--ego", "a", "--live"], steps, b"<fcd-export>\n", b"</fcd-export>\n")
+    for i, frame in enumerate(frames):
+        check(frame["frame"] == i and abs(frame["objects"][0]["vx_mps"] - 8) < 1e-9, f"live frame {i}: {frame}")
+        check("last" not in frame, "nobody knows which frame is the last one")
 
 
 def step_of(time, users):
@@ -460,10 +406,8 @@ def tables_of_sumo(folder):
     for separator in (";", ","):
         for spelled in (lambda name: name, names.get):
             for order in ((0, 1, 2, 3, 4, 5, 6), (4, 5, 1, 6, 0, 3, 2)):
-                path = os.path.join(folder, "own.csv")
-                with open(path, "w", encoding="ascii") as file:
-                    for row in [[spelled(name) for name in list(names)[:7]], *rows]:
-                        file.write(separator.join(str(row[i]) for i in order) + "\n")
+                lines = [separator.join(str(row[i]) for i in order) for row in [[spelled(name) for name in list(names)[:7]], *rows]]
+                path = save(folder, "own.csv", "\n".join(lines) + "\n")
                 frames = run("glint-traffic", path, "--ego", "ego")
                 expected = expected or frames
                 check(frames == expected and len(frames) == 3, f"a table with {separator}")
@@ -481,11 +425,9 @@ def places_reach_to_their_bound():
 
 def early_ends(folder):
     """Wherever a file is cut, the whole steps come out, and the message names the last of them."""
-    path = os.path.join(folder, "cut.xml")
     steps = [(match.end(), match[1]) for match in re.finditer(r'<timestep time="([^"]*)"(?:/>|>.*?</timestep>)', FCD, re.S)]
     for cut in range(FCD.index("<fcd-export>") + 12, FCD.index("</fcd-export>") + 12, 23):
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(FCD[:cut])
+        path = save(folder, "cut.xml", FCD[:cut])
         whole = [time for end, time in steps if end <= cut]
         text, frames = run("glint-traffic-sumo", path, "--ego", "ego", fails=65)
         said = f"the last whole step is that of {float(whole[-1]):g} s" if whole else "no step is whole"
@@ -494,7 +436,6 @@ def early_ends(folder):
 
 
 def bad_input(folder):
-    path = os.path.join(folder, "bad.xml")
     cases = [
         ('x="20.00"', 'x="wide"', 'line 12: x is "wide"; expected a number in [-1e+09, 1e+09]'),
         ('x="20.00"', 'x="nan"', 'line 12: x is "nan"; expected a number'),
@@ -518,14 +459,8 @@ def bad_input(folder):
          "line 4: <timestep> is missing; expected one around road users"),
         ("<fcd-export>", "\x01", "line 3: not well-formed (invalid token)"),
     ]
-    for old, new, message in cases:
-        check(old in FCD, f"{old} is in the data")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(FCD.replace(old, new, 1))
-        text, _ = run("glint-traffic-sumo", path, "--ego", "ego", fails=65)
-        check(f"glint-traffic-sumo: {path}: " in text and message in text, f"{old} -> {new}: {text}")
-    with open(os.path.join(folder, "net.xml"), "w", encoding="ascii") as file:
-        file.write('<net><vType id="passenger" length="1"/></net>')
+    refuses("glint-traffic-sumo", folder, "bad.xml", FCD, cases, "ego")
+    save(folder, "net.xml", '<net><vType id="passenger" length="1"/></net>')
     for words, code, message in (
             (("--ego", "nobody"), 65, '--ego: "nobody" is no id'),
             ((), 64, "a recording has no ego of its own"),
@@ -545,13 +480,12 @@ def bad_input(folder):
 
 def a_tag_has_an_end(folder):
     """expat parses an unfinished tag or comment again with every piece: one of more than 4 MB is refused, from pipes too."""
-    path, step = os.path.join(folder, "long.xml"), '<timestep time="0"><vehicle id="a" x="0" y="0" angle="90"/></timestep>'
+    step = '<timestep time="0"><vehicle id="a" x="0" y="0" angle="90"/></timestep>'
     for fits, text in ((True, f"<!--{'> ' * 2000000}-->\n<fcd-export>{step}</fcd-export>"),
                        (True, f"<fcd-export>{' ' * 6000000}{step}<![CDATA[{'y' * 6000000}]]></fcd-export>"),
                        (False, f"<!--{'> ' * 3000000}-->\n<fcd-export>{step}</fcd-export>"),
                        (False, f"<fcd-export>\n{step.replace('angle', 'lane=' + chr(34) + 'y' * 5000000 + chr(34) + ' angle')}")):
-        with open(path, "w", encoding="ascii") as file:
-            file.write(text)
+        path = save(folder, "long.xml", text)
         for source, data in ((path, None), ("-", text.encode())):
             if fits:
                 check(len(run("glint-traffic-sumo", source, "--ego", "a", data=data)) == 1, "a comment of 4 MB, other text of 6 MB")
@@ -563,9 +497,8 @@ def a_tag_has_an_end(folder):
 
 def a_type_has_the_sizes_of_its_class(folder):
     """A type that says no length has that of its vClass, also where another type has the name of the class."""
-    types = os.path.join(folder, "named.rou.xml")
-    with open(types, "w", encoding="utf-8") as file:
-        file.write('<routes><vType id="truck" vClass="truck" length="14"/><vType id="own" vClass="truck"/></routes>')
+    types = save(folder, "named.rou.xml",
+                 '<routes><vType id="truck" vClass="truck" length="14"/><vType id="own" vClass="truck"/></routes>')
     data = '<fcd-export><timestep time="0"><vehicle id="a" x="0" y="0" angle="90" type="{}"/></timestep></fcd-export>'
     for word, length in (("truck", 14), ("own", 7.1)):
         frame = run("glint-traffic-sumo", "-", "--ego", "a", "--types", types, data=data.format(word).encode())[0]
@@ -574,17 +507,13 @@ def a_type_has_the_sizes_of_its_class(folder):
 
 def a_class_that_is_none_of_glint_is_named(folder):
     """The message names the vClass and the option for it, in XML and in tables; also of the copies of a type."""
-    types = os.path.join(folder, "strange.rou.xml")
-    xml, table = os.path.join(folder, "strange.xml"), os.path.join(folder, "strange.csv")
     for kind in ("ignoring", "ship", "aircraft", "hovercraft"):
-        with open(types, "w", encoding="ascii") as file:
-            file.write(f'<routes><vType id="CarRed" vClass="{kind}" length="6.5"/><vType id="bus" vClass="{kind}"/></routes>')
+        types = save(folder, "strange.rou.xml",
+                     f'<routes><vType id="CarRed" vClass="{kind}" length="6.5"/><vType id="bus" vClass="{kind}"/></routes>')
         for word, length in (("CarRed", 6.5), ("bus", 5), ("CarRed@7", 6.5)):
-            with open(xml, "w", encoding="ascii") as file:
-                file.write(f'<fcd-export><timestep time="0"><vehicle id="a" x="0" y="0" angle="90" type="{word}"/></timestep>'
-                           "</fcd-export>")
-            with open(table, "w", encoding="ascii") as file:
-                file.write(f"time;id;x;y;angle;type\n0;a;0;0;90;{word}\n")
+            xml = save(folder, "strange.xml", f'<fcd-export><timestep time="0"><vehicle id="a" x="0" y="0" angle="90" '
+                       f'type="{word}"/></timestep></fcd-export>')
+            table = save(folder, "strange.csv", f"time;id;x;y;angle;type\n0;a;0;0;90;{word}\n")
             for source in (xml, table):
                 words = (source, "--ego", "a", "--types", types)
                 said, _ = run("glint-traffic-sumo", *words, fails=65)
@@ -599,7 +528,6 @@ def a_class_that_is_none_of_glint_is_named(folder):
 
 def types_come_from_several_files(folder):
     """Each --types adds to those before, for XML and for tables. An id may come again with the same class and size only."""
-    paths = [os.path.join(folder, name) for name in ("one.rou.xml", "two.add.xml", "fcd.csv", "fcd.xml")]
     texts = ["<?xml version='1.0'?><!-- <vType id='a' length='99'/> --><routes><![CDATA[<vType id='a' length='99'/>]]>\n"
              '<vTypeDistribution id="d"><vType id="a" vClass = "truck" length="14" width="2.6"/></vTypeDistribution>'
              "<vType id='c' length='3'/><route id='r' edges='x y'/></routes>",
@@ -608,10 +536,8 @@ def types_come_from_several_files(folder):
              "<fcd-export>" + "".join(f'<timestep time="{t}">' + "".join(
                  f'<vehicle id="{name}" x="{9 * t}" y="0" angle="90" type="{name}"/>' for name in "ab") + "</timestep>"
                  for t in (0, 1)) + "</fcd-export>"]
-    for path, text in zip(paths, texts, strict=True):
-        with open(path, "w", encoding="ascii") as file:
-            file.write(text)
-    one, two, table, xml = paths
+    names = ("one.rou.xml", "two.add.xml", "fcd.csv", "fcd.xml")
+    one, two, table, xml = (save(folder, name, text) for name, text in zip(names, texts, strict=True))
     for words, sizes in (((one, two), {"a": ("truck", 14, 2.6, 2.4), "b": ("bus", 11.5, 2.5, 3)}),
                          ((two, one, one), {"a": ("truck", 14, 2.6, 2.4), "b": ("bus", 11.5, 2.5, 3)})):
         options = [word for path in words for word in ("--types", path)]
@@ -637,9 +563,7 @@ def types_come_from_several_files(folder):
                 ("</additional>", "", "line 1: the file ends before </routes> or </additional>"),
                 ("<additional>", "\n<net>", "line 2: <routes> is missing; expected routes, or additional elements, of SUMO"),
                 (texts[1], "", "line 1: no element found")):
-            path = os.path.join(folder, "bad.add.xml")
-            with open(path, "w", encoding="ascii") as file:
-                file.write(texts[1].replace(old, new, 1))
+            path = save(folder, "bad.add.xml", texts[1].replace(old, new, 1))
             said, _ = run("glint-traffic-sumo", source, "--ego", "a", "--types", one, "--types", path, fails=65)
             check(f"--types: {path}: {message}" in said, f"{old} -> {new}: {said}")
     said, _ = run("glint-traffic-sumo", "data/trajectories/highway.csv", "--ego", "1", "--types", one, fails=65)
@@ -764,11 +688,9 @@ def targets_of_a_lane_change_have_the_speed_of_the_lane(folder):
     """The ego at 25 m/s and a car at 20 m/s 40 m ahead change lanes: -5 m/s and the part of at most 1.6 m/s on each side."""
     for who in ("ego", "car"):
         users = {"ego": dict(speed=25), "car": dict(speed=20, begin=60)}
-        path = os.path.join(folder, "targets.xml")
-        with open(path, "w", encoding="ascii") as file:
-            file.write(fcd(sorted((row for name, words in users.items() for row in
-                                   course(0.1, [(2, 3.2)] if name == who else [], seconds=5, name=name, **words)),
-                                  key=lambda row: row[0])))
+        rows = (row for name, words in users.items()
+                for row in course(0.1, [(2, 3.2)] if name == who else [], seconds=5, name=name, **words))
+        path = save(folder, "targets.xml", fcd(sorted(rows, key=lambda row: row[0])))
         text = (f"glint-traffic-sumo {path} --ego ego | glint-extract | glint-ideal --sensors lrr77-every-frame "
                 "| glint-sensor-perfect | glint-noise-none")
         done = subprocess.run([os.path.join(BIN, "glint"), "-c", text], capture_output=True, check=True)
@@ -783,10 +705,8 @@ def places_in_degrees_are_told_by_their_speeds(folder):
     """Without SUMO's comment, as XML and as a table; cars that stand, start, teleport or wait are no reason."""
     drive_m = list(course(0.1, [], speed=20, seconds=4))
     degrees = [(t, name, complex(11 + z.real / 75000, 48 + z.imag / 111000), yaw, v) for t, name, z, yaw, v in drive_m]
-    path = os.path.join(folder, "degrees.csv")
-    with open(path, "w", encoding="ascii") as file:
-        file.write("time;id;x;y;angle;speed\n" + "".join(f"{t};{name};{z.real:.9f};{z.imag:.9f};90;{v}\n"
-                                                         for t, name, z, _, v in degrees))
+    path = save(folder, "degrees.csv", "time;id;x;y;angle;speed\n" + "".join(
+        f"{t};{name};{z.real:.9f};{z.imag:.9f};90;{v}\n" for t, name, z, _, v in degrees))
     said, frames = run("glint-traffic-sumo", "-", "--ego", "car", data=fcd(degrees).encode(), fails=65)
     text = ("from here on road users move by 0.00107 m where their speeds say 80 m, 7.5e+04 times as far, as with places in "
             "degrees; expected places in m and speeds in m/s: run sumo without --fcd-output.geo")
@@ -823,8 +743,7 @@ QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "check": Tr
 
 def beside_sumo(folder):
     for name, text in (("n.nod.xml", NODES), ("n.edg.xml", EDGES), ("n.rou.xml", ROUTES)):
-        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-            file.write(text)
+        save(folder, name, text)
     subprocess.run(["netconvert", "-n", "n.nod.xml", "-e", "n.edg.xml", "-o", "n.net.xml"], cwd=folder, **QUIET)
     sumo = ("sumo -n n.net.xml -r n.rou.xml --end 60 --step-length 0.05 --precision 6 --seed 7 --no-step-log true "
             "--lateral-resolution 0.8")
@@ -874,8 +793,7 @@ RIDES = """<routes><vType id="lorry" vClass="truck" containerCapacity="1"/><vTyp
 def riders_of_sumo_are_hidden(folder):
     """A person walks, rides a bus and walks again; a container waits and is carried."""
     for name, text in (("s.add.xml", STOPS), ("s.rou.xml", RIDES), ("s.edg.xml", EDGES.replace("speed", 'sidewalkWidth="2" speed'))):
-        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-            file.write(text)
+        save(folder, name, text)
     subprocess.run(["netconvert", "-n", "n.nod.xml", "-e", "s.edg.xml", "-o", "s.net.xml"], cwd=folder, **QUIET)
     subprocess.run(["sumo", "-n", "s.net.xml", "-a", "s.add.xml", "-r", "s.rou.xml", "--end", "140", "--fcd-output", "s.xml"],
                    cwd=folder, **QUIET)

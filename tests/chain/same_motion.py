@@ -131,10 +131,7 @@ def rows(users):
 
 
 def save(folder, name, lines):
-    path = os.path.join(folder, name)
-    with open(path, "w", encoding="ascii") as file:
-        file.writelines(line + "\n" for line in lines)
-    return path
+    return recorded.save(folder, name, "".join(line + "\n" for line in lines))
 
 
 def turned_deg(angle_rad):
@@ -269,10 +266,7 @@ def osi(folder, users):
         messages.append(osi_messages.stamp(step * 1_000_000_000 // RATE_HZ) + b"".join(
             osi_messages.moving(int(user.id), OSI[user.kind], at.x, at.y, at.yaw, (user.length, user.width, user.height),
                                 (at.vx, at.vy), at.rate) for user, at in there))
-    path = os.path.join(folder, "trace.osi")
-    with open(path, "wb") as file:
-        file.write(osi_messages.trace_of(*messages))
-    return path
+    return recorded.save(folder, "trace.osi", osi_messages.trace_of(*messages))
 
 
 OWN = {kind: kind for kind in ("car", "truck", "motorcycle", "pedestrian")}
@@ -386,7 +380,7 @@ def targets_of(frames):
     return [json.loads(line)["targets"] for line in lists.splitlines()]
 
 
-def mirrors(kind, folder, frames, mirrored_frames):
+def mirrors(kind, frames, mirrored_frames):
     """Decisions may fall otherwise where rounding is not symmetric, so a list in a hundred may differ."""
     def key(target, sign):
         return (round(target["range_m"], 2), round(sign * target["azimuth_rad"] + 1e-9, 3), round(target["range_rate_mps"], 1))
@@ -457,14 +451,8 @@ def mirrors_scenario(name, *words):
         path = save(folder, name + ".json", [mirrored])
         streams = [glint("glint-traffic", source, *words, "--scene", name)
                    for source in (os.path.join(SCENARIOS, name + ".json"), path)]
-    for plain, other in zip(*(stream.splitlines() for stream in streams), strict=True):
-        for one, image in zip(json.loads(plain)["objects"], json.loads(other)["objects"], strict=True):
-            for key in ("y_m", "vy_mps", "yaw_rate_radps"):
-                check(abs(one[key] + image[key]) < 1e-9, f"{name}: mirrored {key} of {one['id']}")
-            for key in ("x_m", "vx_mps", "travelled_m"):
-                check(abs(one[key] - image[key]) < 1e-9, f"{name}: mirrored {key} of {one['id']}")
-            check(one["id"] == image["id"] and one["class"] == image["class"], f"{name}: {one['id']} and {image['id']}")
-    mirrors(kind, None, *streams)
+    recorded.check_mirrored(*([json.loads(line) for line in stream.splitlines()] for stream in streams))
+    mirrors(kind, *streams)
 
 
 def main():
@@ -486,7 +474,7 @@ def main():
                 compare(kind, world, [json.loads(line) for line in streams[-1].splitlines()])
                 if world is users:
                     parts_have_every_frame_once(kind, path, words, draw)
-        mirrors(kind, None, *streams)
+        mirrors(kind, *streams)
         written += 1
     print(f"same_motion: {recorded.checks} checks of {written} formats hold")
 

@@ -19,7 +19,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import numpy as np  # noqa: E402
-from signal_alone import Program, ROOT, strength, three_sigma  # noqa: E402
+from signal_alone import Program, ROOT, strength  # noqa: E402
 from sizes import quick  # noqa: E402
 
 TAPERS = ("rectangular", "hann", "taylor", "chebyshev")

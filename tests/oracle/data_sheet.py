@@ -7,7 +7,6 @@ status 1 if any check fails. Seeds are fixed; shares are held to five standard e
 digit, deviations to eight per cent, as they are printed with two digits.
 """
 
-import json
 import math
 import re
 import statistics
@@ -122,11 +121,8 @@ def measured_law(bench):
                 print(f"skipped  the measured law in the signal: {stages[0]} is not built")
                 continue
             ideal = ["glint-ideal", "--sensors", bench.write_suite(suite_of(one)), "--sections", "quality"]
-            text = "".join(json.dumps(frame) + "\n" for frame in frames)
-            for words in (["glint-extract"], ideal, *([stage] for stage in stages)):
-                text = bench.stage(words, text)
             made = [max(frame["targets"], key=lambda target: target["amplitude_db"])
-                    for frame in map(json.loads, text.splitlines())]
+                    for frame in bench.through(frames, ["glint-extract"], ideal, *([stage] for stage in stages))]
             # The power of a noisy amplitude is on average that of the echo and that of the noise.
             power = 10 * math.log10(sum(10 ** (target["amplitude_db"] / 10) for target in made) / len(made) - 1)
             snr, rcs_dbsm = (statistics.median(target["quality"][key] for target in made) for key in ("snr_db", "rcs_dbsm"))

@@ -6,15 +6,13 @@ Exit status 1 if any check fails.
 """
 
 import itertools
-import json
 import math
 import random
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
 import model  # noqa: E402
-from model import ROOT, ego, everywhere, sensor, suite_of, thing  # noqa: E402
+from model import ROOT, ego, everywhere, full_sensor, sensor, stripped, suite_of, thing  # noqa: E402
 from oracle_effects import permittivity, surface_part  # noqa: E402
 
 GHOSTS = ["wall_object", "object_wall", "wall_object_wall"]
@@ -37,11 +35,7 @@ def example_scene():
 def see(bench, frames, one, effects="all", noise="glint-noise-none"):
     path = bench.write_suite(suite_of(one))
     text = f"glint-extract | glint-ideal --sensors {path} --effects={effects} --sections account | glint-sensor | {noise}"
-    data = "".join(json.dumps(frame) + "\n" for frame in frames).encode()
-    done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
-                          check=False)
-    bench.check(done.returncode == 0, f"{text}: exit status {done.returncode}: {done.stderr.decode()}")
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    return model.parsed(bench.fused(text, frames))
 
 
 def by_path(frame):
@@ -233,12 +227,6 @@ def shipped_mirrors(bench):
 # ---- the choice of effects ----------------------------------------------------------------------
 
 
-def full_sensor():
-    one = json.loads((ROOT / "data/sensors/lrr77-full.json").read_text())["sensors"][0]
-    one["antenna_table"] = str(ROOT / "data/antennas/lrr77.csv")
-    return one
-
-
 def street(draw):
     """A scene of cars, people and posts between walls and guardrails that are not quite parallel."""
     things = [thing(f"wall{i}", draw.choice(["wall", "guardrail", "mirror"]), draw.uniform(-10, 60),
@@ -253,15 +241,7 @@ def street(draw):
 def scenes(bench):
     draw = random.Random(7)
     yield "random streets", [dict(street(draw), scene=f"s{i}") for i in range(200)], flat()
-    walled = bench.stage(["glint-traffic", str(ROOT / "data/scenarios/walled-road.json")], "")
-    yield "walled-road", [json.loads(line) for line in walled.splitlines()], full_sensor()
-
-
-def stripped(frames):
-    for frame in frames:
-        frame["sensors"].pop("effects")
-        frame["sensors"].pop("digest")
-    return frames
+    yield "walled-road", bench.played("glint-traffic", str(ROOT / "data/scenarios/walled-road.json")), full_sensor()
 
 
 def auto_is_all(bench):

@@ -41,8 +41,8 @@ def body(name, kind, x, y, height, length=0.2, width=0.2, velocity=(0.0, 0.0)):
 
 def ideal(bench, things, suite, effects="auto", more=""):
     words = ["glint-ideal", "--sensors", bench.write_suite(suite), "--effects", effects, "--sections", "account" + more]
-    text = bench.stage(words, bench.stage(["glint-extract"], json.dumps(frame([ego(), *things])) + "\n"))
-    return json.loads(text)
+    [answer] = bench.through([frame([ego(), *things])], ["glint-extract"], words)
+    return answer
 
 
 def look(bench, things, suite, effects="auto"):
@@ -263,7 +263,7 @@ def a_car_behind_a_van_is_seen_under_it(bench):
     # The road mirrors the wave already, so that it has no straight one to interfere with.
     scene = dict(frame([ego(), *things[1:], body("van", "clear", 20, 0, 2.86, length=6.5, width=2.16)]), conditions={"road": "asphalt"})
     ideal = ["glint-ideal", "--sensors", bench.write_suite(suite_of(soft))]
-    seen = json.loads(bench.stage(ideal, bench.stage(["glint-extract"], json.dumps(scene) + "\n")))["echoes"]
+    seen = bench.through([scene], ["glint-extract"], ideal)[0]["echoes"]
     bench.check([one["object"] for one in seen] == ["car"] and "height_m" not in seen[0], f"by the road: {seen}")
 
 
@@ -326,26 +326,24 @@ def full_suite():
     return suite
 
 
-def whole_chain(bench, text, effects):
+def whole_chain(bench, frames, effects):
     sensors = ["--sensors", bench.write_suite(full_suite())]
     ideal = ["glint-ideal", *sensors, "--effects", effects, "--sections", "account"]
-    for words in (["glint-extract"], ideal, ["glint-sensor", *sensors], ["glint-noise", *sensors]):
-        text = bench.stage(words, text)
-    return [json.loads(line) for line in text.splitlines()]
+    return bench.through(frames, ["glint-extract"], ideal, ["glint-sensor", *sensors], ["glint-noise", *sensors])
 
 
 def auto_is_all_and_each_can_be_left_out(bench):
     bench.env["GLINT_DATA"] = str(model.ROOT / "data")
     for density, frames in ("medium", 300), ("dense", 200):
-        text = bench.stage(["glint-traffic-random", "--density", density, "--frames", str(frames)], "")
-        auto, everything = (whole_chain(bench, text, effects) for effects in ("auto", "all"))
+        drawn = bench.played("glint-traffic-random", "--density", density, "--frames", str(frames))
+        auto, everything = (whole_chain(bench, drawn, effects) for effects in ("auto", "all"))
         for one, other in zip(auto, everything):
             for part in "targets", "lost", "counts":
                 bench.check(one.get(part) == other.get(part), f"{density}, frame {one['frame']}: {part}")
         labels = [effect for one in auto for target in one["targets"] for effect in target["effects"]]
         for effect in OURS[:3]:
             bench.check(labels.count(effect) >= 5, f"{density}: only {labels.count(effect)} times {effect}")
-            without = whole_chain(bench, text, f"all,-{effect}")
+            without = whole_chain(bench, drawn, f"all,-{effect}")
             bench.check(not any(effect in target["effects"] for one in without for target in one["targets"]),
                         f"{effect} is left out and labels")
             bench.check(any(one.get("targets") != other.get("targets") for one, other in zip(without, everything)),

@@ -9,7 +9,6 @@ per cent.
 import itertools
 import json
 import math
-import subprocess
 import sys
 from pathlib import Path
 
@@ -36,11 +35,7 @@ def listen(bench, frames, sensors, effects="all", margins=False):
     path = bench.write_suite(suite_of(*sensors))
     text = (f"glint-extract | glint-ideal --sensors {path} --effects {effects} --sections account"
             f"{',margins' if margins else ''} | glint-sensor | glint-noise")
-    data = "".join(json.dumps(one) + "\n" for one in frames).encode()
-    done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
-                          check=False)
-    bench.check(done.returncode == 0, f"{text}: exit status {done.returncode}: {done.stderr.decode()}")
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    return model.parsed(bench.fused(text, frames))
 
 
 def targets_of(frames, name):
@@ -338,11 +333,9 @@ def shipped_false_alarms(bench):
         radar = json.loads(path.read_text())["sensors"][0]
         if "waveform" in radar or not radar.get("false_alarms"):
             continue
-        data = "".join(json.dumps(dict(one, seed=str(seed))) + "\n" for seed in range(4) for one in frames_of([], 1500))
-        text = f"glint-extract | glint-ideal --sensors {path} | glint-sensor | glint-noise"
-        done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data.encode(), env=bench.env,
-                              capture_output=True, check=True)
-        alarms = [one for line in done.stdout.splitlines() for one in alarms_of(json.loads(line), radar["name"])]
+        frames = [dict(one, seed=str(seed)) for seed in range(4) for one in frames_of([], 1500)]
+        text = bench.fused(f"glint-extract | glint-ideal --sensors {path} | glint-sensor | glint-noise", frames)
+        alarms = [one for frame in model.parsed(text) for one in alarms_of(frame, radar["name"])]
         over = [10 ** (one["amplitude_db"] / 10 - radar["threshold_db"] / 10) for one in alarms]
         noise = search_noise(radar) / 10 ** (radar["threshold_db"] / 10)
         check_even(bench, [1 - math.exp((1 - level) / noise) for level in over], f"{path.stem}: powers of false alarms")
@@ -450,12 +443,9 @@ def alternatives(bench):
     radar = snr_sensor("s", 20, misalignment_rad=0.1, false_alarms=5, false_alarm_range_rate_mps=5, azimuth_sigma_rad=0,
                        range_step_m=0.5)
     path = bench.write_suite(suite_of(radar))
-    text = "".join(json.dumps(one) + "\n" for one in frames)
-    for words in (["glint-extract"], ["glint-ideal", "--sensors", path, "--sections", "account"], ["glint-sensor"]):
-        text = bench.stage(words, text)
+    cells = bench.through(frames, ["glint-extract"], ["glint-ideal", "--sensors", path, "--sections", "account"], ["glint-sensor"])
     for name in ("glint-noise-none", "glint-noise-gauss"):
-        for line in bench.stage([name], text).splitlines():
-            targets = json.loads(line)["targets"]
+        for targets in (frame["targets"] for frame in bench.through(cells, [name])):
             bench.check(len(targets) == 1 and all(targets[0][key] == targets[0]["cell_" + key] for key in PLACE),
                         f"{name}: {targets}")
 

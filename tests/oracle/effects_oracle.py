@@ -104,8 +104,7 @@ def walled(draw, number):
 def scenes(bench, density, suite, frames, first):
     if density == "walled":
         return [walled(random.Random(f"{first} {n}"), n) for n in range(frames)]
-    text = bench.stage(random_scenes.source(density, suite, frames, first=first) + ["--draw-conditions"], "")
-    return [json.loads(line) for line in text.splitlines()]
+    return bench.played(*random_scenes.source(density, suite, frames, first=first), "--draw-conditions")
 
 
 def with_conditions(item, number):
@@ -251,12 +250,8 @@ def compare(bench, where, answer, name, made, tally):
 
 
 def answers(bench, items, suite, effects):
-    text = "".join(json.dumps(item) + "\n" for item in items)
-    sections = "account,margins,echoes,cells"
-    for words in (["glint-extract"], ["glint-ideal", "--sensors", suite, "--sections", sections, "--effects", effects],
-                  ["glint-sensor"], ["glint-noise"]):
-        text = bench.stage(words, text)
-    return [json.loads(line) for line in text.splitlines()]
+    ideal = ["glint-ideal", "--sensors", suite, "--sections", "account,margins,echoes,cells", "--effects", effects]
+    return bench.through(items, ["glint-extract"], ideal, ["glint-sensor"], ["glint-noise"])
 
 
 def effects_but(bench, off):

@@ -8,7 +8,6 @@ use fixed seeds and are held to five standard errors.
 
 import json
 import math
-import subprocess
 import sys
 from pathlib import Path
 
@@ -33,16 +32,8 @@ def spot(name, x, y=0.0, **rest):
     return thing(name, "spot", x, y, **rest)
 
 
-def print_lines(bench, text, frames=()):
-    data = "".join(json.dumps(one) + "\n" for one in frames).encode()
-    done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
-                          check=False)
-    bench.check(done.returncode == 0, f"{text}: exit status {done.returncode}: {done.stderr.decode()}")
-    return done.stdout.decode().splitlines()
-
-
 def run(bench, text, frames=()):
-    return [json.loads(line) for line in print_lines(bench, text, frames)]
+    return model.parsed(bench.fused(text, frames))
 
 
 def receive(bench, frames, sensors, effects="all", source=""):
@@ -422,7 +413,7 @@ def planned(bench):
               for one in frames_of([spot("other", 50)], 3)]
     suite = bench.write_suite(suite_of(*radars))
     for effects, told in (("auto", "on in 3 of 3 scans"), ("none", "off")):
-        lines = print_lines(bench, f"glint-plan --all --sensors {suite} --effects {effects}", frames)
+        lines = bench.fused(f"glint-plan --all --sensors {suite} --effects {effects}", frames).splitlines()
         for name in ("fluctuation", "rain", "fog", "ambiguity", "interference", "coherence"):
             found = [line for line in lines if line.startswith(f"# {name} ")]
             bench.check(sum(line.split(None, 2)[2].startswith(told) for line in found) == 1, f"{name}: {found}")

@@ -6,16 +6,15 @@ Statistics use fixed seeds and are held to five standard errors.
 """
 
 import cmath
-import json
 import math
-import subprocess
 import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
-from model import ROOT, ego, everywhere, sensor, suite_of, thing  # noqa: E402
+from effects_noise import check_even  # noqa: E402
+from model import ROOT, ego, everywhere, full_sensor, sensor, stripped, suite_of, thing  # noqa: E402
 from sizes import quick  # noqa: E402
 
 LIGHT_MPS = 299792458.0
@@ -37,8 +36,7 @@ def vehicle(*points, height=1.0, **reflectors):
 
 
 def add_vehicles(bench):
-    for name in list(bench.vehicles):
-        bench.add_vehicle(name, bench.vehicles[name])
+    model.add_shipped_vehicles(bench)
     bench.add_vehicle("dot", vehicle(everywhere("p", z=0.5), height=1.2))
     bench.add_vehicle("column", vehicle(everywhere("p", z=0.5, extent=1), height=1.2))
     bench.add_vehicle("anywhere", vehicle(everywhere("p", extent=1), height=1.2))
@@ -59,11 +57,7 @@ def frames_of(objects, count=1, carrier=None, **conditions):
 def see(bench, frames, one, effects=APART, stages="glint-sensor | glint-noise-none"):
     path = bench.write_suite(suite_of(one))
     text = f"glint-extract | glint-ideal --sensors {path} --effects={effects} --sections account | {stages}"
-    data = "".join(json.dumps(frame) + "\n" for frame in frames).encode()
-    done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
-                          check=False)
-    bench.check(done.returncode == 0, f"{text}: exit status {done.returncode}: {done.stderr.decode()}")
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    return model.parsed(bench.fused(text, frames))
 
 
 def on_path(frame, path):
@@ -80,13 +74,6 @@ def check_mean(bench, values, mean, deviation, what):
     error = deviation / math.sqrt(len(values))
     bench.check(abs(sum(values) / len(values) - mean) < 5 * error,
                 f"{what}: mean {sum(values) / len(values):.6f} of {len(values)}, expected {mean:.6f}")
-
-
-def check_even(bench, values, what):
-    """Kolmogorov's test of values that should be even over (0, 1)."""
-    count = len(values)
-    gap = max(max((i + 1) / count - value, value - i / count) for i, value in enumerate(sorted(values)))
-    bench.check(count > 500 and gap < 2.2 / math.sqrt(count), f"{what}: not even, {gap:.4f} off over {count}")
 
 
 # ---- the road ------------------------------------------------------------------------------------
@@ -366,15 +353,9 @@ def clutter_counts(bench):
 # ---- the choice of effects ----------------------------------------------------------------------
 
 
-def full_sensor(**changes):
-    one = json.loads((ROOT / "data/sensors/lrr77-full.json").read_text())["sensors"][0]
-    return dict(one, antenna_table=str(ROOT / "data/antennas/lrr77.csv"), **changes)
-
-
 def scenes(bench):
     for name in "road-mirror", "wheels-and-limbs", "gravel":
-        text = bench.stage(["glint-traffic", str(ROOT / f"data/scenarios/{name}.json")], "")
-        yield name, [json.loads(line) for line in text.splitlines()], full_sensor()
+        yield name, bench.played("glint-traffic", str(ROOT / f"data/scenarios/{name}.json")), full_sensor()
     everything = [thing("c", "car", 30, 8, yaw=-2, velocity=(-5, -8)), thing("p", "pedestrian", 12, 1, velocity=(0.7, 1)),
                   thing("b", "bicycle", 20, -4, yaw=1, velocity=(2, 3)), thing("g", "guardrail", 20, 12)]
     yield "all at once", frames_of(everything, 60, carrier=turning_ego_at_origin(), road="concrete", rain_mmph=20,
@@ -384,13 +365,6 @@ def scenes(bench):
 
 def turning_ego_at_origin():
     return ego(velocity=(12, 0), turn=0.1)
-
-
-def stripped(frames):
-    for frame in frames:
-        frame["sensors"].pop("effects")
-        frame["sensors"].pop("digest")
-    return frames
 
 
 CHAIN = "glint-sensor | glint-noise"

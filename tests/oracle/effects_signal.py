@@ -55,11 +55,7 @@ def run(bench, frames, sensors, stages=SIGNAL, effects="all"):
     """The frames of the chain, whose account is audited."""
     path = bench.write_suite(suite_of(*sensors))
     text = f"glint-extract | glint-ideal --sensors {path} --sections account --effects {effects} | {stages}"
-    data = "".join(json.dumps(one) + "\n" for one in frames).encode()
-    done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
-                          check=False)
-    bench.check(done.returncode == 0, f"{text}: exit status {done.returncode}: {done.stderr.decode()}")
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    return model.parsed(bench.fused(text, frames))
 
 
 def post(name="post", x=10.0, y=0.0, rate=0.0):

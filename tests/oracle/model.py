@@ -25,6 +25,14 @@ FAINT = 1e-12  # near V = 0 and near +-90 degrees rounding of the angle alone mo
 # ---- running the chain, and saying what went wrong -------------------------------------------
 
 
+def lines_of(frames):
+    return "".join(json.dumps(one) + "\n" for one in frames)
+
+
+def parsed(text):
+    return [json.loads(line) for line in text.splitlines()]
+
+
 class Bench:
     def __init__(self, bin_dir, scratch):
         self.bin, self.scratch = Path(bin_dir).resolve(), Path(scratch)
@@ -51,6 +59,24 @@ class Bench:
             raise SystemExit(f"{' '.join(words)}: exit status {done.returncode}\n{done.stderr}")
         return done.stdout
 
+    def through(self, frames, *stages):
+        """What stages make of frames, one process after the other."""
+        text = lines_of(frames)
+        for words in stages:
+            text = self.stage(words, text)
+        return parsed(text)
+
+    def fused(self, pipeline, frames=()):
+        """The lines that a pipeline in one process makes of frames."""
+        done = subprocess.run([self.program("glint", pipeline), "-c", pipeline], input=lines_of(frames), env=self.env, text=True,
+                              capture_output=True, check=False)
+        self.check(done.returncode == 0, f"{pipeline}: exit status {done.returncode}: {done.stderr}")
+        return done.stdout
+
+    def played(self, *words):
+        """The frames of a source."""
+        return parsed(self.stage(words, ""))
+
     def write_suite(self, suite):
         path = self.scratch / "suite.json"
         path.write_text(json.dumps(suite))
@@ -60,20 +86,15 @@ class Bench:
         """Runs the chain and returns frames with echoes, cells and targets."""
         ideal = ["glint-ideal", "--sensors", self.write_suite(suite)] + \
             ["--sections", "echoes,cells" + (",account" if account else "")]
-        text = "".join(json.dumps(f) + "\n" for f in frames)
-        for words in (["glint-extract"], ideal, ["glint-sensor"], ["glint-noise-none"]):
-            text = self.stage(words, text)
-        answer = [json.loads(line) for line in text.splitlines()]
+        answer = self.through(frames, ["glint-extract"], ideal, ["glint-sensor"], ["glint-noise-none"])
         self.check(len(answer) == len(frames), f"{len(frames)} frames in, {len(answer)} out")
         return answer
 
     def cells_of(self, echo_lists, suite):
         """The cells that glint-sensor makes of hand-made echoes of the suite's only sensor."""
-        empty = self.stage(["glint-extract"], json.dumps(frame([ego()])) + "\n")
-        empty = json.loads(self.stage(["glint-ideal", "--sensors", self.write_suite(suite)], empty))
-        lines = [json.dumps(dict(empty, scene=f"s{n}", echoes=echoes)) for n, echoes in enumerate(echo_lists)]
-        text = self.stage(["glint-sensor"], "\n".join(lines) + "\n")
-        return [json.loads(line).get("cells", []) for line in text.splitlines()]
+        [empty] = self.through([frame([ego()])], ["glint-extract"], ["glint-ideal", "--sensors", self.write_suite(suite)])
+        frames = [dict(empty, scene=f"s{n}", echoes=echoes) for n, echoes in enumerate(echo_lists)]
+        return [one.get("cells", []) for one in self.through(frames, ["glint-sensor"])]
 
     def check(self, good, message):
         self.group_checks += 1
@@ -113,6 +134,20 @@ def run(doc, prepare, checks):
 def add_shipped_vehicles(bench):
     for name in list(bench.vehicles):
         bench.add_vehicle(name, bench.vehicles[name])
+
+
+def full_sensor(**changes):
+    """The shipped radar of all effects."""
+    one = json.loads((ROOT / "data/sensors/lrr77-full.json").read_text())["sensors"][0]
+    return dict(one, antenna_table=str(ROOT / "data/antennas/lrr77.csv"), **changes)
+
+
+def stripped(frames):
+    """Frames without the choice of effects, and without the digest of their suite."""
+    for one in frames:
+        one["sensors"].pop("effects")
+        one["sensors"].pop("digest")
+    return frames
 
 
 # ---- documents and frames ----------------------------------------------------------------------
@@ -692,14 +727,13 @@ def check_two_vehicles(bench):
         done = subprocess.run(words, env=bench.env, stdout=subprocess.PIPE, text=True, check=False)
         bench.check(done.returncode == 0, f"{name}: exit status {done.returncode}")
         texts[name] = done.stdout
-        check_middle(bench, name, [json.loads(line) for line in done.stdout.splitlines()], "centre")
+        check_middle(bench, name, parsed(done.stdout), "centre")
     bench.check(texts["piped"] == texts["fused"], "piped and fused differ")
     bench.check(texts["piped without noise"] == texts["fused without noise"], "piped and fused differ without noise")
     suite = json.loads((ROOT / "data/sensors/srr24-pair.json").read_text())
     for radar in suite["sensors"]:
         radar["phase_reference"] = "element"
-    frames = [json.loads(line) for line in bench.stage(["glint-traffic", "two-vehicles"], "").splitlines()]
-    check_middle(bench, "element", bench.chain(frames, suite), "element")
+    check_middle(bench, "element", bench.chain(bench.played("glint-traffic", "two-vehicles"), suite), "element")
     bench.end_group("pipelines/two-vehicles: one target in the middle, under both phase references")
 
 

@@ -7,7 +7,6 @@ Exit status 1 if any check fails. Seeds are fixed; statistics are held to three 
 
 import cmath
 import itertools
-import json
 import math
 import random
 import sys
@@ -44,11 +43,9 @@ def cell_of(number, range_m, azimuth_rad, rate_mps, amplitude, **rest):
 
 def heard(bench, suite, lists, noise="glint-noise", effects="all"):
     """What a noise stage makes of lists of cells, one list a frame."""
-    empty = bench.stage(["glint-extract"], json.dumps(dict(model.frame([ego()]))) + "\n")
-    empty = bench.stage(["glint-ideal", *ASKED, "--effects", effects, "--sensors", bench.write_suite(suite)], empty)
-    empty = json.loads(empty)
-    lines = [json.dumps(dict(empty, scene=f"s{n}", cells=cells)) for n, cells in enumerate(lists)]
-    return [json.loads(line) for line in bench.stage([noise], "\n".join(lines) + "\n").splitlines()]
+    ideal = ["glint-ideal", *ASKED, "--effects", effects, "--sensors", bench.write_suite(suite)]
+    [empty] = bench.through([model.frame([ego()])], ["glint-extract"], ideal)
+    return bench.through([dict(empty, scene=f"s{n}", cells=cells) for n, cells in enumerate(lists)], [noise])
 
 
 def targets_of(frames):
@@ -193,20 +190,13 @@ def existence_of_shipped(bench):
         document = suites.whole(name)
         frames, vehicle = world(random.Random(name), document, "point", quick(1000, 4000))
         bench.add_vehicle("point", vehicle)
-        text = "".join(json.dumps(one) + "\n" for one in frames)
-        ideal = ["glint-ideal", *ASKED, "--effects", DECIDED, "--sensors", bench.write_suite(document)]
-        for words in (["glint-extract"], ideal, ["glint-sensor"], ["glint-noise"]):
-            text = bench.stage(words, text)
-        tally(bench, targets_of(map(json.loads, text.splitlines())), name)
+        tally(bench, targets_of(driven(bench, document, frames, effects=DECIDED)), name)
 
 
-def driven(bench, suite, frames, quality=True):
+def driven(bench, suite, frames, quality=True, effects="all"):
     """What the chain makes of frames."""
-    text = "".join(json.dumps(one) + "\n" for one in frames)
-    ideal = ["glint-ideal", *(ASKED if quality else ()), "--effects", "all", "--sensors", bench.write_suite(suite)]
-    for words in (["glint-extract"], ideal, ["glint-sensor"], ["glint-noise"]):
-        text = bench.stage(words, text)
-    return [json.loads(line) for line in text.splitlines()]
+    ideal = ["glint-ideal", *(ASKED if quality else ()), "--effects", effects, "--sensors", bench.write_suite(suite)]
+    return bench.through(frames, ["glint-extract"], ideal, ["glint-sensor"], ["glint-noise"])
 
 
 def turned(place, yaw):
@@ -381,11 +371,9 @@ def of_the_signal(bench):
         return
     for name, members in SIGNALS.items():
         frames = signal.spread(quick(300, 800), 2.0)
-        text = "".join(json.dumps(one) + "\n" for one in frames)
         suite = bench.write_suite(suite_of(signal.radar(**members)))
-        for words in (["glint-extract"], ["glint-ideal", *ASKED, "--sensors", suite], ["glint-sensor-signal"]):
-            text = bench.stage(words, text)
-        targets = signal.made(json.loads(line) for line in text.splitlines())
+        ideal = ["glint-ideal", *ASKED, "--sensors", suite]
+        targets = signal.made(bench.through(frames, ["glint-extract"], ideal, ["glint-sensor-signal"]))
         for key, deviation in zip(PARTS, DEVIATIONS):
             values = [((one[key] - one["contributors"][0][key]) / one["quality"][deviation]) ** 2 for one in targets]
             found, error = mean_of(values)

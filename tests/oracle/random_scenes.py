@@ -7,9 +7,6 @@ fails.
 """
 
 import json
-import math
-import os
-import subprocess
 import sys
 import tempfile
 from itertools import combinations
@@ -39,12 +36,6 @@ def chain(suite, more=""):
     return f"glint-extract | glint-ideal --sensors {suite} --sections account{more} | glint-sensor | glint-noise"
 
 
-def fused(bench, text):
-    done = subprocess.run([bench.program("glint", text), "-c", text], env=bench.env, capture_output=True, check=False)
-    bench.check(done.returncode == 0, f"{text}: exit status {done.returncode}: {done.stderr.decode()}")
-    return done.stdout
-
-
 # ---- the source alone ---------------------------------------------------------------------------
 
 
@@ -72,16 +63,8 @@ def check_laws(bench, frames):
     for density in DENSITIES:
         for suite in SUITES:
             text = " ".join(source(density, suite, frames)) + " | " + chain(suite)
-            bench.check(fused(bench, text).count(b"\n") == frames, f"{density}, {suite}: frames are missing")
+            bench.check(bench.fused(text).count("\n") == frames, f"{density}, {suite}: frames are missing")
     bench.end_group(f"{frames} frames of every density through every suite, with account")
-
-
-def check_piped(bench):
-    for density in DENSITIES:
-        text = " ".join(source(density, SUITES[2], 50)) + " | " + chain(SUITES[2], ",echoes,cells")
-        piped = subprocess.run(["bash", "-o", "pipefail", "-c", text], env=bench.env, capture_output=True, check=False)
-        bench.check(piped.returncode == 0 and piped.stdout == fused(bench, text), f"{density}: piped and fused differ")
-    bench.end_group("piped and fused agree")
 
 
 # ---- are hard cases hard? ------------------------------------------------------------------------
@@ -121,8 +104,7 @@ def hit_rates(bench, density, suite, frames):
             "range": lambda f, s: at_spacing(f, s, "range_m"), "rate": lambda f, s: at_spacing(f, s, "range_rate_mps")}
     hits = dict.fromkeys(ways, 0)
     text = " ".join(source(density, suite, frames)) + " | " + chain(suite, ",echoes,cells")
-    for line in fused(bench, text).splitlines():
-        frame = json.loads(line)
+    for frame in model.parsed(bench.fused(text)):
         for name, way in ways.items():
             hits[name] += any(way(frame, sensor) for sensor in sensors)
     return {name: count / frames for name, count in hits.items()}
@@ -140,7 +122,7 @@ def check_hits(bench, frames):
 # ---- against the oracle --------------------------------------------------------------------------
 
 
-def with_dipoles(bench, suite):
+def with_dipoles(suite):
     """The suite with dipoles, the one antenna that the oracle knows."""
     document = json.loads((model.ROOT / f"data/sensors/{suite}.json").read_text())
     for sensor in document["sensors"]:
@@ -153,9 +135,9 @@ def check_oracle(bench):
     for density in DENSITIES:
         tally = {"scenes": 0, "skipped": 0, "echoes": 0, "cells": 0}
         for suite in SUITES:
-            document = with_dipoles(bench, suite)
+            document = with_dipoles(suite)
             words = source(density, bench.write_suite(document), COMPARED)
-            items = [json.loads(line) for line in bench.stage(words, "").splitlines()]
+            items = bench.played(*words)
             for item, answer in zip(items, bench.chain(items, document, account=True)):
                 views = oracle.look(item, bench.vehicles, document)
                 if not model.compare_scene(bench, f"{suite} {item['scene']}", answer, item, views, False):
@@ -175,7 +157,6 @@ def main():
         bench = model.Bench(sys.argv[1], scratch)
         check_shards(bench)
         check_laws(bench, frames)
-        check_piped(bench)
         check_hits(bench, frames)
         check_oracle(bench)
     sys.exit(bench.failures > 0)
