@@ -2,7 +2,6 @@
 import functools
 import gzip
 import hashlib
-import json
 import os
 import shlex
 import subprocess

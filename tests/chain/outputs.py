@@ -6,7 +6,6 @@ On file systems with and without files without names (O_TMPFILE, which NFS lacks
 Runs that are killed, disks that are full, files of several names, of other users, and mounted by themselves.
 """
 import ctypes
-import glob
 import os
 import signal
 import struct

@@ -8,7 +8,6 @@ recording through the chain too.
 import csv
 import functools
 import glob
-import gzip
 import importlib.util
 import json
 import math
@@ -391,20 +390,6 @@ def move(document, angle, shift):
 # The properties
 
 
-def piped_is_fused(folder):
-    for path in PIPELINES:
-        expected = run(["bash", path]).stdout
-        check(expected, f"{path}: no output")
-        foreign = any(not command.startswith("glint-") for command in stages_of(path)[1])
-        if not foreign:
-            check(run([BIN + "/glint", path]).stdout == expected, f"{path}: fused differs")
-            continue
-        line = 1 + next(number for number, text in enumerate(open(path)) if "| python3" in text)
-        refused = run([BIN + "/glint", path], code=64)
-        check(refused.stdout == b"" and f"{path}:{line}: " in refused.stderr.decode(),
-              f"{path}: refused without line {line}: {refused.stderr.decode()}")
-
-
 def laws_hold(folder):
     """The account of scenes whose reflectors are those of the vehicle documents, which say what must be
     accounted for."""
@@ -559,17 +544,6 @@ def times_below_zero(folder):
         check(counts(earlier_s) == expected, f"{earlier_s} s earlier there are other scans")
 
 
-def shards(folder):
-    text = chain("srr24-pair")
-    traffic = piped("glint-traffic cut-in")
-    whole, lines = fused(text, traffic), traffic.splitlines(keepends=True)
-    check(b"".join(fused(text, line) for line in lines) == whole, "line by line differs")
-    for count in (2, 7):
-        step = -(-len(lines) // count)
-        parts = (b"".join(lines[i:i + step]) for i in range(0, len(lines), step))
-        check(b"".join(piped(text, part) for part in parts) == whole, f"{count} shards differ")
-
-
 def lines_alone(folder):
     """What a stage remembers of a line never shows in another line: other scenes, other orders of objects,
     other reflectors of the same class."""
@@ -698,16 +672,6 @@ def gauss_noise(folder):
     return f"{count} targets"
 
 
-def swapped_stages(folder):
-    for sensor, noise in (("glint-sensor-perfect", "glint-noise"),
-                          ("glint-sensor-smear", "glint-noise"),
-                          ("glint-sensor", "glint-noise-gauss")):
-        text = "glint-traffic intersection | " + chain("srr24-pair", sensor=sensor, noise=noise)
-        frames = parse(piped(text))
-        check(sum(len(frame["targets"]) for frame in frames) > 200, f"{text}: few targets")
-        check(fused(text) == piped(text), f"{text}: fused differs")
-
-
 def carrying(stage, sections):
     """The command of a stage that is told more sections."""
     told = "--sections account"
@@ -732,22 +696,6 @@ def keep(folder):
         words[place] = carrying(words[place], told)
         same_frames(exact(data), exact(piped("glint-traffic intersection | " + " | ".join(words))),
                     [*uses, "sections"], f"sections given to {stages[place]}")
-
-
-def compressed_output(folder):
-    text = "glint-traffic cut-in | " + chain("srr24-pair")
-    expected = piped(text)
-    for runner in (piped, fused):
-        for name in ("list.jsonl", "list.jsonl.gz"):
-            path = os.path.join(folder, name)
-            check(runner(f"{text} -o {path}") == b"", "-o leaves standard output alone")
-            with (gzip.open if name.endswith("gz") else open)(path, "rb") as file:
-                check(file.read() == expected, f"-o {name} holds other bytes")
-            os.remove(path)
-    path = os.path.join(folder, "scene.jsonl.gz")
-    piped(f"glint-traffic cut-in -o {path}")
-    check(piped(f"glint-extract {path} | " + chain("srr24-pair").split(" | ", 1)[1]) == expected,
-          "a compressed input gives other bytes")
 
 
 EXTRAS = ['{"b" : [1.0,1e5, -0,\t"\\u00e4\u00e4\\/"] ,"a":null,"b":{}}', '"x"', "1.50", "[ ]",
@@ -935,14 +883,12 @@ def recording(folder):
 
 
 PROPERTIES = [
-    ("piped and fused give the same bytes", piped_is_fused),
     ("every pair of reflector and sensor ends in exactly one place", laws_hold),
     ("so it does with every combination of stages", laws_hold_after_swaps),
     ("a mirrored scene gives the mirrored list", mirror_symmetry),
     ("a scene turned, or shifted by 1e6 m, gives the same list", turn_and_shift),
     ("the order of objects does not matter", object_order),
     ("a scene before time 0 has the scans of one after it", times_below_zero),
-    ("frames can be taken one at a time and in shards", shards),
     ("a line is read and written as it is alone", lines_alone),
     ("frames of two scenes may interleave", interleaved_scenes),
     ("a seed may be given anywhere and touches noise alone", seeds),
@@ -950,9 +896,7 @@ PROPERTIES = [
     ("an object may have the name that labels of no object have", names_of_no_object),
     ("a perfect sensor without noise shows every echo as it is", perfect_sensor),
     ("Gaussian noise has the sigmas of the suite", gauss_noise),
-    ("stages can be swapped for others", swapped_stages),
     ("--sections keeps sections and changes nothing else", keep),
-    ("-o FILE.gz holds the bytes of standard output", compressed_output),
     ("extra members pass byte for byte", extras),
     ("all numbers are finite, all parts in canonical order", well_formed),
     ("frames are as the schema says", schema),

@@ -10,7 +10,6 @@ those without. Leaving out effects saves as much at the intersection as the page
 """
 import json
 import os
-import re
 import subprocess
 
 import counts

@@ -8,7 +8,6 @@ import os
 import shlex
 import statistics
 import subprocess
-import sys
 
 import scenes
 
