@@ -12,7 +12,6 @@ import json
 import math
 import os
 import re
-import runpy
 import shutil
 import signal
 import struct
@@ -20,13 +19,13 @@ import subprocess
 import sys
 import tempfile
 import time
-import traceback
 
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path.insert(0, SCRIPTS)
+sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 import glint  # noqa: E402
+from scripts import in_a_fork, members  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 FORMATS = "nuscenes", "truckscenes", "kitti", "vod"
@@ -605,7 +604,7 @@ def every_option_of_a_source_is_exported(folder):
         assert len(expected) == scenes, (name, [*expected])
         for form in FORMATS:
             for what in ("list.jsonl", "tables"):
-                assert in_a_fork([form, "--out", what + "-out", what]) == (0, ""), (name, form, what)
+                assert in_a_fork("export", [form, "--out", what + "-out", what]) == (0, ""), (name, form, what)
             same("list.jsonl-out", "tables-out")
             found = {}
             for row in read_table("tables-out", "scans"):
@@ -747,13 +746,6 @@ def what_formats_cannot_hold_is_refused(folder):
     assert not [name for name in os.listdir(folder) if name.startswith("out")], os.listdir(folder)
 
 
-def members(value, path=()):
-    """Paths of all members, of a list those of its first item."""
-    for key in value if isinstance(value, dict) else range(min(len(value), 1)) if isinstance(value, list) else ():
-        yield (*path, key)
-        yield from members(value[key], (*path, key))
-
-
 def any_member_may_be_wrong(folder):
     """Each member of the second frame is left out or replaced: what is not written is refused in one line, with 65."""
     good = [frame_of([body("ego", vx=20), body("other", x=12)], [target(), target()], i, visibility=[
@@ -773,7 +765,7 @@ def any_member_may_be_wrong(folder):
                 record[path[-1]] = value
             save(folder, "wrong.jsonl", frames)
             for form in ("nuscenes", "kitti"):
-                status, said = in_a_fork([form, "--out", "out", "wrong.jsonl"])
+                status, said = in_a_fork("export", [form, "--out", "out", "wrong.jsonl"])
                 assert status == 0 or status == 65 and re.fullmatch(r"export: wrong\.jsonl:[12]: .*\n", said), (path, value, form, status, said)
                 assert (status == 0) == os.path.exists("out")
                 shutil.rmtree("out", ignore_errors=True)
@@ -801,33 +793,11 @@ def any_member_of_a_layout_may_be_wrong(folder):
                 else:
                     record[name] = value
                 save(folder, "layout.json", [layout.get("", [])])
-                status, said = in_a_fork(["./layout.json", "--out", "out", "hand.jsonl"])
+                status, said = in_a_fork("export", ["./layout.json", "--out", "out", "hand.jsonl"])
                 assert status == 0 or status == 65 and said.startswith("export: ./layout.json: /"), (form, path, value, status, said)
                 assert status == 65 or path[:1] not in ((), ("layout",), ("point",), ("fields",), ("digits",)), (form, path, value)
                 shutil.rmtree("out", ignore_errors=True)
     os.chdir(ROOT)
-
-
-def in_a_fork(words):
-    """Status and message of scripts/export, in a process without a start of its own."""
-    with tempfile.TemporaryFile() as told:
-        child = os.fork()
-        if child == 0:
-            try:
-                os.dup2(told.fileno(), 2)
-                sys.argv = ["export", *words]
-                runpy.run_path(os.path.join(SCRIPTS, "export"), run_name="__main__")
-                os._exit(0)
-            except SystemExit as end:
-                sys.stderr.flush()
-                os._exit(end.code)
-            except BaseException:
-                traceback.print_exc()
-                sys.stderr.flush()
-            os._exit(70)
-        status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-        told.seek(0)
-        return status, told.read().decode()
 
 
 def each_table(folder):
@@ -842,7 +812,7 @@ def each_table(folder):
             text = file.read()
         yield name, path, text
         save_text(path, text)
-    assert in_a_fork(["kitti", "--out", "out", "good"]) == (0, "")
+    assert in_a_fork("export", ["kitti", "--out", "out", "good"]) == (0, "")
     os.chdir(ROOT)
 
 
@@ -859,7 +829,7 @@ def tables_that_are_no_tables(folder):
             os.remove(path)
             if wrong is not None:
                 save_text(path, wrong)
-            status, said = in_a_fork(["vod", "--out", "out", "good"])
+            status, said = in_a_fork("export", ["vod", "--out", "out", "good"])
             assert status in (65, 66) and re.fullmatch(r"export: .*good/.*\n", said), (name, wrong and wrong[-90:], status, said)
 
 
@@ -881,7 +851,7 @@ def tables_that_lost_rows(folder):
             if name == "lost" and what.endswith("the next"):  # echoes may be alike
                 continue
             save_text(path, "".join([heading, *lines]))
-            status, said = in_a_fork(["kitti", "--out", "out", "good"])
+            status, said = in_a_fork("export", ["kitti", "--out", "out", "good"])
             assert status == 65 and re.fullmatch(r"export: good/\w+\.csv(:\d+)?: .*\n", said), (name, what, status, said)
 
 

@@ -5,18 +5,17 @@ import json
 import math
 import os
 import re
-import runpy
 import shutil
 import subprocess
 import sys
 import tempfile
-import traceback
 
 sys.dont_write_bytecode = True
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path.insert(0, SCRIPTS)
+sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 import glint  # noqa: E402
+from scripts import in_a_fork, members  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"],
                    PYTHONPATH=SCRIPTS, PYTHONDONTWRITEBYTECODE="1")
@@ -78,25 +77,6 @@ SHAPED = ("true", '""', '"x"', "[]", "{}", "[1]", "-1", "0.5", "1e308", "-1e999"
           '"a\\u0000"', '"\\u2028"')
 
 
-def tracker(path):
-    """Status and message of scripts/tracker, in a process without a start of its own."""
-    with tempfile.TemporaryFile() as told:
-        child = os.fork()
-        if child == 0:
-            try:
-                os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-                os.dup2(told.fileno(), 2)
-                sys.argv = ["tracker", *path.split()]
-                runpy.run_path(os.path.join(SCRIPTS, "tracker"), run_name="__main__")
-                os._exit(0)
-            except BaseException:
-                traceback.print_exc()
-            os._exit(70)
-        status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-        told.seek(0)
-        return status, told.read().decode()
-
-
 def read_status(path):
     return subprocess.run(["glint-summary", path], env=ENVIRONMENT, capture_output=True, check=False).returncode
 
@@ -104,13 +84,6 @@ def read_status(path):
 def one_line(path, status, message):
     """What a program says of bad input: its name, the file, the line, and nothing more."""
     return status == 65 and re.fullmatch(rf"tracker: {re.escape(path)}:\d+: .*\n", message)
-
-
-def members(value, path=()):
-    """Paths of all members, of a list those of its first item."""
-    for key in value if isinstance(value, dict) else range(min(len(value), 1)) if isinstance(value, list) else ():
-        yield (*path, key)
-        yield from members(value[key], (*path, key))
 
 
 def shape_of(path):
@@ -146,7 +119,7 @@ def what_glint_refuses_the_tracker_refuses(folder):
         for value in (None, "null", "1e999", long, deep, *(SHAPED if shape_of(member) else ())):
             with open(path, "wb") as file:
                 file.write(changed(frame, member, value))
-            status, message = tracker(path)
+            status, message = in_a_fork("tracker", [path])
             assert status == 0 or one_line(path, status, message), (member, value, status, message)
             tried += 1
             if status == 0 and (shape_of(member) or value in ("1e999", long)) and read_status(path) != 0:
@@ -174,7 +147,7 @@ def bytes_that_glint_refuses_the_tracker_refuses(folder):
         path = os.path.join(folder, name)
         with open(path, "wb") as file:
             file.write(data)
-        status, message = tracker(path)
+        status, message = in_a_fork("tracker", [path])
         assert status == read_status(path), (name, status, message)
         assert status == 0 or one_line(path, status, message), (name, status, message)
 
