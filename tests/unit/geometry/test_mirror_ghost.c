@@ -33,37 +33,6 @@ static struct mirror_image image_in(const struct scene *scene)
     return mirror_image(&mirror, scene->object.place_m, scene->object.velocity_mps);
 }
 
-static double power_db(const struct mirror_ghost *ghost, const struct kinematics *direct)
-{
-    double ratio = direct->range_m / ghost->kinematics.range_m;
-    return 20 * log10(ghost->ercs_factor * ratio * ratio);
-}
-
-TEST(the_example_of_the_model_has_its_ghosts)
-{
-    struct mirror_image image = image_in(&STANDARD);
-    struct kinematics direct = look_at(&STANDARD, &STANDARD.object);
-    struct kinematics mirrored = look_at(&STANDARD, &image);
-    const struct {
-        struct mirror_ghost ghost;
-        double range_m, azimuth_deg, range_rate_mps, power_db;
-    } cases[] = {
-        {{direct, 1}, 30.066593, -3.814075, -4.988926, 0},
-        {mirror_ghost_one_way(0.9, &direct, &mirrored, direct.azimuth_rad), 30.844685, -3.814075,
-         -4.866171, -1.353466},
-        {mirror_ghost_one_way(0.9, &direct, &mirrored, mirrored.azimuth_rad), 30.844685, 18.434949,
-         -4.866171, -1.353466},
-        {mirror_ghost_both_ways(0.9, &mirrored), 31.622777, 18.434949, -4.743416, -2.706931},
-    };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        const struct kinematics *seen = &cases[i].ghost.kinematics;
-        assert_close(seen->range_m, cases[i].range_m, 1.1e-6);
-        assert_close(seen->azimuth_rad / DEGREE, cases[i].azimuth_deg, 5e-7);
-        assert_close(seen->range_rate_mps, cases[i].range_rate_mps, 1.1e-6);
-        assert_close(power_db(&cases[i].ghost, &direct), cases[i].power_db, 5e-7);
-    }
-}
-
 TEST(a_wall_that_reflects_nothing_has_ghosts_of_zero_and_never_nan)
 {
     struct mirror_image image = image_in(&STANDARD);

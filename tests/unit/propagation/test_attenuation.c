@@ -8,27 +8,6 @@ static double db(double factor)
     return -units_amplitude_db(factor);
 }
 
-/* MODEL 14.15, ITU-R P.838-3. */
-TEST(the_law_is_as_published)
-{
-    static const struct {
-        double carrier_hz;
-        struct attenuation_law horizontal, vertical;
-    } rows[] = {{24.125e9, {0.144280, 1.008722}, {0.142002, 0.955221}},
-                {76.5e9, {1.125295, 0.718767}, {1.120821, 0.708211}},
-                {79e9, {1.157913, 0.713496}, {1.154056, 0.703764}}};
-    for (size_t i = 0; i < COUNT(rows); i++) {
-        struct attenuation_law horizontal =
-            attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_HORIZONTAL);
-        struct attenuation_law vertical =
-            attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_VERTICAL);
-        assert_close(horizontal.k, rows[i].horizontal.k, 5.1e-7);
-        assert_close(horizontal.alpha, rows[i].horizontal.alpha, 5.1e-7);
-        assert_close(vertical.k, rows[i].vertical.k, 5.1e-7);
-        assert_close(vertical.alpha, rows[i].vertical.alpha, 5.1e-7);
-    }
-}
-
 /* The table of ITU-R P.838-3 itself, to its digits. */
 TEST(the_law_is_the_table_of_the_recommendation)
 {
@@ -58,24 +37,6 @@ TEST(the_law_is_the_table_of_the_recommendation)
     }
 }
 
-/* MODEL 14.15. */
-TEST(attenuation_is_as_published)
-{
-    static const struct {
-        double carrier_hz, rate_mmph, dbpkm, range_m, two_way_db;
-    } rows[] = {{24.125e9, 25, 3.073520, 100, 0.614704},
-                {76.5e9, 25, 10.954021, 100, 2.190804},
-                {76.5e9, 50, 17.896432, 250, 8.948216}};
-    for (size_t i = 0; i < COUNT(rows); i++) {
-        struct attenuation_law law =
-            attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_VERTICAL);
-        double dbpkm = attenuation_rain_dbpkm(law, rows[i].rate_mmph);
-        assert_close(dbpkm, rows[i].dbpkm, 1.1e-6);
-        assert_close(db(attenuation_amplitude_factor(dbpkm, rows[i].range_m)), rows[i].two_way_db,
-                     5.1e-7);
-    }
-}
-
 /* MODEL 14.15: at 10 deg C, and 0.5 g/m^3 over 100 m. */
 TEST(fog_is_as_published)
 {
@@ -83,6 +44,13 @@ TEST(fog_is_as_published)
     assert_close(attenuation_fog_dbpkm(76.5e9, 10, 1), 3.115457, 5.1e-7);
     double dense = attenuation_fog_dbpkm(76.5e9, 10, 0.5);
     assert_close(db(attenuation_amplitude_factor(dense, 100)), 0.311546, 5.1e-7);
+}
+
+TEST(rain_attenuates_by_a_power_of_its_rate)
+{
+    const struct attenuation_law law = {.k = 1.1, .alpha = 0.7};
+    for (double rate_mmph = 0.1; rate_mmph < 200; rate_mmph *= 2)
+        assert_near(attenuation_rain_dbpkm(law, rate_mmph), 1.1 * pow(rate_mmph, 0.7), 1e-14);
 }
 
 TEST(dry_air_and_no_range_take_nothing)

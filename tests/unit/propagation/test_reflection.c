@@ -32,23 +32,6 @@ TEST(permittivities_are_those_of_the_recommendation)
     }
 }
 
-/* Smooth concrete of 5.24 without loss. */
-TEST(a_wall_mirrors_most_at_grazing_incidence)
-{
-    static const struct material_permittivity concrete = {5.24, 0};
-    static const struct {
-        double incidence_deg, te, tm;
-    } rows[] = {{0, 0.391932, 0.391932},
-                {60, 0.618169, 0.105727},
-                {82, 0.873651, 0.477806},
-                {88, 0.966672, 0.836887}};
-    for (size_t i = 0; i < COUNT(rows); i++) {
-        double cosine = cos(rows[i].incidence_deg * DEGREE);
-        assert_close(size(reflection_fresnel(&concrete, MATERIAL_TE, cosine)), rows[i].te, 5.1e-7);
-        assert_close(size(reflection_fresnel(&concrete, MATERIAL_TM, cosine)), rows[i].tm, 5.1e-7);
-    }
-}
-
 TEST(metal_mirrors_everything_but_at_its_brewster_angle)
 {
     struct material_permittivity metal = reflection_permittivity(MATERIAL_METAL, 77e9);

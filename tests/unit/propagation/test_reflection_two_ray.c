@@ -5,7 +5,6 @@
 #include "sample.h"
 
 static const struct two_ray_road ASPHALT = {{5, 0.25}, 1e-3};
-static const struct two_ray_road SMOOTH = {{5, 0.25}, 0};
 
 static struct two_ray_ends ends_at(double distance_m)
 {
@@ -25,24 +24,6 @@ static double point_db(double reflection, double carrier_hz, double distance_m)
         reflection_two_ray_point_factor(&paths, reflection, units_wavelength_m(carrier_hz)));
 }
 
-/* MODEL 14.10. */
-TEST(fading_is_as_published)
-{
-    static const struct {
-        double reflection, carrier_hz, distance_m, factor_db;
-    } rows[] = {
-        {-1, 76.5e9, 20, 10.038205},   {-1, 76.5e9, 50, -16.559920},
-        {-1, 76.5e9, 100, 11.958099},  {-1, 76.5e9, 200, 5.130529},
-        {-0.7, 76.5e9, 20, 7.287194},  {-0.7, 76.5e9, 50, -14.238719},
-        {-0.7, 76.5e9, 100, 9.137532}, {-0.7, 76.5e9, 200, 2.630125},
-        {-1, 24.125e9, 5, 11.689836},  {-1, 24.125e9, 15, 3.828826},
-        {-1, 24.125e9, 30, 10.998261},
-    };
-    for (size_t i = 0; i < COUNT(rows); i++)
-        assert_close(point_db(rows[i].reflection, rows[i].carrier_hz, rows[i].distance_m),
-                     rows[i].factor_db, 1e-6);
-}
-
 /* Both ends on the road at one place: the waves add as they are. */
 TEST(without_a_way_the_bounced_wave_loses_nothing_by_spreading)
 {
@@ -50,12 +31,6 @@ TEST(without_a_way_the_bounced_wave_loses_nothing_by_spreading)
     struct two_ray_paths paths = reflection_two_ray_paths(&ends);
     assert_close(reflection_two_ray_point_factor(&paths, -0.5, 0.004), 0.25, 1e-15);
     assert_close(reflection_two_ray_point_factor(&paths, 0.5, 0.004), 2.25, 1e-15);
-}
-
-TEST(path_difference_is_as_published)
-{
-    struct two_ray_ends ends = ends_at(10);
-    assert_close(reflection_two_ray_paths(&ends).difference_m, 0.059818099, 5.1e-10);
 }
 
 TEST(path_difference_keeps_its_digits_far_away)
@@ -88,24 +63,6 @@ TEST(echoes_fade_where_the_paths_differ_by_whole_waves)
             assert_true(point_db(-1, rows[i].carrier_hz, rows[i].null_m[n - 1]) < -30);
         }
         assert_close(point_db(-1, rows[i].carrier_hz, 2 * rows[i].null_m[0]), 20 * log10(4), 0.01);
-    }
-}
-
-/* MODEL 14.10. */
-TEST(reflection_is_fresnels)
-{
-    static const struct {
-        double grazing_deg, horizontal, vertical;
-    } rows[] = {{1, 0.982724, 0.916381},
-                {5, 0.916676, 0.642440},
-                {20, 0.711851, 0.085697},
-                {90, 0.382432, 0.382432}};
-    for (size_t i = 0; i < COUNT(rows); i++) {
-        double sine = sin(rows[i].grazing_deg * DEGREE);
-        assert_close(size(reflection_road(&SMOOTH, POLARIZATION_HORIZONTAL, 0.004, sine)),
-                     rows[i].horizontal, 5.1e-7);
-        assert_close(size(reflection_road(&SMOOTH, POLARIZATION_VERTICAL, 0.004, sine)),
-                     rows[i].vertical, 5.1e-7);
     }
 }
 
@@ -156,32 +113,6 @@ TEST(grazing_waves_come_back_turned_over)
         assert_close(creal(reflection), -1, 1e-15);
         assert_close(cimag(reflection), 0, 1e-15);
     }
-}
-
-/* MODEL 14.10: 1 mm at 5 deg. */
-TEST(roughness_scatters_as_published)
-{
-    static const struct {
-        double carrier_hz, share;
-    } rows[] = {{24.125e9, 0.996124}, {76.5e9, 0.961699}};
-    double sine = sin(5 * DEGREE);
-    for (size_t i = 0; i < 2; i++) {
-        double wavelength_m = units_wavelength_m(rows[i].carrier_hz);
-        double rough = size(reflection_road(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, sine));
-        double smooth = size(reflection_road(&SMOOTH, POLARIZATION_VERTICAL, wavelength_m, sine));
-        assert_close(rough / smooth, rows[i].share, 5.1e-7);
-    }
-}
-
-/* MODEL 14.10. */
-TEST(the_mean_is_as_published)
-{
-    static const struct {
-        double reflection, mean_db;
-    } rows[] = {{1, 7.781513}, {0.9, 6.898503}, {0.7, 5.051635}, {0.5, 3.143940}, {0, 0}};
-    for (size_t i = 0; i < COUNT(rows); i++)
-        assert_close(units_amplitude_db(reflection_two_ray_mean_factor(rows[i].reflection)),
-                     rows[i].mean_db, 5.1e-7);
 }
 
 TEST(the_mean_is_that_of_power_over_all_phases)

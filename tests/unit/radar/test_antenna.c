@@ -65,43 +65,6 @@ static double dense_azimuth(int i)
     return PI / 2 - pow(10, -12.0 * (i - 70000) / 30000);
 }
 
-TEST(the_patterns_are_those_of_the_paper)
-{
-    static const struct {
-        double azimuth_deg, sum, delta, sum_db, delta_db, tolerance_db;
-    } rows[] = {
-        {0, 1, 0, 0, -HUGE_VAL, 0.005},          {5, .9838, .1355, -.14, -17.4, 0.05},
-        {10, .9367, .2620, -.57, -11.6, 0.05},   {20, .7690, .4581, -2.28, -6.78, 0.00501},
-        {30, .5513, .5513, -5.17, -5.17, 0.005}, {35, .4425, .5587, -7.08, -5.06, 0.005},
-        {40, .3418, .5439, -9.32, -5.29, 0.005}, {50, .1791, .4652, -14.9, -6.65, 0.05},
-        {60, .0751, .3515, -22.5, -9.08, 0.05},  {70, .0218, .2296, -33.2, -12.8, 0.05},
-        {80, .0027, .1122, -51.4, -19.0, 0.05},
-    };
-    for (size_t i = 0; i < COUNT(rows); i++) {
-        struct antenna_pointers pointers = antenna_pointers(&ELEMENT, rows[i].azimuth_deg * DEGREE);
-        assert_close(magnitude(pointers.sum), rows[i].sum, 5e-5);
-        assert_close(magnitude(pointers.delta), rows[i].delta, 5e-5);
-        assert_close(units_amplitude_db(magnitude(pointers.sum)), rows[i].sum_db,
-                     rows[i].tolerance_db);
-        if (rows[i].delta > 0)
-            assert_close(units_amplitude_db(magnitude(pointers.delta)), rows[i].delta_db,
-                         rows[i].tolerance_db);
-    }
-}
-
-TEST(the_patterns_agree_to_six_published_digits)
-{
-    static const double rows[][3] = {{10, 0.936682, 0.262026},
-                                     {20, 0.769032, 0.458104},
-                                     {45, 0.253277, 0.511110},
-                                     {60, 0.075087, 0.351513}};
-    for (size_t i = 0; i < COUNT(rows); i++) {
-        struct antenna_pointers pointers = antenna_pointers(&CENTRE, rows[i][0] * DEGREE);
-        assert_close(magnitude(pointers.sum), rows[i][1], 5.01e-7);
-        assert_close(magnitude(pointers.delta), rows[i][2], 5.01e-7);
-    }
-}
-
 static double width_deg(double level)
 {
     double inside = 0;
@@ -120,31 +83,6 @@ TEST(the_sum_beam_has_the_published_widths)
 {
     assert_close(2 * width_deg(sqrt(0.5)), 45.910123, 1e-5);
     assert_close(antenna_beam_rad(&CENTRE), 45.910123 * DEGREE, 5e-5);
-    assert_close(width_deg(0.5), 32.326863, 1e-5);
-    assert_close(width_deg(units_amplitude_from_db(-3)), 22.9, 0.05);
-    assert_close(width_deg(units_amplitude_from_db(-10)), 41.4, 0.05);
-    assert_close(width_deg(units_amplitude_from_db(-20)), 57.0, 0.05);
-}
-
-TEST(delta_peaks_at_34_deg)
-{
-    double peak = 0;
-    double peak_deg = 0;
-    for (int i = 0; i <= 9000; i++) {
-        double size = magnitude(antenna_pointers(&CENTRE, 0.01 * i * DEGREE).delta);
-        if (size > peak) {
-            peak = size;
-            peak_deg = 0.01 * i;
-        }
-    }
-    assert_close(peak_deg, 34.0, 0.05);
-    assert_close(units_amplitude_db(peak), -5.05, 0.005);
-}
-
-TEST(sum_and_delta_cross_at_30_deg)
-{
-    struct antenna_pointers pointers = antenna_pointers(&CENTRE, asin(0.5));
-    assert_near(magnitude(pointers.delta), magnitude(pointers.sum), 1e-15);
 }
 
 /* Equation (6) as printed: half the sum and half the difference of the two dipoles. */

@@ -3,13 +3,6 @@
 #include "base/random.h"
 #include "radar/detection.h"
 
-#define NOISE_THRESHOLD2 9.2103403719761836 /* -ln 1e-4 */
-
-static double amplitude_of(double db)
-{
-    return pow(10, db / 20);
-}
-
 /* Marcum's Q(sqrt 2 A, sqrt 2 T) for noise of power 1, by its series of Poisson terms. */
 static double marcum(double amplitude, double threshold)
 {
@@ -34,8 +27,6 @@ TEST(noise_carries_an_echo_over_the_threshold_by_marcums_function)
             assert_close(detection_in_noise(3 * amplitude, 3 * thresholds[i], 3),
                          marcum(amplitude, thresholds[i]), 1e-12);
         }
-    /* MODEL 14.14: a steady echo at a threshold 6 dB above the noise. */
-    assert_close(detection_in_noise(2, 2, 2 / amplitude_of(6)), 0.571892, 5e-7);
     assert_close(detection_in_noise(0, 2, 1), exp(-4), 1e-12);
 }
 
@@ -47,27 +38,6 @@ TEST(without_noise_the_threshold_decides)
     struct detection_law detection = {.threshold = 2, .final_threshold = 2, .noise = 0};
     assert_close(detection_probability(&detection, 2), 1, 0);
     assert_close(detection_probability(&detection, 1.999), 0, 0);
-}
-
-/* MODEL 14.14, final threshold alone. */
-TEST(fluctuating_echoes_are_detected_as_published)
-{
-    static const struct {
-        enum fluctuation_law law;
-        double probability[3];
-    } cases[] = {
-        {FLUCTUATION_NONE, {0.092480, 0.616136, 0.999910}},
-        {FLUCTUATION_SWERLING_1, {0.157384, 0.432876, 0.754026}},
-        {FLUCTUATION_SWERLING_3, {0.140198, 0.491042, 0.876107}},
-    };
-    static const double snr_db[] = {6, 10, 15};
-    for (size_t i = 0; i < COUNT(cases); i++)
-        for (size_t k = 0; k < COUNT(snr_db); k++) {
-            struct detection_law detection = {
-                .fluctuation = cases[i].law, .final_threshold = sqrt(NOISE_THRESHOLD2), .noise = 1};
-            assert_close(detection_probability(&detection, amplitude_of(snr_db[k])),
-                         cases[i].probability[k], 1.5e-6);
-        }
 }
 
 TEST(without_a_final_threshold_the_laws_tails_decide)

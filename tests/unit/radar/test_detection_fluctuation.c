@@ -49,21 +49,6 @@ TEST(detections_are_as_likely_as_published)
     }
 }
 
-TEST(the_printed_probabilities_are_the_closed_forms)
-{
-    static const struct {
-        double snr_db, swerling_1, swerling_3;
-    } rows[] = {{0, 0.010000, 0.006564},  {6, 0.157384, 0.140198},  {10, 0.432876, 0.491042},
-                {13, 0.644307, 0.761637}, {15, 0.754026, 0.876107}, {20, 0.912843, 0.982573}};
-    double threshold = -log(1e-4);
-    for (size_t i = 0; i < COUNT(rows); i++) {
-        double chi = pow(10, rows[i].snr_db / 10), a = 1 + chi / 2;
-        assert_close(exp(-threshold / (1 + chi)), rows[i].swerling_1, 5.1e-7);
-        assert_close(exp(-threshold / a) * (1 + chi / 2 * threshold / (a * a)), rows[i].swerling_3,
-                     5.1e-7);
-    }
-}
-
 static int ascending(const void *left, const void *right)
 {
     double a = *(const double *)left, b = *(const double *)right;
