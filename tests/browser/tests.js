@@ -326,15 +326,6 @@ const tests = {
         });
     },
 
-    async 'a symbol stands where the target is, in its sensor’s colour'() {
-        const frame = richFrame(corner);
-        const target = frame.targets.filter(one => one.sensor === 'left')[2];
-        await withPage(view(corner, '--frame', String(frame.frame)), async page => {
-            const pixel = await pixelAt(page, await targetOnMap(page, frame, target));
-            assert.deepStrictEqual(pixel, [0x00, 0x72, 0xb2, 255]);
-        });
-    },
-
     async 'the effects that changed targets are on the menu, and none of them at first'() {
         const occurring = new Set(corner.flatMap(frame => frame.targets.flatMap(target => target.effects)));
         const words = [...occurring].map(effect => effect.replace(/_/g, ' '));
