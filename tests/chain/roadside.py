@@ -18,7 +18,10 @@ import tempfile
 
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-BIN = os.path.abspath(sys.argv[1]) if len(sys.argv) == 2 else sys.exit(__doc__)
+sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+import recorded  # noqa: E402
+from recorded import BIN, check  # noqa: E402
+
 ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 SPEED_MPS, SCAN_S = 30, 0.06
 THRESHOLD_DB, STRONG_DB = 14.2, 20.2
@@ -33,14 +36,6 @@ FRONT = {
     "pointer_sigma": 0.1, "range_sigma_m": 0.13, "range_rate_sigma_mps": 0.018, "azimuth_sigma_rad": math.radians(0.13),
     "final_threshold": True, "list_order": "nearest", "list_limit": 250,
 }
-checks = 0
-
-
-def check(good, message):
-    global checks
-    checks += 1
-    if not good:
-        sys.exit(f"roadside: {message}")
 
 
 def glint(text, folder, data=None):
@@ -202,7 +197,7 @@ def main():
                 check_pieces(folder, lines)
         check_own_speed(folder)
         check_standing_radar(folder)
-    print(f"roadside: {checks} checks passed")
+    print(f"roadside: {recorded.checks} checks passed")
 
 
 main()

@@ -13,21 +13,17 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-BIN = os.path.abspath(sys.argv[1]) if len(sys.argv) == 2 else sys.exit(__doc__)
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+import recorded  # noqa: E402
+from recorded import BIN, check  # noqa: E402
+
 ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 SILENT = {"facing_away", "no_specular_point", "switched_off"}
 LEVELS = ((0.4, "v0-40"), (0.6, "v40-60"), (0.8, "v60-80"), (2, "v80-100"))
 SHOWING = {"direct", "wheel", "limb"}
 COUNTS = ("reflectors", "in_range", "in_view", "detections", "merged", "ghosts")
 RIGHT_ANGLE = 1.5707963267948966
-checks = 0
-
-
-def check(good, message):
-    global checks
-    checks += 1
-    if not good:
-        sys.exit(f"visibility: {message}")
 
 
 def run(text, data=None):
@@ -138,4 +134,4 @@ def hide_half_a_body():
 count_in_the_account()
 change_nothing_else()
 hide_half_a_body()
-print(f"visibility: {checks} checks, 0 failed")
+print(f"visibility: {recorded.checks} checks, 0 failed")
