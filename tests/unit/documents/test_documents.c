@@ -14,7 +14,6 @@ static size_t load_all(const char *kind, void (*load)(const char *name, struct a
     DIR *directory = opendir(folder);
     assert_non_null(directory);
     size_t count = 0;
-    struct arena arena = {0};
     for (struct dirent *entry = readdir(directory); entry != NULL; entry = readdir(directory)) {
         char name[300];
         snprintf(name, sizeof name, "%s", entry->d_name);
@@ -22,11 +21,10 @@ static size_t load_all(const char *kind, void (*load)(const char *name, struct a
         if (suffix == NULL)
             continue;
         *suffix = '\0';
-        load(name, &arena);
+        load(name, check_arena());
         count++;
     }
     closedir(directory);
-    arena_free(&arena);
     return count;
 }
 

@@ -11,17 +11,15 @@
 /* The cross section of 3GPP's vehicle in dBsm, seen level: the powers of its points add up. */
 static double vehicle_dbsm(double degrees)
 {
-    struct arena arena = {0};
     struct reflector_set set = {.model = "car"};
     double power = 0;
-    reflector_models_of_3gpp(SENSING_TARGET_3GPP_VEHICLE, &set, &arena);
+    reflector_models_of_3gpp(SENSING_TARGET_3GPP_VEHICLE, &set, check_arena());
     for (size_t i = 0; i < set.points.count; i++) {
         const struct point_reflector *point = &set.points.items[i];
         double off_rad = fabs(units_wrap_rad(degrees * DEGREE - point->facing_rad));
         double factor = directivity_lobe_factor(&point->lobe, off_rad, PI / 2);
         power += radar_cross_section_m2(factor * point->ercs);
     }
-    arena_free(&arena);
     return 10 * log10(power);
 }
 

@@ -8,12 +8,11 @@
 /* The incoherent sum of all points, seen from a direction in the target's frame, far away. */
 static double cross_section_dbsm(enum sensing_target_3gpp target, double azimuth, double zenith)
 {
-    struct arena arena = {0};
     struct reflector_set set = {.model = "m"};
     const struct box box = {.heading = {1, 0}, .length_m = 5, .width_m = 2};
     const struct vec2 middle = {0, 0}, direction = {cos(azimuth * DEGREE), sin(azimuth * DEGREE)};
     double total_m2 = 0;
-    reflector_models_of_3gpp(target, &set, &arena);
+    reflector_models_of_3gpp(target, &set, check_arena());
     for (size_t i = 0; i < set.points.count; i++) {
         const struct point_reflector *point = &set.points.items[i];
         double factor =
@@ -21,7 +20,6 @@ static double cross_section_dbsm(enum sensing_target_3gpp target, double azimuth
         factor *= reflectors_lobe(&box, point, middle, direction, zenith * DEGREE);
         total_m2 += radar_cross_section_m2(factor * point->ercs);
     }
-    arena_free(&arena);
     return 10 * log10(total_m2);
 }
 
@@ -41,14 +39,12 @@ TEST(a_vehicle_has_the_published_cross_sections)
 TEST(only_a_human_moves_its_limbs)
 {
     for (int target = SENSING_TARGET_3GPP_VEHICLE; target <= SENSING_TARGET_3GPP_HUMAN; target++) {
-        struct arena arena = {0};
         struct reflector_set set = {.model = "m"};
         bool human = target == SENSING_TARGET_3GPP_HUMAN;
-        reflector_models_of_3gpp((enum sensing_target_3gpp)target, &set, &arena);
+        reflector_models_of_3gpp((enum sensing_target_3gpp)target, &set, check_arena());
         assert_int_equal(set.points.count, human ? 1 : 5);
         for (size_t i = 0; i < set.points.count; i++)
             assert_int_equal(set.points.items[i].moving_part, human ? MOVING_LIMBS : MOVING_NONE);
-        arena_free(&arena);
     }
 }
 

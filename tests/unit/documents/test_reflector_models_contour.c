@@ -52,14 +52,12 @@ static double incoherent_dbsm(const struct contour *contour, struct box box, dou
                               double aspect_rad)
 {
     static struct post posts[2000];
-    struct arena arena = {0};
     struct reflector_set set = {.model = "m"};
     double total_m2 = 0;
-    reflector_models_of_contour(contour, 4.6, 1.8, spacing_m, &set, &arena);
+    reflector_models_of_contour(contour, 4.6, 1.8, spacing_m, &set, check_arena());
     size_t count = posts_of(&set, &box, sensor_at(aspect_rad, FAR_M), posts, COUNT(posts));
     for (size_t i = 0; i < count; i++)
         total_m2 += posts[i].amplitude * posts[i].amplitude;
-    arena_free(&arena);
     return 10 * log10(total_m2);
 }
 
@@ -106,13 +104,11 @@ TEST(a_longer_object_has_more_power_in_proportion)
 TEST(rounding_of_a_length_makes_no_post)
 {
     for (int i = -3; i <= 3; i++) {
-        struct arena arena = {0};
         struct reflector_set set = {.model = "m"};
         double length_m = 4.8 * (1 + i * 2.220446049250313e-16);
-        reflector_models_of_contour(&car, length_m, 1.8, 0.1, &set, &arena);
+        reflector_models_of_contour(&car, length_m, 1.8, 0.1, &set, check_arena());
         for (size_t j = 0; j < set.rows.count; j++)
             assert_near(set.rows.items[j].spacing_m, 0.1, 1e-12);
-        arena_free(&arena);
     }
 }
 
@@ -150,15 +146,13 @@ static double coherent_over_incoherent(const struct reflector_set *set, struct v
 
 static double mean_over_incoherent_db(double spacing_m, bool rough)
 {
-    struct arena arena = {0};
     struct reflector_set set = {.model = "m"};
     const struct vec2 sensor = sensor_at(PI / 4, 50);
     const int draws = rough ? 4000 : 1;
     double total = 0;
-    reflector_models_of_contour(&car, 4.6, 1.8, spacing_m, &set, &arena);
+    reflector_models_of_contour(&car, 4.6, 1.8, spacing_m, &set, check_arena());
     for (int i = 0; i < draws; i++)
         total += coherent_over_incoherent(&set, sensor, rough, (uint64_t)i);
-    arena_free(&arena);
     return 10 * log10(total / draws);
 }
 

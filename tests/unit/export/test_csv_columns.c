@@ -53,9 +53,8 @@ static const char *const none[] = {NULL};
 static void check_columns(struct csv_columns columns, const struct outer *outer,
                           const char *const *without, const char *expected)
 {
-    struct arena arena = {0};
     struct text row = {0};
-    csv_columns_add(&columns, &outer_record, without, &arena);
+    csv_columns_add(&columns, &outer_record, without, check_arena());
     if (outer != NULL)
         csv_columns_write(&columns, outer, &row);
     else
@@ -64,7 +63,6 @@ static void check_columns(struct csv_columns columns, const struct outer *outer,
     text_add(&row, "", 1);
     assert_string_equal(row.bytes, expected);
     text_free(&row);
-    arena_free(&arena);
 }
 
 static void check_row(const struct outer *outer, const char *const *without, const char *expected)

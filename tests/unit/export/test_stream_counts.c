@@ -7,14 +7,13 @@ enum { MANY = 2500 };
 /* What is written of a frame of traffic with so many cars and one truck. */
 static void check_shares(size_t cars, const char *first, const char *second)
 {
-    struct arena arena = {0};
     static struct object objects[MANY + 1];
     for (size_t i = 0; i <= cars; i++) {
         objects[i] = (struct object){.class = i < cars ? "car" : "truck"};
-        objects[i].id = arena_format(&arena, "%zu", i);
+        objects[i].id = arena_format(check_arena(), "%zu", i);
     }
     struct frame frame = {.scene = "s", .last = true, .objects = {objects, cars + 1, MANY + 1}};
-    struct stream_counts counts = {.arena = &arena};
+    struct stream_counts counts = {.arena = check_arena()};
     struct diag diag = {0};
     struct text text = {0};
     assert_int_equal(stream_counts_add(&counts, &frame, &diag), 0);
@@ -24,7 +23,6 @@ static void check_shares(size_t cars, const char *first, const char *second)
     assert_non_null(strstr(text.bytes, second));
     text_free(&text);
     arena_free(&counts.open_names);
-    arena_free(&arena);
 }
 
 TEST(a_share_reads_as_none_or_all_only_if_it_is)

@@ -121,15 +121,13 @@ TEST(frames_that_contradict_themselves_are_refused)
         {report_a_target_without_label, "targets[0].contributors: empty; expected a label"},
         {report_with_no_sensor, "targets[1].sensor: \"top\" is not in sensors.list"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
-        struct frame frame = accounted_frame(&arena);
+        struct frame frame = accounted_frame(check_arena());
         struct diag diag = {0};
         cases[i].plant(&frame);
         frame_order(&frame);
         assert_int_equal(frame_check(&frame, &diag), -1);
         assert_string_equal(diag.text, cases[i].message);
         assert_int_equal(diag.code, DIAG_DATA);
-        arena_free(&arena);
     }
 }
 
@@ -142,12 +140,10 @@ static void sight_with_no_sensor(struct frame *frame)
 static int check_parts(void (*plant)(struct frame *frame), unsigned parts, const char *stage,
                        struct diag *diag)
 {
-    struct arena arena = {0};
-    struct frame frame = accounted_frame(&arena);
+    struct frame frame = accounted_frame(check_arena());
     plant(&frame);
     frame_order(&frame);
     int result = frame_check_parts(&frame, (struct frame_parts){parts, stage}, diag);
-    arena_free(&arena);
     return result;
 }
 

@@ -28,16 +28,15 @@ TEST(an_echo_may_feed_several_targets)
 TEST(before_there_are_targets_cells_or_echoes_stand_for_them)
 {
     for (int early = 0; early < 2; early++) {
-        struct arena arena = {0};
-        struct frame frame = accounted_frame(&arena);
+        struct arena *arena = check_arena();
+        struct frame frame = accounted_frame(arena);
         struct diag diag = {0};
         for (size_t i = 0; i < 2; i++) {
             const struct target *target = &frame.targets.items[i];
-            struct cell cell =
-                accounted_cell(&arena, target->sensor, 2, target->contributors.items);
-            *list_add(&frame.cells, &arena) = cell;
+            struct cell cell = accounted_cell(arena, target->sensor, 2, target->contributors.items);
+            *list_add(&frame.cells, arena) = cell;
             for (size_t j = 0; j < 2; j++)
-                *list_add(&frame.echoes, &arena) =
+                *list_add(&frame.echoes, arena) =
                     (struct echo){.sensor = cell.sensor, .id = cell.members.items[j].id};
         }
         frame_drop(&frame, PART_TARGETS);
@@ -50,7 +49,6 @@ TEST(before_there_are_targets_cells_or_echoes_stand_for_them)
         assert_int_equal(frame_check_account(&frame, &diag), -1);
         assert_string_equal(diag.text,
                             "account: sensor \"left\" has 2 entries of path direct; 3 are due");
-        arena_free(&arena);
     }
 }
 
@@ -127,14 +125,12 @@ TEST(planted_faults_in_the_account_are_caught)
         {add_one_of_a_foreign_sensor, "account: 1 entries of sensors without a count"},
         {count_one_more, "account: sensor \"left\" has 3 entries of path direct; 4 are due"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
-        struct frame frame = accounted_frame(&arena);
+        struct frame frame = accounted_frame(check_arena());
         struct diag diag = {0};
         cases[i].plant(&frame);
         assert_int_equal(frame_check_account(&frame, &diag), -1);
         assert_string_equal(diag.text, cases[i].message);
         assert_int_equal(diag.code, DIAG_DATA);
-        arena_free(&arena);
     }
 }
 
@@ -174,8 +170,7 @@ TEST(echoes_that_differ_in_one_member_are_two_entries)
                                             {"a", "p", PATH_WALL_OBJECT, "v", 1},
                                             {"a", "p", PATH_WALL_OBJECT, "w", 2}};
     for (size_t i = 0; i <= COUNT(others); i++) {
-        struct arena arena = {0};
-        struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
+        struct frame frame = {.arena = check_arena(), .sections = CARRY_ACCOUNT};
         struct diag diag = {0};
         bool same_path = i == COUNT(others) || others[i].path == one.path;
         frame_count_echoes(&frame, "s", one.path, 1 + same_path);
@@ -184,7 +179,6 @@ TEST(echoes_that_differ_in_one_member_are_two_entries)
         frame_lose(&frame, "noise", "s", LOSS_NO_ANGLE,
                    &(struct lost_echo){.id = i < COUNT(others) ? others[i] : one});
         assert_int_equal(frame_check_account(&frame, &diag), i < COUNT(others) ? 0 : -1);
-        arena_free(&arena);
     }
 }
 

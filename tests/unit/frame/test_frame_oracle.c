@@ -247,8 +247,7 @@ static json_t *load_strictly(const char *line, size_t length, const struct frame
 /* Both verdicts, and the values, agree. Was the line taken? */
 static bool check_line(const char *line, size_t length)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     struct diag diag = {0};
     bool taken = frame_text_read(line, length, &frame, &diag) == 0;
     json_t *strict = load_strictly(line, length, &frame, taken);
@@ -261,7 +260,6 @@ static bool check_line(const char *line, size_t length)
         fail_msg("%.*s: other values than jansson's", (int)length, line);
     json_decref(strict);
     json_decref(tree);
-    arena_free(&arena);
     return taken;
 }
 
@@ -445,8 +443,7 @@ TEST(the_lines_to_be_mutated_are_frames)
 TEST(values_nest_in_extra_to_our_own_limit)
 {
     for (size_t depth = JSON_SCAN_DEPTH - 1; depth <= 2 * JSON_SCAN_DEPTH; depth++) {
-        struct arena arena = {0};
-        struct frame frame = {.arena = &arena};
+        struct frame frame = {.arena = check_arena()};
         struct diag diag = {0};
         struct text line = {0};
         text_add_word(&line, HEAD ",\"extra\":");
@@ -461,7 +458,6 @@ TEST(values_nest_in_extra_to_our_own_limit)
         assert_int_equal(taken, depth <= JSON_SCAN_DEPTH);
         json_decref(tree);
         text_free(&line);
-        arena_free(&arena);
     }
 }
 

@@ -69,8 +69,7 @@ static int read_line(const char *line, struct frame *frame, struct diag *diag)
 
 static void assert_reads_as_rich(const char *line)
 {
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     struct diag diag;
     struct text text = {0};
     if (read_line(line, &frame, &diag) != 0)
@@ -79,7 +78,6 @@ static void assert_reads_as_rich(const char *line)
     text_add(&text, "", 1);
     assert_string_equal(text.bytes, rich);
     text_free(&text);
-    arena_free(&arena);
 }
 
 TEST(a_rich_frame_comes_back_byte_for_byte)
@@ -213,8 +211,7 @@ TEST(what_is_absent_stays_absent)
                                         ",\"echoes\":[],\"cells\":[]}\n",
                                         ",\"lost\":[],\"extra\":null}\n"};
     for (size_t i = 0; i < COUNT(tails); i++) {
-        struct arena arena = {0};
-        struct frame frame = {.arena = &arena};
+        struct frame frame = {.arena = check_arena()};
         struct diag diag;
         struct text line = {0}, text = {0};
         text_format(&line, "%s%s", head, tails[i]);
@@ -226,7 +223,6 @@ TEST(what_is_absent_stays_absent)
         assert_string_equal(text.bytes, line.bytes);
         text_free(&line);
         text_free(&text);
-        arena_free(&arena);
     }
 }
 
@@ -288,15 +284,13 @@ TEST(faults_are_named_with_their_path_value_and_expectation)
         {"}\n", "} {}", "'{' where the end of the line is expected"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
-        struct frame frame = {.arena = &arena};
+        struct frame frame = {.arena = check_arena()};
         struct diag diag;
         char *line = with(cases[i].from, cases[i].to);
         assert_int_equal(read_line(line, &frame, &diag), -1);
         assert_string_equal(diag.text, cases[i].message);
         assert_int_equal(diag.code, DIAG_DATA);
         free(line);
-        arena_free(&arena);
     }
 }
 

@@ -252,14 +252,12 @@ TEST(reflectors_of_one_set_have_names_of_their_own)
         {{{"a_", "a_x", "a_1x"}, {"ab_1", "b_1"}, {"a"}}, NULL},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
-        struct reflector_set set = set_of(&cases[i].names, &arena);
-        const char *twice = reflectors_name_twice(&set, &arena);
+        struct reflector_set set = set_of(&cases[i].names, check_arena());
+        const char *twice = reflectors_name_twice(&set, check_arena());
         if (cases[i].twice == NULL)
             assert_null(twice);
         else
             assert_string_equal(twice, cases[i].twice);
-        arena_free(&arena);
     }
 }
 

@@ -14,14 +14,12 @@ TEST(rounding)
 /* How far the threshold of a suite's first sensor stands above the noise of its search. */
 static double above_db(const char *name)
 {
-    struct arena arena = {0};
     struct diag diag = {0};
-    const struct suite *suite = suite_file_load(name, &arena, &diag);
+    const struct suite *suite = suite_file_load(name, check_arena(), &diag);
     if (suite == NULL)
         fail_msg("%s", diag.text);
     const struct sensor *sensor = &suite->sensors.items[0];
     double above = units_amplitude_db(sensor->threshold / sensor->search_sigma);
-    arena_free(&arena);
     return above;
 }
 

@@ -22,9 +22,7 @@ static size_t cluster(const struct resolution_echo *echoes, size_t count, double
                       double half_range_rate_mps, size_t *cell)
 {
     const struct resolution resolution = {half_range_m, half_range_rate_mps, false};
-    struct arena arena = {0};
-    size_t cells = resolution_cluster(echoes, count, &resolution, cell, &arena);
-    arena_free(&arena);
+    size_t cells = resolution_cluster(echoes, count, &resolution, cell, check_arena());
     return cells;
 }
 
@@ -227,10 +225,8 @@ static size_t coherent_cells(double apart_range, double apart_rate, double phase
     const struct resolution resolution = {0.5, 2, true};
     const struct resolution_echo echoes[] = {
         {10, 1, 4, 0, 1}, {10 + 0.5 * apart_range, 1 - 2 * apart_rate, 2, 0, 1 + phase_rad}};
-    struct arena arena = {0};
-    size_t cell[2], cells = resolution_cluster(echoes, 2, &resolution, cell, &arena);
-    assert_int_equal(resolution_close(echoes, 2, &resolution, &arena), cells == 1);
-    arena_free(&arena);
+    size_t cell[2], cells = resolution_cluster(echoes, 2, &resolution, cell, check_arena());
+    assert_int_equal(resolution_close(echoes, 2, &resolution, check_arena()), cells == 1);
     return cells;
 }
 

@@ -17,16 +17,14 @@ static struct recorded_level body(double x_m, double y_m, double z_m, double slo
 static void assert_on(const struct recorded_level *bodies, const char *expected)
 {
     enum { MOST = 32 };
-    struct arena arena = {0};
     char found[MOST + 1] = "";
     bool on[MOST];
     size_t count = strlen(expected);
     assert_in_range(count, 1, MOST);
-    recorded_levels_mark(bodies, count, 0, on, &arena);
+    recorded_levels_mark(bodies, count, 0, on, check_arena());
     for (size_t i = 0; i < count; i++)
         found[i] = on[i] ? 'x' : '.';
     assert_string_equal(found, expected);
-    arena_free(&arena);
 }
 
 TEST(a_hill_of_6_percent_keeps_a_lone_car_at_250_m)

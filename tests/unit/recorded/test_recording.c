@@ -50,8 +50,7 @@ static struct played *play(struct scratch *scratch, const char *text,
     scratch_write(scratch->path, text);
     struct played *played = arena_get(&scratch->arena, sizeof *played);
     struct recording table = {.options = *options};
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     int more = recorded_file_try(&table, scratch->path, &scratch->arena, &played->diag);
     for (more = more == 0 ? 1 : -1; more > 0;) {
         frame_clear(&frame);
@@ -60,7 +59,6 @@ static struct played *play(struct scratch *scratch, const char *text,
             keep(played, &frame, &scratch->arena);
     }
     recording_close(&table);
-    arena_free(&arena);
     return played;
 }
 

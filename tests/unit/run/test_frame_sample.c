@@ -33,8 +33,7 @@ TEST(exactly_as_many_frames_are_kept_as_are_asked_for)
     } cases[] = {{201, 64, 64}, {64, 64, 64}, {63, 64, 63}, {127, 64, 64},  {128, 64, 64},
                  {5000, 7, 7},  {9, 1, 1},    {1, 1, 1},    {300, 299, 299}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
-        struct frame_sample sample = sample_of(cases[i].frames, 1, cases[i].most, &arena);
+        struct frame_sample sample = sample_of(cases[i].frames, 1, cases[i].most, check_arena());
         frame_sample_thin(&sample, cases[i].most);
         assert_int_equal(sample.list.count, cases[i].kept);
         for (size_t k = 0; k < sample.list.count; k++) {
@@ -42,7 +41,6 @@ TEST(exactly_as_many_frames_are_kept_as_are_asked_for)
             assert_in_range(k + 2, apart, apart + 4); /* spread over the stream, in its order */
             assert_true(k == 0 || sample.list.items[k].place > sample.list.items[k - 1].place);
         }
-        arena_free(&arena);
     }
 }
 

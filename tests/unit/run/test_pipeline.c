@@ -45,15 +45,13 @@ TEST(words_and_bars_are_what_they_look_like)
         {"a --origin='one two' \"three  'four'\"", "<a><--origin=one two><three  'four'>"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
         struct pipeline pipeline;
         struct diag diag;
-        if (parse(cases[i].text, &pipeline, &arena, &diag) != 0)
+        if (parse(cases[i].text, &pipeline, check_arena(), &diag) != 0)
             fail_msg("%s: %s", cases[i].text, diag.text);
         struct text text = shown(&pipeline);
         assert_string_equal(text.bytes, cases[i].commands);
         text_free(&text);
-        arena_free(&arena);
     }
 }
 
@@ -79,12 +77,11 @@ static struct text asked_of_bash(const struct text *script)
 
 static void add_question(const char *words, struct text *script, struct text *expected)
 {
-    struct arena arena = {0};
     struct pipeline pipeline;
     struct diag diag;
     struct text text = {0};
     text_format(&text, "p %s\n\n", words);
-    if (pipeline_parse(text.bytes, text.length, &pipeline, &arena, &diag) == 0 &&
+    if (pipeline_parse(text.bytes, text.length, &pipeline, check_arena(), &diag) == 0 &&
         pipeline.commands.count == 1) {
         text_format(script, "printf '%%s\\n' - %.*secho = end\n", (int)text.length - 2,
                     text.bytes + 2);
@@ -95,7 +92,6 @@ static void add_question(const char *words, struct text *script, struct text *ex
         text_add_word(expected, "= end\n");
     }
     text_free(&text);
-    arena_free(&arena);
 }
 
 TEST(bash_sees_the_same_words)
@@ -261,15 +257,13 @@ TEST(everything_else_is_refused_with_its_line)
                  {"a \"b\nc\n", "3: a quote is not closed"},
                  {"a \"b\\", "1: a quote is not closed"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
         struct pipeline pipeline;
         struct diag diag;
         char message[128];
         snprintf(message, sizeof message, "%s; run it with bash", cases[i].message);
-        assert_int_equal(parse(cases[i].text, &pipeline, &arena, &diag), -1);
+        assert_int_equal(parse(cases[i].text, &pipeline, check_arena(), &diag), -1);
         assert_string_equal(diag.text, message);
         assert_int_equal(diag.code, DIAG_USAGE);
-        arena_free(&arena);
     }
 }
 
@@ -289,13 +283,12 @@ TEST(a_nul_byte_is_refused)
 {
     static const char text[] = "a b | c d";
     for (size_t i = 0; i < sizeof text - 1; i++) {
-        struct arena arena = {0};
         struct pipeline pipeline;
         struct diag diag = {0};
         char with[sizeof text];
         memcpy(with, text, sizeof text);
         with[i] = '\0';
-        assert_int_equal(pipeline_parse(with, sizeof text - 1, &pipeline, &arena, &diag), -1);
-        arena_free(&arena);
+        assert_int_equal(pipeline_parse(with, sizeof text - 1, &pipeline, check_arena(), &diag),
+                         -1);
     }
 }

@@ -36,21 +36,19 @@ static void forget_sizes(struct frame *frame, struct arena *arena)
 static void write_rest(const struct frame *frame, unsigned present, const struct stage *stage,
                        struct text *text)
 {
-    struct arena arena = {0};
     struct diag diag = {0};
     struct frame rest = *frame;
     memset(&rest.lost, 0, sizeof rest.lost);
     for (size_t i = 0; i < frame->lost.count; i++)
         if (strcmp(frame->lost.items[i].stage, stage->name) != 0)
-            *list_add(&rest.lost, &arena) = frame->lost.items[i];
+            *list_add(&rest.lost, check_arena()) = frame->lost.items[i];
     rest.present = present & ~(stage->writes & ~(unsigned)PART_LOST);
     if ((stage->writes & PART_REFLECTORS) != 0)
-        forget_sizes(&rest, &arena);
+        forget_sizes(&rest, check_arena());
     text->length = 0;
     if (frame_text_write(&rest, text, &diag) != 0)
         fail_msg("%s", diag.text);
     text_add(text, "", 1);
-    arena_free(&arena);
 }
 
 /* Steps and says whether the stage kept to what it declares. */
@@ -104,8 +102,7 @@ static void run_filters(const char *suite, const char *density)
     struct runner source, runners[64];
     const struct stage *filters[64];
     size_t count = order_filters(suite, filters);
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
+    struct frame frame = {.arena = check_arena()};
     begin(&source, stage_of("traffic-random"), 7,
           (const char *[]){"--density", density, "--draw-conditions", "--frames", "20",
                            "--sections", "all"});
@@ -125,7 +122,6 @@ static void run_filters(const char *suite, const char *density)
     for (size_t i = 0; i < count; i++)
         runner_free(&runners[i]);
     runner_free(&source);
-    arena_free(&arena);
 }
 
 TEST(no_stage_changes_what_it_does_not_declare)

@@ -90,11 +90,10 @@ static struct embedded_list list_of(const struct embedded_target *targets, size_
 static double distance_of(const struct embedded_target *one, size_t ones,
                           const struct embedded_target *other, size_t others)
 {
-    struct arena arena = {0};
-    struct embedded_list a = list_of(one, ones, &arena), b = list_of(other, others, &arena);
+    struct embedded_list a = list_of(one, ones, check_arena()),
+                         b = list_of(other, others, check_arena());
     double distance = energy_distance_of_lists(&a, &b);
     assert_near(energy_distance_of_lists(&b, &a), distance, 1e-14);
-    arena_free(&arena);
     return distance;
 }
 

@@ -100,15 +100,13 @@ TEST(a_target_listed_less_often_gives_the_distance_by_hand)
 
 static double mean_gospa(const double *truth, const double *listed, int count)
 {
-    struct arena arena = {0};
     double sum = 0;
     for (int i = 0; i < count; i++) {
         size_t item;
         double apart = fabs(truth[i] - listed[i]) / VIEW.cell_range_m;
-        size_t pairs = gospa_pair(&apart, 1, 1, 2, &item, &arena);
+        size_t pairs = gospa_pair(&apart, 1, 1, 2, &item, check_arena());
         sum += gospa_of(pairs > 0 ? apart * apart : 0, pairs, 1, 1, 2).value / count;
     }
-    arena_free(&arena);
     return sum;
 }
 

@@ -18,17 +18,15 @@ struct answer {
 
 static struct answer compare(const struct set *truth, const struct set *list, double cutoff)
 {
-    struct arena arena = {0};
     double distance[LARGEST * LARGEST], squares = 0;
     size_t item_of[LARGEST];
     for (size_t i = 0; i < truth->count; i++)
         for (size_t j = 0; j < list->count; j++)
             distance[i * list->count + j] = fabs(truth->at[i] - list->at[j]);
-    size_t pairs = gospa_pair(distance, truth->count, list->count, cutoff, item_of, &arena);
+    size_t pairs = gospa_pair(distance, truth->count, list->count, cutoff, item_of, check_arena());
     for (size_t i = 0; i < truth->count; i++)
         if (item_of[i] != GOSPA_NONE)
             squares += pow(distance[i * list->count + item_of[i]], 2);
-    arena_free(&arena);
     return (struct answer){pairs, gospa_of(squares, pairs, truth->count, list->count, cutoff)};
 }
 
@@ -184,12 +182,10 @@ static double answered(const double *cost, size_t rows, size_t columns, const si
 
 static void check(const double *cost, size_t rows, size_t columns)
 {
-    struct arena arena = {0};
     size_t column_of[SIDE];
-    gospa_assign(cost, rows, columns, column_of, &arena);
+    gospa_assign(cost, rows, columns, column_of, check_arena());
     double least = try_all(cost, rows, columns, 0, 0, rows > columns ? rows - columns : 0);
     assert_close(answered(cost, rows, columns, column_of), least, 1e-13 * SIDE);
-    arena_free(&arena);
 }
 
 TEST(random_costs_are_paired_as_cheaply_as_trying_all_finds)

@@ -18,18 +18,16 @@ static void write_line(FILE *file, int scene, int frame)
 /* Looks for a frame: 1 if its own line is found, else the result of the stream. */
 static int ask(struct reference_stream *reference, int scene, int64_t number, struct diag *diag)
 {
-    struct arena arena = {0};
     char name[32], id[32];
     snprintf(name, sizeof name, "scene %d", scene);
     snprintf(id, sizeof id, "%d.%d", scene, (int)number);
-    struct frame frame = {.scene = name, .frame = number, .arena = &arena};
+    struct frame frame = {.scene = name, .frame = number, .arena = check_arena()};
     struct track_list tracks;
     int found = reference_stream_tracks(reference, &frame, &tracks, diag);
     if (found == 1) {
         assert_int_equal(tracks.tracks.count, 1);
         assert_string_equal(tracks.tracks.items[0].id, id);
     }
-    arena_free(&arena);
     return found;
 }
 

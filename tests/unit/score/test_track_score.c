@@ -196,7 +196,6 @@ TEST(a_covariance_is_positive_definite)
     } cases[] = {{1, 0, 1, 0},  {4, 1.9, 1, 0}, {1e-9, 0, 1e9, 0}, {4, 2, 1, -1}, {4, -2, 1, -1},
                  {0, 0, 1, -1}, {1, 0, 0, -1},  {0, 0, 0, -1},     {4, 3, 1, -1}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
         struct diag diag = {0};
         struct track track = {.id = "1",
                               .variance_x_m2 = cases[i].x,
@@ -204,7 +203,6 @@ TEST(a_covariance_is_positive_definite)
                               .variance_y_m2 = cases[i].y,
                               .present = TRACK_COVARIANCE};
         struct track_list list = {.tracks = {&track, 1, 1}};
-        assert_int_equal(track_score_order(&list, &arena, &diag), cases[i].status);
-        arena_free(&arena);
+        assert_int_equal(track_score_order(&list, check_arena(), &diag), cases[i].status);
     }
 }

@@ -48,7 +48,6 @@ static double covered(int scenes_each, bool skewed)
 {
     enum { TRIALS = 2000 };
     int inside = 0;
-    struct arena arena = {0};
     struct random_address address = {.seed = 3};
     for (int trial = 0; trial < TRIALS; trial++) {
         struct diag diag = {0};
@@ -58,14 +57,13 @@ static double covered(int scenes_each, bool skewed)
             double draw[4];
             address.frame++;
             random_gaussian(&address, RANDOM_POINTERS, 0, draw);
-            add(&scenes, scene, skewed ? draw[0] * draw[0] - 1 : draw[0], &arena);
+            add(&scenes, scene, skewed ? draw[0] * draw[0] - 1 : draw[0], check_arena());
         }
         assert_int_equal(tracker_difference_of(&scenes, &difference, &diag), 0);
         inside += difference.figures[TRACKER_GOSPA].low <= 0 &&
                   difference.figures[TRACKER_GOSPA].high >= 0;
-        arena_clear(&arena);
+        arena_clear(check_arena());
     }
-    arena_free(&arena);
     return (double)inside / TRIALS;
 }
 

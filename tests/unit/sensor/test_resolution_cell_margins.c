@@ -34,11 +34,10 @@ static size_t margins_of(const struct given_echo *given, size_t count, struct ma
         to_cluster[i] = (struct resolution_echo){given[i].range_m, given[i].range_rate_mps,
                                                  given[i].amplitude, 0, 0};
     }
-    struct arena arena = {0};
-    size_t cells = resolution_cluster(to_cluster, count, &resolution, cell, &arena);
+    size_t cells = resolution_cluster(to_cluster, count, &resolution, cell, check_arena());
     const struct clustered_echoes all = {echoes, cell, count, resolution};
-    memcpy(margins, resolution_cell_margins(&sensor, &all, cells, &arena), cells * sizeof *margins);
-    arena_free(&arena);
+    memcpy(margins, resolution_cell_margins(&sensor, &all, cells, check_arena()),
+           cells * sizeof *margins);
     return cells;
 }
 
@@ -175,17 +174,16 @@ TEST(margins_are_those_of_all_pairs)
                                        .margins = &no_margins};
             places[i] = resolution_cell_place(&echoes[i]);
         }
-        struct arena arena = {0};
-        size_t cells = resolution_cluster(places, count, &resolution, cell, &arena);
+        size_t cells = resolution_cluster(places, count, &resolution, cell, check_arena());
         const struct clustered_echoes all = {echoes, cell, count, resolution};
-        const struct margins *margins = resolution_cell_margins(&sensor, &all, cells, &arena);
+        const struct margins *margins =
+            resolution_cell_margins(&sensor, &all, cells, check_arena());
         for (size_t i = 0; i < cells; i++) {
             struct margins expected = margins_from_all_pairs(&all, i);
             assert_int_equal(margins[i].present, expected.present);
             assert_close(margins[i].cell_edge, expected.cell_edge, 1e-9);
             assert_close(margins[i].leader_db, expected.leader_db, 1e-9);
         }
-        arena_free(&arena);
     }
 }
 
@@ -200,9 +198,8 @@ TEST(the_edge_is_that_of_the_larger_cell)
         const size_t cell[] = {0, 0};
         echoes[wide].widening = 1;
         const struct clustered_echoes all = {echoes, cell, 2, resolution};
-        struct arena arena = {0};
-        assert_close(resolution_cell_margins(&sensor, &all, 1, &arena)->cell_edge, 0.25, 1e-13);
-        arena_free(&arena);
+        assert_close(resolution_cell_margins(&sensor, &all, 1, check_arena())->cell_edge, 0.25,
+                     1e-13);
     }
 }
 

@@ -104,9 +104,8 @@ static void receive(const struct signal_cube *signal, uint64_t frame)
 
 static struct counts measure(const struct sensor *sensor, size_t scans)
 {
-    struct arena arena = {0};
     struct counts counts = {.scans = (double)scans};
-    struct signal_cube signal = signal_cube_of(sensor, &arena);
+    struct signal_cube signal = signal_cube_of(sensor, check_arena());
     for (uint64_t frame = 0; frame < scans; frame++) {
         struct arena scan = {0};
         struct range_doppler_peak *peaks;
@@ -117,7 +116,6 @@ static struct counts measure(const struct sensor *sensor, size_t scans)
         counts.peaks += (double)range_doppler_peaks(&spectrum, &cfar, 0, &scan, &peaks);
         arena_free(&scan);
     }
-    arena_free(&arena);
     return counts;
 }
 

@@ -8,14 +8,12 @@
 /* True if the text is one value with nothing but white space around it. */
 static bool is_json(const char *text, size_t length, struct json_string *bytes)
 {
-    struct arena arena = {0};
     struct diag diag = {0};
-    struct json_scan scan = {text, text + length, &arena, &diag};
+    struct json_scan scan = {text, text + length, check_arena(), &diag};
     bool good = json_scan_value(&scan, bytes) == 0;
     assert_int_equal(good, diag.code == DIAG_OK);
     json_scan_peek(&scan);
     good = good && scan.at == scan.end;
-    arena_free(&arena);
     return good;
 }
 
@@ -129,16 +127,14 @@ TEST(strings_are_decoded)
         {"\"\\u0001\\u001f\"", "\x01\x1f"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct arena arena = {0};
         struct diag diag = {0};
         size_t length = strlen(cases[i].text);
-        struct json_scan scan = {cases[i].text, cases[i].text + length, &arena, &diag};
+        struct json_scan scan = {cases[i].text, cases[i].text + length, check_arena(), &diag};
         struct json_string string;
         assert_int_equal(json_scan_string(&scan, &string), 0);
         assert_int_equal(string.length, strlen(cases[i].meaning));
         assert_memory_equal(string.text, cases[i].meaning, string.length);
         assert_true(scan.at == scan.end);
-        arena_free(&arena);
     }
 }
 
@@ -156,15 +152,13 @@ TEST(every_code_point_survives_its_escapes)
             snprintf(text, sizeof text, "\"\\u%04x\\u%04x\"", high, low);
         json_t *expected = json_loads(text, JSON_DECODE_ANY, NULL);
         assert_non_null(expected);
-        struct arena arena = {0};
         struct diag diag = {0};
-        struct json_scan scan = {text, text + strlen(text), &arena, &diag};
+        struct json_scan scan = {text, text + strlen(text), check_arena(), &diag};
         struct json_string string;
         assert_int_equal(json_scan_string(&scan, &string), 0);
         assert_int_equal(string.length, json_string_length(expected));
         assert_memory_equal(string.text, json_string_value(expected), string.length);
         json_decref(expected);
-        arena_free(&arena);
     }
 }
 
