@@ -3,7 +3,7 @@
 #include "frame/frame_sequence.h"
 
 struct bench {
-    struct arena arena;
+    struct arena *arena;
     struct diag diag;
     struct frame_sequence completeness;
     struct frame_place place; /* of the latest frame */
@@ -23,13 +23,13 @@ static void new_file(struct bench *bench)
 
 static struct bench begin(void)
 {
-    return (struct bench){.place = {"a.jsonl", 0}};
+    return (struct bench){.arena = check_arena(), .place = {"a.jsonl", 0}};
 }
 
 static int follow(struct bench *bench, const char *scene, int64_t number, bool last)
 {
     struct frame frame = {.scene = scene, .seed = 1, .frame = number, .last = last};
-    return frame_sequence_follow(&bench->completeness, &frame, next_place(bench), &bench->arena,
+    return frame_sequence_follow(&bench->completeness, &frame, next_place(bench), bench->arena,
                                  &bench->diag);
 }
 
@@ -39,7 +39,7 @@ typedef int check(struct frame_sequence *, const struct frame *, struct frame_pl
 static int add(struct bench *bench, check *add_to, uint64_t seed, int64_t number)
 {
     struct frame frame = {.scene = "a", .seed = seed, .frame = number, .last = number == 2};
-    return add_to(&bench->completeness, &frame, next_place(bench), &bench->arena, &bench->diag);
+    return add_to(&bench->completeness, &frame, next_place(bench), bench->arena, &bench->diag);
 }
 
 TEST(nothing_at_all_is_not_complete)
@@ -57,7 +57,6 @@ TEST(scenes_may_interleave)
         assert_int_equal(follow(&bench, "b", number, number == 2), 0);
     }
     assert_int_equal(frame_sequence_end(&bench.completeness, &bench.diag), 0);
-    arena_free(&bench.arena);
 }
 
 TEST(gaps_repetitions_and_what_comes_after_the_end_are_refused)
@@ -79,7 +78,6 @@ TEST(gaps_repetitions_and_what_comes_after_the_end_are_refused)
             assert_int_equal(follow(&bench, "a", cases[i].second, false), -1);
         assert_string_equal(bench.diag.text, cases[i].message);
         assert_int_equal(bench.diag.code, DIAG_DATA);
-        arena_free(&bench.arena);
     }
 }
 
@@ -90,7 +88,6 @@ TEST(a_scene_without_its_end_is_told)
     assert_int_equal(follow(&bench, "cut", 0, false), 0);
     assert_int_equal(frame_sequence_end(&bench.completeness, &bench.diag), -1);
     assert_string_equal(bench.diag.text, "scene \"cut\" with seed 1 ends before its last frame");
-    arena_free(&bench.arena);
 }
 
 TEST(two_seeds_of_a_name_are_two_scenes)
@@ -104,7 +101,6 @@ TEST(two_seeds_of_a_name_are_two_scenes)
                              number > 0 ? -1 : 0);
             assert_int_equal(add(&bench, checks[i], 2, number), 0);
         }
-        arena_free(&bench.arena);
     }
 }
 
@@ -126,7 +122,6 @@ TEST(a_stream_joined_with_itself_is_refused_with_both_places)
         assert_int_equal(add(&bench, cases[i].check, 7, 0), -1);
         assert_non_null(strstr(bench.diag.text, "frame: 0 of scene \"a\" with seed 7 "));
         assert_non_null(strstr(bench.diag.text, cases[i].message));
-        arena_free(&bench.arena);
     }
 }
 
@@ -138,7 +133,6 @@ TEST(a_shuffled_stream_has_each_frame_once)
         assert_int_equal(add(&bench, frame_sequence_once, 1, order[i]), 0);
     assert_int_equal(add(&bench, frame_sequence_once, 1, 3), -1);
     assert_non_null(strstr(bench.diag.text, "stands at a.jsonl:3 already"));
-    arena_free(&bench.arena);
 }
 
 TEST(each_of_many_scenes_is_remembered)
@@ -156,5 +150,4 @@ TEST(each_of_many_scenes_is_remembered)
         bench.diag = (struct diag){0};
         assert_int_equal(follow(&bench, name, 1, true), -1);
     }
-    arena_free(&bench.arena);
 }

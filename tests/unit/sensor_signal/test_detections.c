@@ -17,13 +17,13 @@ struct bench {
     struct margins margins;
     struct received_echo received_echoes[4];
     size_t count;
-    struct arena arena;
+    struct arena *arena;
     struct frame frame;
 };
 
 static void begin(struct bench *bench)
 {
-    memset(bench, 0, sizeof *bench);
+    *bench = (struct bench){.arena = check_arena()};
     field_clear(&waveform_record, &bench->sensor.waveform);
     bench->sensor.name = "front";
     bench->sensor.carrier_hz = 76.5e9;
@@ -36,8 +36,8 @@ static void begin(struct bench *bench)
     bench->sensor.angle_estimator = MONOPULSE_RATIO;
     bench->sensor.waveform.samples = SAMPLES;
     bench->sensor.waveform.repetitions = REPETITIONS;
-    bench->signal = signal_cube_of(&bench->sensor, &bench->arena);
-    bench->frame.arena = &bench->arena;
+    bench->signal = signal_cube_of(&bench->sensor, bench->arena);
+    bench->frame.arena = bench->arena;
     bench->frame.sections = CARRY_ACCOUNT;
 }
 
@@ -77,7 +77,7 @@ static struct detections sight(struct bench *bench)
     const struct effect_scan context = {.frame = &bench->frame, .sensor = &bench->sensor};
     const struct clustered_echoes received = {.echoes = bench->received_echoes,
                                               .count = bench->count};
-    bench->spectrum = signal_cube_spectrum(&bench->signal, &bench->arena);
+    bench->spectrum = signal_cube_spectrum(&bench->signal, bench->arena);
     struct detections detections = detections_of(&bench->signal, &bench->spectrum, 0, &context);
     detections_label(&detections, &bench->frame, "test", &received);
     return detections;
@@ -107,7 +107,6 @@ TEST(an_echo_belongs_to_the_detection_that_shows_most_of_it)
     assert_int_equal(seen.list.items[1].cell.members.count, 2);
     assert_close(seen.list.items[1].cell.members.items[1].weight, 1. / 6, 1e-15);
     assert_int_equal(bench.frame.lost.count, 0);
-    arena_free(&bench.arena);
 }
 
 /* The truth, in the label, does not tell a rate that the waveform cannot tell. */
@@ -125,7 +124,6 @@ TEST(without_a_second_train_range_rates_fold_in_target_and_cell)
     assert_close(one->cell.range_rate_mps, 2.25, 1e-9);
     assert_close(one->cell.members.items[0].range_rate_mps, -29.75, 0);
     assert_int_equal(one->cell.members.count, 2);
-    arena_free(&bench.arena);
 }
 
 TEST(a_detection_without_an_echo_is_a_false_alarm_and_counted)
@@ -140,7 +138,6 @@ TEST(a_detection_without_an_echo_is_a_false_alarm_and_counted)
     assert_int_equal(seen.list.items[1].cell.members.items[0].id.path, PATH_FALSE_ALARM);
     assert_int_equal(bench.frame.counts.count, 1);
     assert_int_equal(bench.frame.counts.items[0].paths.items[0].echoes, 1);
-    arena_free(&bench.arena);
 }
 
 /* Peaks to both sides of an echo, each too far off to be its own. */
@@ -156,7 +153,6 @@ TEST(a_detection_that_an_echo_makes_half_of_has_its_label_too)
     for (size_t i = 0; i < 2; i++)
         assert_string_equal(leader_of(&seen.list.items[i]), "echo");
     assert_int_equal(bench.frame.lost.count, 0);
-    arena_free(&bench.arena);
 }
 
 TEST(echoes_without_a_detection_are_lost_for_their_reason)
@@ -178,5 +174,4 @@ TEST(echoes_without_a_detection_are_lost_for_their_reason)
         assert_int_equal(frame_loss_of(bench.frame.lost.items[i].reason), reasons[i]);
     assert_close(bench.frame.lost.items[1].echoes.items[0].shortfall_db, 20 * log10(2), 1e-2);
     assert_close(bench.frame.lost.items[2].echoes.items[0].shortfall_db, 20 * log10(2), 1e-9);
-    arena_free(&bench.arena);
 }

@@ -46,18 +46,18 @@ static struct received_echo ray_at(const struct sensor *sensor, double range_m, 
 struct bench {
     struct sensor sensor;
     struct signal_cube signal;
-    struct arena arena;
+    struct arena *arena;
 };
 
 static void begin(struct bench *bench, struct sensor sensor)
 {
-    *bench = (struct bench){.sensor = sensor};
-    bench->signal = signal_cube_of(&bench->sensor, &bench->arena);
+    *bench = (struct bench){.sensor = sensor, .arena = check_arena()};
+    bench->signal = signal_cube_of(&bench->sensor, bench->arena);
 }
 
 static struct signal_input echo(struct bench *bench, struct received_echo received)
 {
-    return signal_cube_sources(&bench->signal, &received, 1, &bench->arena);
+    return signal_cube_sources(&bench->signal, &received, 1, bench->arena);
 }
 
 /* One bin of one channel, by the sum that defines the transform, counted from the middle. Bins need
@@ -135,7 +135,6 @@ TEST(a_standing_echo_has_the_point_response_of_its_window)
                              point_response_value((enum point_response)window, rate)),
                     0.004 * amplitude);
         assert_near(size_of(bin_of(&bench, &input, 0, 10.3, 0)), amplitude, 1e-12);
-        arena_free(&bench.arena);
     }
 }
 
@@ -154,7 +153,6 @@ TEST(at_its_place_an_echo_has_its_pointers_and_its_phase)
         assert_close(atan2(sum.im, sum.re), 1, 1e-12);
         assert_close(size_of(delta), 3 * fabs(cimag(expected.delta)), 1e-12);
         assert_true((delta.im * sum.re - delta.re * sum.im) * cimag(expected.delta) > 0);
-        arena_free(&bench.arena);
     }
 }
 
@@ -198,7 +196,6 @@ TEST(every_sample_has_the_exact_phase_of_its_delay)
                 assert_close(sample.im, size * sin(2 * PI * turns + 0.7), 1e-7 * size);
             }
         }
-        arena_free(&bench.arena);
     }
 }
 
@@ -221,7 +218,6 @@ TEST(a_moving_echo_is_at_its_place_at_mid_scan)
         assert_near(size_of(bin_of(&bench, &input, 0, range + side * 0.5, 4)), 3 * 0.848826, 4e-3);
         assert_near(size_of(bin_of(&bench, &input, 0, range, 4 + side * 0.5)), 3 * 0.848826, 4e-3);
     }
-    arena_free(&bench.arena);
 }
 
 /* At 400 m/s it moves 1.57 m in a scan of 3.9 ms: each pulse by itself shows it sharply. */
@@ -241,7 +237,6 @@ TEST(a_fast_echo_moves_through_the_range_bins)
                      log(hypot(after.re, after.im)));
         assert_close((12 + bins) / 4, range_m, 1e-9);
     }
-    arena_free(&bench.arena);
 }
 
 /* The curve of an element halves the amplitude 0.4 rad aside. */
@@ -259,7 +254,6 @@ TEST(elements_have_the_curve_of_the_antenna_and_the_phase_of_their_place)
         assert_close(shown.re, 1.5 * cos(2 * PI * turns), 1e-6);
         assert_close(shown.im, 1.5 * sin(2 * PI * turns), 1e-6);
     }
-    arena_free(&bench.arena);
 }
 
 /* Makes the spectrum of the first train by the sums that define its transforms. */
@@ -298,7 +292,7 @@ TEST(the_beams_of_the_spectrum_have_the_array_factor)
     const double azimuth_rad = 0.21, limit = sin(PI / 4);
     struct signal_input input = echo(&bench, ray_at(&bench.sensor, 10, 0, azimuth_rad, 0.7));
     transform(&bench.signal, &input);
-    struct range_doppler spectrum = signal_cube_spectrum(&bench.signal, &bench.arena);
+    struct range_doppler spectrum = signal_cube_spectrum(&bench.signal, bench.arena);
     size_t cells = spectrum.range_cells * spectrum.rate_cells, cell = 20;
     assert_true(spectrum.beams > 8 && spectrum.first_cell == 0);
     for (size_t beam = 0; beam < spectrum.beams; beam++) {
@@ -307,7 +301,6 @@ TEST(the_beams_of_the_spectrum_have_the_array_factor)
         double factor = sin(8 * x) / (8 * sin(x));
         assert_close(sqrt(spectrum.power[beam * cells + cell]), 3 * fabs(factor), 1e-9);
     }
-    arena_free(&bench.arena);
 }
 
 static struct signal_input noise(uint64_t frame, double sigma)
@@ -344,7 +337,6 @@ TEST(noise_has_the_sensors_rms_after_windows_and_transforms)
         }
         double elements = cases[i].elements > 0 ? (double)cases[i].elements : 1;
         assert_near(power / (double)count, 0.0625 * elements, 0.07);
-        arena_free(&bench.arena);
     }
 }
 
@@ -367,5 +359,4 @@ TEST(the_noise_of_pulses_is_correlated_as_their_point_response)
     for (size_t away = 1; away < 5; away++)
         assert_close(sums[away] / sums[0], point_response_value(POINT_RESPONSE_PULSE, (double)away),
                      0.01);
-    arena_free(&bench.arena);
 }

@@ -11,13 +11,14 @@ enum { SAMPLES = 32, REPETITIONS = 32 };
 struct bench {
     struct sensor sensor;
     struct signal_cube signal;
-    struct arena arena;
+    struct arena *arena;
 };
 
 /* Chirps at 76.5 GHz, cells of 1 m and 0.5 m/s: rates fold 16 m/s apart, and a fold is a bin. */
 static void begin(struct bench *bench, int64_t stagger, size_t elements)
 {
-    *bench = (struct bench){.sensor = {.name = "front",
+    *bench = (struct bench){.arena = check_arena(),
+                            .sensor = {.name = "front",
                                        .carrier_hz = 76.5e9,
                                        .range_min_m = 1,
                                        .range_max_m = 24,
@@ -30,7 +31,7 @@ static void begin(struct bench *bench, int64_t stagger, size_t elements)
                                                     .stagger = stagger}}};
     if (elements > 0)
         array_sensor_add(&bench->sensor, elements, 0.5);
-    bench->signal = signal_cube_of(&bench->sensor, &bench->arena);
+    bench->signal = signal_cube_of(&bench->sensor, bench->arena);
 }
 
 /* One repetition's rows by the sum that defines their transform. */
@@ -66,7 +67,7 @@ static struct received_echo echo_at(double range_m, double rate_mps, double azim
 
 static void receive(struct bench *bench, const struct received_echo *echoes, size_t count)
 {
-    struct signal_input input = signal_cube_sources(&bench->signal, echoes, count, &bench->arena);
+    struct signal_input input = signal_cube_sources(&bench->signal, echoes, count, bench->arena);
     for (size_t m = 0; m < REPETITIONS && bench->signal.second != NULL; m++) {
         signal_cube_receive(&bench->signal, &input, 1, m);
         transform_rows(&bench->signal);
@@ -98,7 +99,6 @@ TEST(the_second_train_tells_range_rates_apart_within_its_folds)
             assert_true(unfolding_choose(&bench.signal, &peak, 5, sin(azimuth_rad), &reading));
             assert_close(reading.range_rate_mps, rate_mps, 1e-9);
             assert_close(reading.range_m, 12.3, 1e-9);
-            arena_free(&bench.arena);
         }
 }
 
@@ -114,7 +114,6 @@ TEST(beyond_its_folds_a_rate_folds_and_takes_its_range_along)
     assert_true(unfolding_choose(&bench.signal, &peak, 5, 0, &reading));
     assert_close(reading.range_rate_mps, -35, 1e-9);
     assert_close(reading.range_m, 17.3, 1e-9);
-    arena_free(&bench.arena);
 }
 
 /* The strong echo is what the second train shows where another hypothesis looks. */
@@ -128,7 +127,6 @@ TEST(the_nearest_amplitude_wins_and_not_the_strongest)
     struct range_doppler_peak peak = peak_of(&bench, &echoes[0]);
     assert_true(unfolding_choose(&bench.signal, &peak, 5, 0, &reading));
     assert_close(reading.range_rate_mps, 4, 1e-9);
-    arena_free(&bench.arena);
 }
 
 TEST(no_hypothesis_puts_a_target_where_the_sensor_does_not_measure)
@@ -147,7 +145,6 @@ TEST(no_hypothesis_puts_a_target_where_the_sensor_does_not_measure)
     assert_false(unfolding_choose(&bench.signal, &peak, 5, 0, &reading));
     peak.range = 0.7;
     assert_false(unfolding_choose(&bench.signal, &peak, 5, 0, &reading));
-    arena_free(&bench.arena);
 }
 
 TEST(without_a_second_train_a_rate_is_read_in_the_middle_fold)
@@ -163,5 +160,4 @@ TEST(without_a_second_train_a_rate_is_read_in_the_middle_fold)
         assert_close(reading.range_rate_mps, remainder(rate_mps, 16), 1e-9);
         assert_close(reading.range_m, 12 + round((rate_mps - reading.range_rate_mps) / 16), 1e-9);
     }
-    arena_free(&bench.arena);
 }
