@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "base/sort.h"
+#include "text/text_table.h"
 
 static struct name_count *count(struct name_counts *names, const char *name, int64_t times,
                                 struct arena *arena)
@@ -150,15 +151,17 @@ static void write_counts(const char *title, struct name_counts *names, int64_t w
         return;
     sort_list(&names->list, most_first, arena);
     text_format(text, "\n%s\n", title);
+    struct text rows = {0};
     for (size_t i = 0; i < names->list.count; i++) {
         const struct name_count *item = &names->list.items[i];
-        text_format(text, "  %9" PRId64 "  %5s %%  %s", item->count,
+        text_format(&rows, "%" PRId64 "\t%s %%\t%s", item->count,
                     percent(item->count, whole, (char[PERCENT_SIZE]){0}), item->name);
         if (item->scans > 0)
-            text_format(text, ": %.2f in each of %" PRId64 " scans",
+            text_format(&rows, ": %.2f in each of %" PRId64 " scans",
                         share(item->count, item->scans), item->scans);
-        text_add_word(text, "\n");
+        text_add_word(&rows, "\n");
     }
+    text_table_write(&rows, (int[]){9, 7, -1, 0}, "  ", text);
 }
 
 static void write_traffic(struct stream_counts *counts, struct text *text)

@@ -6,6 +6,7 @@
 #include "base/elementary.h"
 #include "effects/effect.h"
 #include "text/document.h"
+#include "text/text_table.h"
 
 const char *const cost_table_references[] = {"signal", "all", NULL};
 
@@ -152,18 +153,28 @@ static const char *error_cell(struct relative_error root, char cell[CELL])
     return cell;
 }
 
-static void write_chain(const struct cost_chain *chain, int width, struct text *text)
+static void add_chain(const struct cost_chain *chain, struct text *rows)
 {
     char cell[CELL];
-    snprintf(cell, CELL, "%s%.1f", chain->close ? "~" : "", chain->us_per_frame);
-    text_format(text, "%-*s %11s", width, chain->chain, cell);
     struct relative_error root = chain->relative_distance;
+    text_format(rows, "%s\t%s%.1f", chain->chain, chain->close ? "~" : "", chain->us_per_frame);
     if ((chain->present & COST_ERROR) != 0)
-        text_format(text, " %9s %8.1f to %5.1f", error_cell(root, cell), 100 * root.low,
+        text_format(rows, "\t%s\t%.1f to %5.1f", error_cell(root, cell), 100 * root.low,
                     100 * root.high);
     else
-        text_format(text, " %9s %17s", (chain->present & COST_ENERGY) != 0 ? "-" : "reference", "");
-    text_format(text, " %8.2f\n", chain->targets_per_scan);
+        text_format(rows, "\t%s\t", (chain->present & COST_ENERGY) != 0 ? "-" : "reference");
+    text_format(rows, "\t%.2f\n", chain->targets_per_scan);
+}
+
+static void write_chains(const struct cost_table *table, const char *mark, struct text *text)
+{
+    struct text rows = {0};
+    text_add_word(&rows, "chain\tus a frame\terror\tinterval\ttargets\n");
+    for (size_t i = 0; i < table->chains.count; i++)
+        add_chain(&table->chains.items[i], &rows);
+    text_table_write(&rows, (int[]){-27, 10, 9, 16, 7, 0}, mark, text);
+    if (table->no_signal != NULL)
+        text_format(text, "%s%-27s  left out: %s\n", mark, "signal", table->no_signal);
 }
 
 /* A part with one digit after the point; never -0. */
@@ -173,47 +184,50 @@ static double tenths(double value)
 }
 
 /* "7.5", or "<0.4" with the most of all rounds if it is above 0 in some and not in others. */
-static const char *saved_cell(const struct cost_effect *effect, double unit, const char *ending,
-                              char cell[CELL])
+static void add_saved(const struct cost_effect *effect, double unit, const char *ending,
+                      struct text *rows)
 {
     bool told = effect->saved.least_us > 0 || effect->saved.most_us < 0;
     double value = told ? effect->saved.us : effect->saved.most_us;
     double shown = told ? tenths(value / unit) : ceil(10 * value / unit) / 10 + 0.0;
-    snprintf(cell, CELL, "%s%.1f%s", told ? "" : "<", shown, ending);
-    return cell;
+    text_format(rows, "\t%s%.1f%s", told ? "" : "<", shown, ending);
 }
 
-static void write_effect(const struct cost_table *table, const struct cost_effect *effect,
-                         double whole_us, struct text *text)
+static void add_effect(const struct cost_table *table, const struct cost_effect *effect,
+                       double whole_us, struct text *rows)
 {
-    char lists[CELL], saved[CELL], share[CELL];
-    snprintf(lists, CELL, "%" PRId64 " of %" PRId64, effect->lists_changed, table->lists);
-    text_format(text, "%-17s %15s %9s %9s", effects_names[effect->effect], lists,
-                saved_cell(effect, 1, "", saved), saved_cell(effect, whole_us / 100, " %", share));
+    text_format(rows, "%s\t%" PRId64 " of %" PRId64, effects_names[effect->effect],
+                effect->lists_changed, table->lists);
+    add_saved(effect, 1, "", rows);
+    add_saved(effect, whole_us / 100, " %", rows);
     struct relative_error added = effect->squared_error_added;
     if ((effect->present & COST_ERROR) != 0)
-        text_format(text, " %7.1f %7.1f to %5.1f", tenths(100 * added.value),
+        text_format(rows, "\t%.1f\t%.1f to %5.1f", tenths(100 * added.value),
                     tenths(100 * added.low), tenths(100 * added.high));
-    text_format(text, "  %s", effect->called_for_by);
+    else if (table->reference >= 0)
+        text_add_word(rows, "\t\t");
+    text_format(rows, "\t%s", effect->called_for_by);
     if (effect->lists_called > 0 && effect->lists_called < effect->lists_changed)
-        text_format(text, ", in %" PRId64, effect->lists_called);
-    text_add_word(text, "\n");
+        text_format(rows, ", in %" PRId64, effect->lists_called);
+    text_add_word(rows, "\n");
 }
 
 static void write_effects(const struct cost_table *table, const char *mark, uint64_t shown,
                           struct text *text)
 {
+    int widths[] = {-17, 14, 8, 8, -1, 0};
+    int widths_with_errors[] = {-17, 14, 8, 8, 6, 15, -1, 0};
     double whole_us = table->chains.items[table->whole].us_per_frame;
     bool errors = table->reference >= 0;
-    text_format(text, "%s%-17s %15s %9s %9s%s  called for by\n", mark, "effect left out",
-                "lists changed", "us saved", "of time", errors ? "   added          interval" : "");
+    struct text rows = {0};
+    text_format(&rows, "effect left out\tlists changed\tus saved\tof time%s\tcalled for by\n",
+                errors ? "\tadded\tinterval" : "");
     for (size_t i = 0; i < table->effects.count; i++) {
         const struct cost_effect *effect = &table->effects.items[i];
-        if ((shown & EFFECT_BIT(effect->effect)) == 0)
-            continue;
-        text_add_word(text, mark);
-        write_effect(table, effect, whole_us, text);
+        if ((shown & EFFECT_BIT(effect->effect)) != 0)
+            add_effect(table, effect, whole_us, &rows);
     }
+    text_table_write(&rows, errors ? widths_with_errors : widths, mark, text);
 }
 
 void cost_table_write(const struct cost_table *table, const char *mark, uint64_t shown,
@@ -225,18 +239,8 @@ void cost_table_write(const struct cost_table *table, const char *mark, uint64_t
                 "apart. < and ~: not faster in all rounds, nor surely slower.\n",
                 mark, TRIAL_ROUNDS, table->timed_frames, whole->chain,
                 100 * (whole->us_most - whole->us_least) / whole->us_per_frame);
-    int width = 28;
-    for (size_t i = 0; i < table->chains.count; i++)
-        if ((int)strlen(table->chains.items[i].chain) > width)
-            width = (int)strlen(table->chains.items[i].chain);
-    text_format(text, "%.1s\n%s%-*s %11s %9s %17s %8s\n", mark, mark, width, "chain", "us a frame",
-                "error", "interval", "targets");
-    for (size_t i = 0; i < table->chains.count; i++) {
-        text_add_word(text, mark);
-        write_chain(&table->chains.items[i], width, text);
-    }
-    if (table->no_signal != NULL)
-        text_format(text, "%s%-*s left out: %s\n", mark, width, "signal", table->no_signal);
+    text_format(text, "%.1s\n", mark);
+    write_chains(table, mark, text);
     if (table->effects.count == 0 || shown == 0)
         return;
     text_format(text, "%.1s\n", mark);

@@ -9,6 +9,7 @@
 #include "documents/usual_figures.h"
 #include "effects/effect.h"
 #include "radar/detection.h"
+#include "text/text_table.h"
 
 #define LONG_RANGE_M 150 /* radars that look farther are of another class than those of corners */
 #define LEAST_GAIN 1e-6  /* less is rounding where a pattern ends in a zero */
@@ -242,49 +243,55 @@ static void add_figures(const struct sensor *sensor, const struct datasheet *she
 
 static void add_accuracy(const struct datasheet *sheet, struct text *text)
 {
-    text_add_word(text, "\n  accuracy, 1 sigma      range, m    rate, m/s   azimuth, degrees, at");
+    struct text rows = {0};
+    text_add_word(&rows, "accuracy, 1 sigma\trange, m\trate, m/s\tazimuth, degrees, at");
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++)
-        text_format(text, " %6.3g", DEGREES * sheet->azimuth_rad[i]);
+        text_format(&rows, "\t%.3g", DEGREES * sheet->azimuth_rad[i]);
     for (int i = 0; i < DATASHEET_LEVELS; i++) {
         const struct datasheet_accuracy *accuracy = &sheet->accuracy[i];
         if (isfinite(accuracy->snr_db))
-            text_format(text, "\n  SNR %5.1f dB       ", accuracy->snr_db);
+            text_format(&rows, "\nSNR %5.1f dB", accuracy->snr_db);
         else
-            text_format(text, "\n  threshold + %2d dB  ", 10 * i);
-        text_format(text, "%12.2g %12.2g%23s", accuracy->range_sigma_m,
-                    accuracy->range_rate_sigma_mps, "");
+            text_format(&rows, "\nthreshold + %2d dB", 10 * i);
+        text_format(&rows, "\t%.2g\t%.2g\t", accuracy->range_sigma_m,
+                    accuracy->range_rate_sigma_mps);
         for (int k = 0; k < DATASHEET_AZIMUTHS; k++)
             if (isfinite(accuracy->azimuth_sigma_rad[k]))
-                text_format(text, " %6.2g", DEGREES * accuracy->azimuth_sigma_rad[k]);
+                text_format(&rows, "\t%.2g", DEGREES * accuracy->azimuth_sigma_rad[k]);
             else
-                text_format(text, " %6s", "-");
+                text_add_word(&rows, "\t-");
     }
+    text_add_word(&rows, "\n");
     text_add_word(text, "\n");
+    text_table_write(&rows, (int[]){-17, 12, 11, 21, 5, 0}, "  ", text);
 }
 
-static void add_range(double range_m, double range_max_m, struct text *text)
+static void add_range(double range_m, double range_max_m, struct text *rows)
 {
-    char word[16] = "-";
     if (range_m > 0)
-        snprintf(word, sizeof word, "%s%.4g", range_m < range_max_m ? "" : ">", range_m);
-    text_format(text, " %7s", word);
+        text_format(rows, "\t%s%.4g", range_m < range_max_m ? "" : ">", range_m);
+    else
+        text_add_word(rows, "\t-");
 }
 
 static void add_detection(const struct sensor *sensor, const struct datasheet *sheet,
                           struct text *text)
 {
-    text_format(text, "\n  detected up to, m, with a probability of %.2f and of %.2f\n  %-13s",
-                sheet->chance[0], sheet->chance[1], "at");
+    struct text rows = {0};
+    text_format(text, "\n  detected up to, m, with a probability of %.2f and of %.2f\n",
+                sheet->chance[0], sheet->chance[1]);
+    text_add_word(&rows, "at");
     for (int k = 0; k < DATASHEET_ECHOES; k++)
-        text_format(text, "%11.0f dBsm", sheet->echo_dbsm[k]);
+        text_format(&rows, "\t\t%.0f dBsm", sheet->echo_dbsm[k]);
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++) {
-        text_format(text, "\n  %5.3g degrees", DEGREES * sheet->azimuth_rad[i]);
+        text_format(&rows, "\n%5.3g degrees", DEGREES * sheet->azimuth_rad[i]);
         for (int k = 0; k < DATASHEET_ECHOES; k++)
             for (int chance = 0; chance < DATASHEET_CHANCES; chance++)
                 add_range(sheet->range_m[i][k][chance],
-                          suite_range_max_m(sensor, sheet->azimuth_rad[i]), text);
+                          suite_range_max_m(sensor, sheet->azimuth_rad[i]), &rows);
     }
-    text_add_word(text, "\n");
+    text_add_word(&rows, "\n");
+    text_table_write(&rows, (int[]){-13, 7, 0}, "  ", text);
 }
 
 static void add_checks(const struct sensor *sensor, struct text *text)

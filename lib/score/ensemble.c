@@ -7,6 +7,7 @@
 #include "score/reference_stream.h"
 #include "score/relative_error.h"
 #include "score/target_score.h"
+#include "text/text_table.h"
 
 #define LEVEL_DB 3
 #define FEWEST_SEEDS 3
@@ -361,24 +362,19 @@ int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, doub
     return 0;
 }
 
-/* The column of the scenes' names is as wide as the longest of them. */
 void ensemble_table(const struct ensemble_score *score, struct text *text)
 {
-    int width = 32;
     int64_t true_lists = 0, listed_lists = 0;
-    for (size_t i = 0; i < score->scenes.count; i++)
-        if ((int)strlen(score->scenes.items[i].scene) > width)
-            width = (int)strlen(score->scenes.items[i].scene);
-    text_format(text, "%-*s %8s %9s %9s %11s %11s\n", width, "scene", "lists", "targets",
-                "in truth", "D", "error");
+    struct text rows = {0};
+    text_add_word(&rows, "scene\tlists\ttargets\tin truth\tD\terror\n");
     for (size_t i = 0; i < score->scenes.count; i++) {
         const struct ensemble_scene_score *scene = &score->scenes.items[i];
-        text_format(text, "%-*s %8" PRId64 " %9.2f %9.2f %11.5f %11.5f\n", width, scene->scene,
-                    scene->lists, scene->listed_targets, scene->true_targets, scene->energy,
-                    scene->energy_error);
+        text_format(&rows, "%s\t%" PRId64 "\t%.2f\t%.2f\t%.5f\t%.5f\n", scene->scene, scene->lists,
+                    scene->listed_targets, scene->true_targets, scene->energy, scene->energy_error);
         true_lists += scene->true_lists;
         listed_lists += scene->listed_lists;
     }
+    text_table_write(&rows, (int[]){-32, 7, 8, 8, 10, 0}, "", text);
     if (true_lists + listed_lists > 0)
         text_format(text,
                     "not compared: %" PRId64 " lists of the truth alone, %" PRId64

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "frame/frame_order.h"
 #include "score/gospa.h"
+#include "text/text_table.h"
 
 #define COUNT(owner, member, help) FIELD_INTEGER_IN(owner, member, 0, 0x1p53, help)
 #define MEASURE(member, help) OPTIONAL_REAL(struct score, member, 0, 1e300, help)
@@ -346,8 +347,6 @@ void score_summarize(struct score_tallies *tallies, struct score_summary *summar
     arena_free(&scratch);
 }
 
-enum { NAME_WIDTH = 24, UNIT_WIDTH = 12, COLUMN_WIDTH = 12 };
-
 struct table {
     const struct score *scores;
     const char *const *heads;
@@ -355,38 +354,31 @@ struct table {
     const char *distance; /* the unit of GOSPA and OSPA, and that of the parts of its square */
     const char *square;
     double *row; /* a figure for each score; NAN: it has none */
-    struct text *text;
+    struct text *rows;
 };
 
-/* A column is at least as wide as its head. */
-static int width_of(const struct table *table, size_t i)
-{
-    int head = (int)strlen(table->heads[i]);
-    return head + 2 > COLUMN_WIDTH ? head + 2 : COLUMN_WIDTH;
-}
-
 /* Figures that the decimals cannot tell from 0, and very large ones, have an exponent. */
-static void write_figure(double value, int decimals, int width, struct text *text)
+static void add_figure(double value, int decimals, struct text *rows)
 {
     double size = fabs(value);
     bool plain = size == 0 || decimals < 4 || (size >= 0.00005 && size < 1e6);
     if (isnan(value))
-        text_format(text, "%*s", width, "-");
+        text_add_word(rows, "\t-");
     else
-        text_format(text, plain ? "%*.*f" : "%*.*e", width, plain ? decimals : 3, value);
+        text_format(rows, plain ? "\t%.*f" : "\t%.*e", plain ? decimals : 3, value);
 }
 
-static void write_row(const struct table *table, const char *name, const char *unit, int decimals)
+static void add_row(const struct table *table, const char *name, const char *unit, int decimals)
 {
     bool any = false;
     for (size_t i = 0; i < table->count; i++)
         any = any || !isnan(table->row[i]);
     if (!any)
         return;
-    text_format(table->text, "%-*s%-*s", NAME_WIDTH, name, UNIT_WIDTH, unit);
+    text_format(table->rows, "%s\t%s", name, unit);
     for (size_t i = 0; i < table->count; i++)
-        write_figure(table->row[i], decimals, width_of(table, i), table->text);
-    text_add_word(table->text, "\n");
+        add_figure(table->row[i], decimals, table->rows);
+    text_add_word(table->rows, "\n");
 }
 
 /* The figures of a field, of the score itself or of a record at this offset in it. */
@@ -402,7 +394,7 @@ static void fill_row(const struct table *table, const struct record *record,
 }
 
 /* "azimuth rms" and all the others of the differences in a component, angles in degrees. */
-static void write_component(const struct table *table, const struct field *component)
+static void add_component(const struct table *table, const struct field *component)
 {
     const char *unit = field_unit(component->name);
     bool angle = strcmp(unit, "rad") == 0;
@@ -413,19 +405,19 @@ static void write_component(const struct table *table, const struct field *compo
         char name[80];
         snprintf(name, sizeof name, "%.*s %s", length, component->name, field->name);
         fill_row(table, component->record, field, component->offset, angle ? 180 / PI : 1);
-        write_row(table, name, angle ? "deg" : unit, 4);
+        add_row(table, name, angle ? "deg" : unit, 4);
     }
 }
 
-static void write_rates(const struct table *table)
+static void add_rates(const struct table *table)
 {
     const struct score *scores = table->scores;
     for (size_t i = 0; i < table->count; i++)
         table->row[i] = 100.0 * (double)scores[i].missed_count / (double)scores[i].true_count;
-    write_row(table, "missed", "% of true", 1);
+    add_row(table, "missed", "% of true", 1);
     for (size_t i = 0; i < table->count; i++)
         table->row[i] = 100.0 * (double)scores[i].false_count / (double)scores[i].listed_count;
-    write_row(table, "false", "% of listed", 1);
+    add_row(table, "false", "% of listed", 1);
 }
 
 static const char *unit_of(const struct table *table, const struct field *field)
@@ -436,24 +428,25 @@ static const char *unit_of(const struct table *table, const struct field *field)
     return field->offset <= offsetof(struct score, ospa) ? table->distance : "";
 }
 
-static void write_table(const struct table *table)
+static void write_table(const struct table *table, struct text *text)
 {
-    text_format(table->text, "%-*s%-*s", NAME_WIDTH, "", UNIT_WIDTH, "unit");
+    text_add_word(table->rows, "\tunit");
     for (size_t i = 0; i < table->count; i++)
-        text_format(table->text, "%*s", width_of(table, i), table->heads[i]);
-    text_add_word(table->text, "\n");
+        text_format(table->rows, "\t%s", table->heads[i]);
+    text_add_word(table->rows, "\n");
     for (const struct field *field = score_record.fields; field->name != NULL; field++) {
         if (field->kind == FIELD_INTEGER || field->kind == FIELD_REAL)
             fill_row(table, &score_record, field, 0, 1);
         if (field->kind == FIELD_INTEGER)
-            write_row(table, field->name, "", 0);
+            add_row(table, field->name, "", 0);
         else if (field->kind == FIELD_REAL)
-            write_row(table, field->name, unit_of(table, field), 4);
+            add_row(table, field->name, unit_of(table, field), 4);
         else if (field->kind == FIELD_RECORD)
-            write_component(table, field);
+            add_component(table, field);
         if (field->offset == offsetof(struct score, false_count))
-            write_rates(table);
+            add_rates(table);
     }
+    text_table_write(table->rows, (int[]){-22, -12, 10, 0}, "", text);
 }
 
 void score_table_summary(const struct score_summary *summary, struct text *text,
@@ -475,15 +468,16 @@ void score_table_summary(const struct score_summary *summary, struct text *text,
         text_format(text, "%g deg\n", summary->azimuth_cell_rad * (180 / PI));
     else
         text_add_word(text, "a twentieth of the view\n");
-    write_table(&(struct table){
+    struct table table = {
         .scores = scores,
         .heads = heads,
         .count = sensors == 1 ? 1 : sensors + 1,
         .distance = "cells",
         .square = "cells^2",
         .row = arena_get(arena, (sensors + 1) * sizeof(double)),
-        .text = text,
-    });
+        .rows = &(struct text){0},
+    };
+    write_table(&table, text);
 }
 
 void score_table_track_summary(const struct score_summary *summary, struct text *text)
@@ -492,8 +486,10 @@ void score_table_track_summary(const struct score_summary *summary, struct text 
                 "%" PRId64 " frames; distances in metres, cut off at %g; %" PRId64
                 " identity switches\n",
                 summary->frames, summary->cutoff_m, summary->id_switches);
-    write_table(&(struct table){&summary->all, (const char *const[]){"all"}, 1, "m", "m^2",
-                                (double[1]){0}, text});
+    struct table table = {
+        &summary->all,    (const char *const[]){"all"}, 1, "m", "m^2", (double[1]){0},
+        &(struct text){0}};
+    write_table(&table, text);
     if ((summary->present & SCORE_DIFFERENCE) != 0)
         tracker_difference_table(&summary->difference, text);
 }

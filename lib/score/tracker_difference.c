@@ -4,6 +4,7 @@
 
 #include "base/elementary.h"
 #include "score/relative_error.h"
+#include "text/text_table.h"
 
 enum { FEWEST = 5 };
 
@@ -86,10 +87,12 @@ void tracker_difference_table(const struct tracker_difference *difference, struc
                 "\nscores less those of --against, per frame: mean over %" PRId64 " scenes, 95 %% "
                 "interval\n",
                 difference->scenes);
+    struct text rows = {0};
     for (int i = 0; i < TRACKER_FIGURES; i++) {
         const char *name = difference_fields[i + 1].name;
         const struct tracker_interval *figure = &difference->figures[i];
-        text_format(text, "%-24s%-12s%12.4f%12.4f to %.4f\n", name, i == TRACKER_GOSPA ? "m" : "",
+        text_format(&rows, "%s\t%s\t%.4f\t%.4f to %.4f\n", name, i == TRACKER_GOSPA ? "m" : "",
                     figure->mean, figure->low, figure->high);
     }
+    text_table_write(&rows, (int[]){-22, -12, 10, 20, 0}, "", text);
 }
