@@ -1,6 +1,5 @@
 #include "base/number.h"
 
-#include <assert.h>
 #include <math.h>
 
 #include "base/decimal.h"
@@ -246,7 +245,6 @@ __attribute__((noinline)) static size_t write_long(double value, char *text)
 
 size_t number_write(double value, char *text)
 {
-    assert(isfinite(value));
     const double magnitude = fabs(value);
     /* Two decimals of so few digits are never the same double, so no decimal is shorter. */
     const uint32_t near = magnitude < FOUR_PLACES_TO ? (uint32_t)(magnitude * 1e4 + 0.5) : 0;
@@ -383,7 +381,6 @@ static bool fits_double(uint64_t digits)
 
 double number_of_digits(uint64_t digits, int places)
 {
-    assert(places >= 0 && places <= NUMBER_DIGITS);
     return fits_double(digits) ? (double)(int64_t)digits / TENS[places]
                                : quotient_by_tens(digits, places);
 }
