@@ -486,7 +486,7 @@ REFUSED = [
     ({"document": "\ud800"}, "/document: '\\ud800'; expected one line"),
     ({"origin": ""}, 'origin is ""; expected a text of 1 to 239 letters'),
     ({"sources": {"range_max_m": 240 * "x"}}, "expected a text of at most 239 letters"),
-    ({"extends": "./sheet.json"}, "sheet.json: /: origin is missing"),
+    ({"extends": "./sheet.json"}, "expected a suite that does not extend this one"),
     ({"extends": "/etc/passwd"}, "make-radar: /etc/passwd:1: "),
     ({"range_max_m": None}, "range_max_m is null; expected a number from 0.1 to 100000"),
     ({"range_min_m": "near"}, 'range_min_m is "near"; expected a number'),
