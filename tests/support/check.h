@@ -14,6 +14,8 @@
 
 #include <cmocka.h>
 
+#include "base/diag.h"
+
 /* What a file says of its tests: a test with its setup and teardown, or with no name what is done
  * before the first and after the last of the tests that follow. */
 struct check_entry {
@@ -87,6 +89,23 @@ double check_cases(double usual);
 /* Passes if |actual - expected| <= tolerance |expected|. */
 #define assert_near(actual, expected, relative)                                                    \
     check_close((actual), (expected), (relative)*fabs(expected), #actual, __FILE__, __LINE__)
+
+/* Calls a function with these arguments and with a diag as the last. Passes if it gives 0. */
+#define assert_done(function, ...)                                                                 \
+    do {                                                                                           \
+        struct diag check_diag = {0};                                                              \
+        if (function(__VA_ARGS__, &check_diag) != 0)                                               \
+            fail_msg("%s: %s", #function, check_diag.text);                                        \
+    } while (0)
+
+/* The same; passes if it gives -1 with this code and message. */
+#define assert_refused(expected_code, expected_text, function, ...)                                \
+    do {                                                                                           \
+        struct diag check_diag = {0};                                                              \
+        assert_int_equal(function(__VA_ARGS__, &check_diag), -1);                                  \
+        assert_string_equal(check_diag.text, expected_text);                                       \
+        assert_int_equal(check_diag.code, expected_code);                                          \
+    } while (0)
 
 static inline void check_close(double actual, double expected, double tolerance, const char *what,
                                const char *file, int line)

@@ -14,9 +14,8 @@ static void check_shares(size_t cars, const char *first, const char *second)
     }
     struct frame frame = {.scene = "s", .last = true, .objects = {objects, cars + 1, MANY + 1}};
     struct stream_counts counts = {.arena = check_arena()};
-    struct diag diag = {0};
     struct text text = {0};
-    assert_int_equal(stream_counts_add(&counts, &frame, &diag), 0);
+    assert_done(stream_counts_add, &counts, &frame);
     stream_counts_write(&counts, &text);
     text_add(&text, "", 1);
     assert_non_null(strstr(text.bytes, first));

@@ -94,8 +94,7 @@ TEST(nothing_is_compared_without_speeds)
     struct recorded_plausibility plausibility = {0};
     const struct pose poses[] = {from, to, from, to, from, to, from, to, from, to};
     follow(&plausibility, poses, 10, 1);
-    struct diag diag = {0};
-    assert_int_equal(recorded_plausibility_check(&plausibility, &format, true, &diag), 0);
+    assert_done(recorded_plausibility_check, &plausibility, &format, true);
 }
 
 /* Places that scatter by up to 2.8 m around a drive: after the first ways, none is denied. */
@@ -114,8 +113,7 @@ TEST(a_noisy_track_stays_whole)
     assert_true(early <= 2);
     follow(&plausibility, poses, 400, 0.04);
     assert_int_equal(plausibility.driving, early);
-    struct diag diag = {0};
-    assert_int_equal(recorded_plausibility_check(&plausibility, &format, true, &diag), 0);
+    assert_done(recorded_plausibility_check, &plausibility, &format, true);
 }
 
 /* A drive of 20 steps at 15 m/s, with factors on its places, speeds and times. */
@@ -190,6 +188,5 @@ TEST(yaws_of_sliding_and_reversing_bodies_are_no_contradiction)
     }
     follow(&plausibility, slides, 100, 0.1);
     follow(&plausibility, reverses, 100, 0.1);
-    struct diag diag = {0};
-    assert_int_equal(recorded_plausibility_check(&plausibility, &format, true, &diag), 0);
+    assert_done(recorded_plausibility_check, &plausibility, &format, true);
 }

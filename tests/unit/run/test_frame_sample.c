@@ -9,10 +9,9 @@ static struct frame_sample sample_of(int frames, int scenes, int64_t most, struc
         char name[32];
         snprintf(name, sizeof name, "scene %d", (int)((int64_t)i * scenes / frames));
         struct frame frame = {.scene = name, .frame = i, .interval_s = 1, .ego = "ego"};
-        struct diag diag = {0};
         frame.arena = &scratch;
         frame.present = PART_OBJECTS;
-        assert_int_equal(frame_sample_add(&sample, &frame, &diag), 0);
+        assert_done(frame_sample_add, &sample, &frame);
     }
     arena_free(&scratch);
     return sample;

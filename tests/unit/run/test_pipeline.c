@@ -258,21 +258,16 @@ TEST(everything_else_is_refused_with_its_line)
                  {"a \"b\\", "1: a quote is not closed"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct pipeline pipeline;
-        struct diag diag;
         char message[128];
         snprintf(message, sizeof message, "%s; run it with bash", cases[i].message);
-        assert_int_equal(parse(cases[i].text, &pipeline, check_arena(), &diag), -1);
-        assert_string_equal(diag.text, message);
-        assert_int_equal(diag.code, DIAG_USAGE);
+        assert_refused(DIAG_USAGE, message, parse, cases[i].text, &pipeline, check_arena());
     }
 }
 
 TEST(commands_know_their_lines)
 {
     struct pipeline pipeline;
-    struct diag diag;
-    assert_int_equal(parse("# x\n\na 'b\nc' \\\n d |\n\n e | f", &pipeline, check_arena(), &diag),
-                     0);
+    assert_done(parse, "# x\n\na 'b\nc' \\\n d |\n\n e | f", &pipeline, check_arena());
     assert_int_equal(pipeline.commands.count, 3);
     assert_int_equal(pipeline.commands.items[0].line, 3);
     assert_int_equal(pipeline.commands.items[1].line, 7);

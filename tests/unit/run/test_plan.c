@@ -20,13 +20,11 @@ static void plan_traffic(struct bench *bench, const char *effects)
 {
     struct arena scratch = {0};
     struct frame frame = {.arena = &scratch};
-    struct diag diag = {0};
     begin(bench, effects);
     struct frame_sample sample = sample_of_traffic("12", &bench->arena);
     for (size_t i = 0; i < sample.list.count; i++) {
-        assert_int_equal(frame_stream_parse(sample.list.items[i].line, sample.list.items[i].length,
-                                            &frame, &diag),
-                         0);
+        assert_done(frame_stream_parse, sample.list.items[i].line, sample.list.items[i].length,
+                    &frame);
         assert_int_equal(plan_try(&bench->plan, &frame), 0);
     }
     if (plan_end(&bench->plan) != 0)

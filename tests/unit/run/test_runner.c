@@ -36,7 +36,6 @@ static void forget_sizes(struct frame *frame, struct arena *arena)
 static void write_rest(const struct frame *frame, unsigned present, const struct stage *stage,
                        struct text *text)
 {
-    struct diag diag = {0};
     struct frame rest = *frame;
     memset(&rest.lost, 0, sizeof rest.lost);
     for (size_t i = 0; i < frame->lost.count; i++)
@@ -46,8 +45,7 @@ static void write_rest(const struct frame *frame, unsigned present, const struct
     if ((stage->writes & PART_REFLECTORS) != 0)
         forget_sizes(&rest, check_arena());
     text->length = 0;
-    if (frame_text_write(&rest, text, &diag) != 0)
-        fail_msg("%s", diag.text);
+    assert_done(frame_text_write, &rest, text);
     text_add(text, "", 1);
 }
 

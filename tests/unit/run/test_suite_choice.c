@@ -55,8 +55,7 @@ TEST(the_option_goes_before_the_suite_and_the_suite_before_auto)
         struct suite suite = {.name = "a", .digest = "d", .effects = cases[i][1]};
         struct suite_choice choice = {.effects = cases[i][0]};
         struct sensors request;
-        struct diag diag = {0};
-        assert_int_equal(suite_choice_request(&choice, &suite, &request, &diag), 0);
+        assert_done(suite_choice_request, &choice, &suite, &request);
         assert_string_equal(request.effects, cases[i][2]);
         assert_string_equal(request.suite, "a");
         assert_string_equal(request.digest, "d");

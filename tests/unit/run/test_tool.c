@@ -100,9 +100,7 @@ static int run(const struct stage *tool, struct scratch *scratch, const char *co
 static void assert_holds(struct scratch *scratch, const char *name, const char *expected)
 {
     struct text text = {0};
-    struct diag diag = {0};
-    if (document_bytes(scratch_in(scratch, name), &text, &diag) != 0)
-        fail_msg("%s", diag.text);
+    assert_done(document_bytes, scratch_in(scratch, name), &text);
     text_add(&text, "", 1);
     assert_string_equal(text.bytes, expected);
     text_free(&text);

@@ -32,13 +32,12 @@ static void begin(struct stream *stream, uint64_t seed)
 /* Adds the next seed's list: count targets at these ranges. */
 static void add(struct stream *stream, const double *range_m, size_t count)
 {
-    struct diag diag = {0};
     stream->frame.seed++;
     stream->frame.targets.count = 0;
     for (size_t i = 0; i < count; i++)
         *list_add(&stream->frame.targets, &stream->arena) =
             (struct target){.sensor = "front", .range_m = range_m[i], .amplitude_db = 20};
-    assert_int_equal(ensemble_add(&stream->ensemble, &stream->frame, &diag), 0);
+    assert_done(ensemble_add, &stream->ensemble, &stream->frame);
 }
 
 static struct ensemble_score compare(struct stream *truth, struct stream *listed)

@@ -79,12 +79,11 @@ TEST(a_frame_without_the_part_that_decides_is_refused)
 {
     struct diag diag = {0};
     struct frame frame = {.present = PART_OBJECTS};
-    assert_int_equal(track_score_check(&frame, TRACK_TRUTH_ALL, &diag), 0);
-    assert_int_equal(track_score_check(&frame, TRACK_TRUTH_IN_VIEW, &diag), -1);
-    assert_string_equal(diag.text, "sensors: missing; --objects=in_view needs it");
-    diag = (struct diag){0};
+    assert_done(track_score_check, &frame, TRACK_TRUTH_ALL);
+    assert_refused(DIAG_DATA, "sensors: missing; --objects=in_view needs it", track_score_check,
+                   &frame, TRACK_TRUTH_IN_VIEW);
     frame.present |= PART_SENSORS;
-    assert_int_equal(track_score_check(&frame, TRACK_TRUTH_IN_VIEW, &diag), 0);
+    assert_done(track_score_check, &frame, TRACK_TRUTH_IN_VIEW);
     assert_int_equal(track_score_check(&frame, TRACK_TRUTH_DETECTED, &diag), -1);
     assert_int_equal(diag.code, DIAG_DATA);
 }
@@ -130,14 +129,13 @@ TEST(a_track_is_paired_with_an_object_nearer_than_five_metres)
 
 TEST(tracks_are_sorted_by_id)
 {
-    struct diag diag = {0};
     struct track tracks[] = {{.id = "b"}, {.id = "a"}, {.id = "c"}};
     struct track_list list = {.tracks = {tracks, 3, 3}};
-    assert_int_equal(track_score_order(&list, check_arena(), &diag), 0);
+    assert_done(track_score_order, &list, check_arena());
     assert_string_equal(tracks[0].id, "a");
     tracks[2].id = "b";
-    assert_int_equal(track_score_order(&list, check_arena(), &diag), -1);
-    assert_string_equal(diag.text, "tracks: the id \"b\" stands twice");
+    assert_refused(DIAG_DATA, "tracks: the id \"b\" stands twice", track_score_order, &list,
+                   check_arena());
 }
 
 /* A metre to each side with variances of 4 and 1 and a covariance of 1: (1 1) over [4 1; 1 1] is 1,

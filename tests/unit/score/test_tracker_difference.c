@@ -17,13 +17,12 @@ static void add(struct tracker_scenes *scenes, int number, double gospa, struct 
  * freedom. A scene counts once, however many frames it has. */
 TEST(the_interval_is_students_over_scenes)
 {
-    struct diag diag = {0};
     struct tracker_scenes scenes = {0};
     struct tracker_difference difference;
     for (int scene = 1; scene <= 5; scene++)
         for (int frame = 0; frame < scene; frame++)
             add(&scenes, scene, scene, check_arena());
-    assert_int_equal(tracker_difference_of(&scenes, &difference, &diag), 0);
+    assert_done(tracker_difference_of, &scenes, &difference);
     assert_int_equal(difference.scenes, 5);
     assert_close(difference.figures[TRACKER_GOSPA].mean, 3, 1e-12);
     assert_close(difference.figures[TRACKER_GOSPA].low, 3 - 2.776 * sqrt(0.5), 0.02);
@@ -50,7 +49,6 @@ static double covered(int scenes_each, bool skewed)
     int inside = 0;
     struct random_address address = {.seed = 3};
     for (int trial = 0; trial < TRIALS; trial++) {
-        struct diag diag = {0};
         struct tracker_scenes scenes = {0};
         struct tracker_difference difference;
         for (int scene = 0; scene < scenes_each; scene++) {
@@ -59,7 +57,7 @@ static double covered(int scenes_each, bool skewed)
             random_gaussian(&address, RANDOM_POINTERS, 0, draw);
             add(&scenes, scene, skewed ? draw[0] * draw[0] - 1 : draw[0], check_arena());
         }
-        assert_int_equal(tracker_difference_of(&scenes, &difference, &diag), 0);
+        assert_done(tracker_difference_of, &scenes, &difference);
         inside += difference.figures[TRACKER_GOSPA].low <= 0 &&
                   difference.figures[TRACKER_GOSPA].high >= 0;
         arena_clear(check_arena());

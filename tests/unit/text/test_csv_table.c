@@ -16,9 +16,7 @@ static int read_bytes(struct scratch *scratch, const char *bytes, size_t length,
 static struct csv_table table_of(struct scratch *scratch, const char *text)
 {
     struct csv_table table;
-    struct diag diag;
-    if (read_bytes(scratch, text, strlen(text), &table, &diag) != 0)
-        fail_msg("%s", diag.text);
+    assert_done(read_bytes, scratch, text, strlen(text), &table);
     return table;
 }
 
@@ -235,11 +233,8 @@ TEST_OF(scratch, damaged_tables_are_refused)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct csv_table table;
-        struct diag diag;
-        assert_int_equal(read_bytes(scratch, cases[i].text, strlen(cases[i].text), &table, &diag),
-                         -1);
-        assert_string_equal(diag.text, cases[i].message);
-        assert_int_equal(diag.code, DIAG_DATA);
+        assert_refused(DIAG_DATA, cases[i].message, read_bytes, scratch, cases[i].text,
+                       strlen(cases[i].text), &table);
     }
 }
 
@@ -297,15 +292,13 @@ TEST_OF(scratch, a_nul_byte_is_refused_wherever_it_is)
 TEST_OF(scratch, columns_are_found_by_their_whole_name)
 {
     struct csv_table table = table_of(scratch, "x,xx,vx,X\n1,2,3,4\n");
-    struct diag diag = {0};
     size_t column;
-    assert_int_equal(csv_table_column(&table, "vx", &column, &diag), 0);
+    assert_done(csv_table_column, &table, "vx", &column);
     assert_int_equal(column, 2);
-    assert_int_equal(csv_table_column(&table, "x", &column, &diag), 0);
+    assert_done(csv_table_column, &table, "x", &column);
     assert_int_equal(column, 0);
-    assert_int_equal(csv_table_column(&table, "y", &column, &diag), -1);
-    assert_string_equal(diag.text, "column \"y\" is missing; the header is: x, xx, vx, X");
-    assert_int_equal(diag.code, DIAG_DATA);
+    assert_refused(DIAG_DATA, "column \"y\" is missing; the header is: x, xx, vx, X",
+                   csv_table_column, &table, "y", &column);
 }
 
 TEST_OF(scratch, numbers_are_read_to_the_last_digit)
@@ -314,11 +307,10 @@ TEST_OF(scratch, numbers_are_read_to_the_last_digit)
         scratch, "x\n0\n-0\n12.5\n-7.25e-3\n1E2\n0.1\n5335123.4567\n2.2250738585072011e-308\n");
     static const double values[] = {0,   -0.0, 12.5,         -7.25e-3,
                                     100, 0.1,  5335123.4567, 0x0.fffffffffffffp-1022};
-    struct diag diag = {0};
     assert_int_equal(table.rows, COUNT(values));
     for (size_t i = 0; i < table.rows; i++) {
         double value;
-        assert_int_equal(csv_table_number(&table, i, 0, -1e9, 1e9, &value, &diag), 0);
+        assert_done(csv_table_number, &table, i, 0, -1e9, 1e9, &value);
         assert_memory_equal(&value, &values[i], sizeof value);
     }
 }
@@ -336,9 +328,7 @@ TEST_OF(scratch, cells_that_are_not_numbers_are_refused)
         strcpy(bare, csv_table_cell(&table, 0, 1));
         snprintf(message, sizeof message, "row 2, column \"x\": \"%s\" is not a number", bare);
         double value;
-        struct diag diag = {0};
-        assert_int_equal(csv_table_number(&table, 0, 1, -1e300, 1e300, &value, &diag), -1);
-        assert_string_equal(diag.text, message);
+        assert_refused(DIAG_DATA, message, csv_table_number, &table, 0, 1, -1e300, 1e300, &value);
     }
 }
 
@@ -346,12 +336,10 @@ TEST_OF(scratch, numbers_outside_their_bounds_are_refused)
 {
     struct csv_table table = table_of(scratch, "azimuth_rad,x\n\n-0.5,2\n");
     double value;
-    struct diag diag = {0};
-    assert_int_equal(csv_table_number(&table, 0, 0, -0.5, 0, &value, &diag), 0);
-    assert_int_equal(csv_table_number(&table, 0, 1, 0, 2, &value, &diag), 0);
-    assert_int_equal(csv_table_number(&table, 0, 0, 0, 3, &value, &diag), -1);
-    assert_string_equal(diag.text, "row 3, column \"azimuth_rad\": -0.5 is outside [0, 3] rad");
-    diag = (struct diag){0};
-    assert_int_equal(csv_table_number(&table, 0, 1, -1, 1.5, &value, &diag), -1);
-    assert_string_equal(diag.text, "row 3, column \"x\": 2 is outside [-1, 1.5]");
+    assert_done(csv_table_number, &table, 0, 0, -0.5, 0, &value);
+    assert_done(csv_table_number, &table, 0, 1, 0, 2, &value);
+    assert_refused(DIAG_DATA, "row 3, column \"azimuth_rad\": -0.5 is outside [0, 3] rad",
+                   csv_table_number, &table, 0, 0, 0, 3, &value);
+    assert_refused(DIAG_DATA, "row 3, column \"x\": 2 is outside [-1, 1.5]", csv_table_number,
+                   &table, 0, 1, -1, 1.5, &value);
 }

@@ -87,13 +87,12 @@ TEST_OF(scratch, for_an_unknown_name_the_message_lists_the_places)
 TEST_OF(scratch, names_are_listed_in_order_and_each_once)
 {
     struct document_names list;
-    struct diag diag = {0};
     assert_int_equal(setenv("GLINT_DATA", "data", 1), 0); /* the same place twice */
-    assert_int_equal(document_list("vehicles", ".json", &list, &scratch->arena, &diag), 0);
+    assert_done(document_list, "vehicles", ".json", &list, &scratch->arena);
     assert_true(list.names.count > 5);
     for (size_t i = 1; i < list.names.count; i++)
         assert_true(strcmp(list.names.items[i - 1], list.names.items[i]) < 0);
-    assert_int_equal(document_list("vehicles", ".none", &list, &scratch->arena, &diag), 0);
+    assert_done(document_list, "vehicles", ".none", &list, &scratch->arena);
     assert_int_equal(list.names.count, 0);
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
 }
@@ -122,11 +121,9 @@ TEST_OF(scratch, a_name_that_is_nearly_right_is_guessed)
 
 TEST_OF(scratch, a_document_fills_its_struct)
 {
-    struct diag diag = {0};
     struct vehicle vehicle;
     scratch_write(scratch->path, vehicle_text);
-    assert_int_equal(
-        read_document(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), 0);
+    assert_done(read_document, scratch->path, &vehicle_record, &vehicle, &scratch->arena);
     assert_string_equal(vehicle.origin, "a test");
     assert_close(vehicle.length_m, 4, 0);
     assert_true(vehicle.reflectors.blocks && !vehicle.reflectors.raised);
@@ -172,14 +169,11 @@ TEST_OF(scratch, faults_are_named_with_path_member_and_expectation)
          "linear, cosine"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct vehicle vehicle;
-        struct diag diag = {0};
         char message[512];
         write_changed(scratch, cases[i].from, cases[i].to);
         snprintf(message, sizeof message, "%s: %s", scratch->path, cases[i].message);
-        assert_int_equal(
-            read_document(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
-        assert_string_equal(diag.text, message);
-        assert_int_equal(diag.code, DIAG_CONFIG);
+        assert_refused(DIAG_CONFIG, message, read_document, scratch->path, &vehicle_record,
+                       &vehicle, &scratch->arena);
     }
 }
 
@@ -218,7 +212,7 @@ TEST_OF(scratch, notes_are_strings)
     char nothing;
     struct diag diag = {0};
     scratch_write(scratch->path, "{\"sources\": {\"a\": \"b\", \"c\": \"d\"}}");
-    assert_int_equal(read_document(scratch->path, &record, &nothing, &scratch->arena, &diag), 0);
+    assert_done(read_document, scratch->path, &record, &nothing, &scratch->arena);
     scratch_write(scratch->path, "{\"sources\": {\"a\": \"b\", \"c\": 1}}");
     assert_int_equal(read_document(scratch->path, &record, &nothing, &scratch->arena, &diag), -1);
     assert_non_null(strstr(diag.text, "mine.json: sources.c: a number; expected a string"));
@@ -228,11 +222,8 @@ TEST_OF(scratch, a_missing_document_is_named)
 {
     struct vehicle vehicle;
     struct diag diag = {0};
-    assert_int_equal(
-        read_document("/nonexistent/a.json", &vehicle_record, &vehicle, &scratch->arena, &diag),
-        -1);
-    assert_string_equal(diag.text, "/nonexistent/a.json: No such file or directory");
-    diag = (struct diag){0};
+    assert_refused(DIAG_NO_INPUT, "/nonexistent/a.json: No such file or directory", read_document,
+                   "/nonexistent/a.json", &vehicle_record, &vehicle, &scratch->arena);
     assert_int_equal(
         read_document(scratch->directory, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
     assert_non_null(strstr(diag.text, ": Is a directory"));

@@ -339,9 +339,8 @@ TEST(seeds_have_64_bits)
                 {"18446744073709551615", UINT64_MAX},
                 {"18446744073709551609", UINT64_MAX - 6}};
     struct thing thing = {0};
-    struct diag diag;
     for (size_t i = 0; i < COUNT(good); i++) {
-        assert_int_equal(set_text(SEED, &thing, good[i].text, check_arena(), &diag), 0);
+        assert_done(set_text, SEED, &thing, good[i].text, check_arena());
         assert_true(thing.seed == good[i].seed);
     }
     static const char *const bad[] = {"",
@@ -363,8 +362,7 @@ TEST(seeds_have_64_bits)
         snprintf(message, sizeof message,
                  "seed: \"%s\" is no seed; expected decimal digits up to 18446744073709551615",
                  bad[i]);
-        assert_int_equal(set_text(SEED, &thing, bad[i], check_arena(), &diag), -1);
-        assert_string_equal(diag.text, message);
+        assert_refused(DIAG_DATA, message, set_text, SEED, &thing, bad[i], check_arena());
     }
 }
 
@@ -376,18 +374,18 @@ TEST(names_and_choices_are_checked)
     char name[FIELD_NAME_SIZE + 2];
     memset(name, 'n', sizeof name);
     name[FIELD_NAME_SIZE + 1] = '\0';
-    assert_int_equal(set_text(NAME, &thing, name, arena, &diag), -1);
-    assert_string_equal(diag.text, "name: a name of 1025 bytes; expected 1 to 1024");
+    assert_refused(DIAG_DATA, "name: a name of 1025 bytes; expected 1 to 1024", set_text, NAME,
+                   &thing, name, arena);
     name[FIELD_NAME_SIZE] = '\0';
-    assert_int_equal(set_text(NAME, &thing, name, arena, &diag), 0);
+    assert_done(set_text, NAME, &thing, name, arena);
     assert_string_equal(thing.name, name);
     assert_true(thing.name != name);
     assert_int_equal(set_text(NAME, &thing, "", arena, &diag), -1);
-    assert_int_equal(set_text(NAME, &thing, "a\x7f", arena, &diag), -1);
-    assert_string_equal(diag.text, "name: control character 0x7f in a name");
+    assert_refused(DIAG_DATA, "name: control character 0x7f in a name", set_text, NAME, &thing,
+                   "a\x7f", arena);
     assert_int_equal(set_text(NAME, &thing, "\t", arena, &diag), -1);
     for (int i = 0; colours[i] != NULL; i++) {
-        assert_int_equal(set_text(COLOUR, &thing, colours[i], arena, &diag), 0);
+        assert_done(set_text, COLOUR, &thing, colours[i], arena);
         assert_int_equal(thing.colour, i);
     }
     static const char *const wrong[] = {"", "Red", "re", "redd", "red "};
@@ -396,8 +394,8 @@ TEST(names_and_choices_are_checked)
     assert_string_equal(
         diag.text,
         "colour: \"red \" is unknown (did you mean red?); expected one of red, green, blue");
-    assert_int_equal(set_text(RANGE, &thing, "1", arena, &diag), -1);
-    assert_string_equal(diag.text, "range_m: a string; expected a number in [-1.5, 1e6] m");
+    assert_refused(DIAG_DATA, "range_m: a string; expected a number in [-1.5, 1e6] m", set_text,
+                   RANGE, &thing, "1", arena);
 }
 
 TEST(a_text_is_a_number_only_as_a_whole)
@@ -415,7 +413,6 @@ TEST(a_text_is_a_number_only_as_a_whole)
 
 TEST(a_missing_member_is_named_with_what_it_may_be)
 {
-    struct diag diag = {0};
     static const struct {
         int field;
         const char *message;
@@ -427,17 +424,13 @@ TEST(a_missing_member_is_named_with_what_it_may_be)
                  {NAMES, "names: missing; expected an array of names"},
                  {PART, "part: missing; expected an object"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        diag = (struct diag){0};
-        assert_int_equal(field_refuse(&fields[cases[i].field], "missing", &diag), -1);
-        assert_string_equal(diag.text, cases[i].message);
+        assert_refused(DIAG_DATA, cases[i].message, field_refuse, &fields[cases[i].field],
+                       "missing");
     }
-    diag = (struct diag){0};
-    assert_int_equal(field_unknown(&part_record, "with_m", 6, &diag), -1);
-    assert_string_equal(diag.text,
-                        "with_m: unknown key (did you mean width_m?); expected one of width_m");
-    diag = (struct diag){0};
-    assert_int_equal(field_twice(&fields[NAME], &diag), -1);
-    assert_string_equal(diag.text, "name: the key stands twice");
+    assert_refused(DIAG_DATA,
+                   "with_m: unknown key (did you mean width_m?); expected one of width_m",
+                   field_unknown, &part_record, "with_m", 6);
+    assert_refused(DIAG_DATA, "name: the key stands twice", field_twice, &fields[NAME]);
 }
 
 /* Seventy numbers: m00 to m68 may be absent, and are 3 then; m69 must be there. */
@@ -466,16 +459,13 @@ TEST(a_table_may_have_more_than_64_members)
                       twice[] = "{\"m68\":1,\"m69\":2,\"m68\":1}";
     struct arena *arena = check_arena();
     struct wide wide = {0};
-    struct diag diag = {0};
-    assert_int_equal(record_read(good, strlen(good), &wide_record, &wide, arena, NULL, &diag), 0);
+    assert_done(record_read, good, strlen(good), &wide_record, &wide, arena, NULL);
     assert_true(wide.m68 == 1 && wide.m69 == 2 && wide.m02 == 4);
     assert_true(wide.m00 == 3 && wide.m63 == 3 && wide.m64 == 3 && wide.m67 == 3);
-    assert_int_equal(record_read(last, strlen(last), &wide_record, &wide, arena, NULL, &diag), -1);
-    assert_string_equal(diag.text, "m69: missing; expected a number in [0, 9]");
-    diag = (struct diag){0};
-    assert_int_equal(record_read(twice, strlen(twice), &wide_record, &wide, arena, NULL, &diag),
-                     -1);
-    assert_string_equal(diag.text, "m68: the key stands twice");
+    assert_refused(DIAG_DATA, "m69: missing; expected a number in [0, 9]", record_read, last,
+                   strlen(last), &wide_record, &wide, arena, NULL);
+    assert_refused(DIAG_DATA, "m68: the key stands twice", record_read, twice, strlen(twice),
+                   &wide_record, &wide, arena, NULL);
 }
 
 TEST(a_number_is_that_of_the_fields_kind)

@@ -91,10 +91,9 @@ TEST_OF(scratch, gzip_that_expands_a_thousandfold_is_read_whole)
     enum { LENGTH = 5000000 };
     char *zeros = calloc(1, LENGTH);
     struct text packed = {0}, text = {0};
-    struct diag diag;
     add_member(zeros, LENGTH, &packed);
     assert_true(packed.length < LENGTH / 900);
-    assert_int_equal(read_bytes(scratch, packed.bytes, packed.length, &text, &diag), 0);
+    assert_done(read_bytes, scratch, packed.bytes, packed.length, &text);
     assert_int_equal(text.length, LENGTH);
     assert_memory_equal(text.bytes, zeros, LENGTH);
     text_free(&packed);
@@ -188,7 +187,7 @@ static void assert_lines(struct input *input, const char *const *lines, size_t c
         assert_memory_equal(line, lines[i], length);
     }
     for (int i = 0; i < 3; i++)
-        assert_int_equal(input_line(input, 100, &line, &length, &diag), 0);
+        assert_done(input_line, input, 100, &line, &length);
     input_close(input);
 }
 
@@ -268,9 +267,7 @@ TEST_OF(scratch, the_message_says_why_a_file_cannot_be_read)
     assert_non_null(input);
     assert_string_equal(input_name(input), scratch->directory);
     struct text text = {0};
-    assert_int_equal(input_all(input, SIZE_MAX, &text, &diag), -1);
-    assert_string_equal(diag.text, "Is a directory");
-    assert_int_equal(diag.code, DIAG_NO_INPUT);
+    assert_refused(DIAG_NO_INPUT, "Is a directory", input_all, input, SIZE_MAX, &text);
     text_free(&text);
     input_close(input);
 }
@@ -299,7 +296,7 @@ static void check_slow_pipe(int flags)
     close(ends[0]);
     struct input *input = input_open("-", &diag);
     assert_string_equal(input_name(input), "stdin");
-    assert_int_equal(input_all(input, SIZE_MAX, &text, &diag), 0);
+    assert_done(input_all, input, SIZE_MAX, &text);
     assert_int_equal(text.length, 8);
     assert_memory_equal(text.bytes, "one\ntwo\n", 8);
     input_close(input);
@@ -394,11 +391,10 @@ static void count_pause(void *with)
 TEST_OF(scratch, a_file_is_read_without_a_pause)
 {
     struct text bytes = repeatable_bytes(300000, 1), text = {0};
-    struct diag diag = {0};
     size_t pauses = 0;
     struct input *input = open_bytes(scratch, bytes.bytes, bytes.length);
     input_before_waiting(input, (struct input_pause){count_pause, &pauses});
-    assert_int_equal(input_all(input, SIZE_MAX, &text, &diag), 0);
+    assert_done(input_all, input, SIZE_MAX, &text);
     assert_int_equal(text.length, bytes.length);
     assert_int_equal(pauses, 0);
     input_close(input);

@@ -80,10 +80,10 @@ CACHE_TEST(a_faulty_list_is_refused_every_time)
     char wrong[512];
     snprintf(wrong, sizeof wrong, "[%s,%s]", point_of("a", 0.25), "{\"name\":\"\"}");
     for (int i = 0; i < 3; i++) {
-        struct diag diag = {0};
-        assert_int_equal(read_points(&bench->frame, wrong, &diag), -1);
-        assert_string_equal(diag.text, "reflectors[0].points[1].name: a name of 0 bytes; expected "
-                                       "1 to 1024");
+        assert_refused(DIAG_DATA,
+                       "reflectors[0].points[1].name: a name of 0 bytes; expected "
+                       "1 to 1024",
+                       read_points, &bench->frame, wrong);
     }
     assert_int_equal(bench->cache.kept.count, 0);
 }
@@ -137,14 +137,13 @@ CACHE_TEST(a_list_that_grows_leaves_the_kept_one_alone)
 static void write_set(struct list_cache *cache, struct reflector_set *set, struct text *line)
 {
     struct frame frame = {.scene = "s", .ego = "e", .present = PART_REFLECTORS};
-    struct diag diag = {0};
     struct text plain = {0};
     frame.reflectors.items = set;
     frame.reflectors.count = 1;
-    assert_int_equal(frame_text_write(&frame, &plain, &diag), 0);
+    assert_done(frame_text_write, &frame, &plain);
     frame.list_cache = cache;
     line->length = 0;
-    assert_int_equal(frame_text_write(&frame, line, &diag), 0);
+    assert_done(frame_text_write, &frame, line);
     assert_int_equal(line->length, plain.length);
     assert_memory_equal(line->bytes, plain.bytes, plain.length);
     text_free(&plain);

@@ -87,10 +87,9 @@ static void write_file(const char *path, const struct text *text, size_t piece)
     struct output *output = output_open(path, &diag);
     assert_non_null(output);
     for (size_t at = 0; at < text->length; at += piece)
-        assert_int_equal(output_write(output, text->bytes + at,
-                                      piece < text->length - at ? piece : text->length - at, &diag),
-                         0);
-    assert_int_equal(output_close(output, 1, &diag), 0);
+        assert_done(output_write, output, text->bytes + at,
+                    piece < text->length - at ? piece : text->length - at);
+    assert_done(output_close, output, 1);
 }
 
 /* The system is as it is again. */
@@ -133,11 +132,11 @@ OUTPUT_TEST(appended_text_is_written_in_whole_pieces)
         struct text line = sample_text(lengths[i % 5]);
         text_add(output_text(output), line.bytes, line.length);
         text_add(&all, line.bytes, line.length);
-        assert_int_equal(output_send(output, &diag), 0);
+        assert_done(output_send, output);
         assert_int_equal(output_text(output)->length, all.length % 65536);
         text_free(&line);
     }
-    assert_int_equal(output_close(output, 1, &diag), 0);
+    assert_done(output_close, output, 1);
     struct text back = read_all(scratch->path);
     assert_int_equal(back.length, all.length);
     assert_memory_equal(back.bytes, all.bytes, all.length);
@@ -177,13 +176,13 @@ static void rewrite(struct scratch *scratch, const char *path, bool whole)
     int temporary = has_unnamed(scratch->directory) ? 0 : 1;
     struct diag diag = {0};
     struct output *output = output_open(path, &diag);
-    assert_int_equal(output_write(output, new.bytes, new.length, &diag), 0);
-    assert_int_equal(output_finish(output, &diag), 0);
+    assert_done(output_write, output, new.bytes, new.length);
+    assert_done(output_finish, output);
     back = read_all(path);
     assert_int_equal(back.length, 3);
     text_free(&back);
     assert_int_equal(scratch_count(scratch), before + temporary);
-    assert_int_equal(output_close(output, whole, &diag), 0);
+    assert_done(output_close, output, whole);
     assert_int_equal(scratch_count(scratch), before);
     back = read_all(path);
     assert_int_equal(back.length, whole ? new.length : old.length);
@@ -210,7 +209,7 @@ OUTPUT_TEST(a_file_that_is_replaced_keeps_its_mode)
         assert_true(file >= 0 && fchmod(file, 0640) == 0 && close(file) == 0);
         struct output *output = output_open(scratch->path, &diag);
         assert_non_null(output);
-        assert_int_equal(output_close(output, true, &diag), 0);
+        assert_done(output_close, output, true);
         assert_int_equal(stat(scratch->path, &status), 0);
         assert_int_equal(status.st_mode & 07777, 0640);
     }
@@ -375,7 +374,7 @@ OUTPUT_TEST(what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next)
     write_word(scratch->path, "new");
     assert_int_equal(access(temporary(scratch, killed, 1), F_OK), -1);
     assert_int_equal(access(temporary(scratch, getpid(), 1), F_OK), 0);
-    assert_int_equal(output_close(running, true, &diag), 0);
+    assert_done(output_close, running, true);
     unlink(scratch_in(scratch, "a.gz"));
     assert_int_equal(scratch_count(scratch), before);
 }
@@ -451,11 +450,11 @@ OUTPUT_TEST(two_writers_of_one_name_each_leave_a_whole_file)
         struct diag diag = {0};
         struct output *first = output_open(scratch->path, &diag);
         struct output *second = output_open(scratch->path, &diag);
-        assert_int_equal(output_write(first, "first", 5, &diag), 0);
-        assert_int_equal(output_write(second, "second", 6, &diag), 0);
-        assert_int_equal(output_close(first, true, &diag), 0);
+        assert_done(output_write, first, "first", 5);
+        assert_done(output_write, second, "second", 6);
+        assert_done(output_close, first, true);
         expect_bytes(scratch->path, "first");
-        assert_int_equal(output_close(second, true, &diag), 0);
+        assert_done(output_close, second, true);
         expect_bytes(scratch->path, "second");
         assert_int_equal(scratch_count(scratch), before);
     }
@@ -485,7 +484,7 @@ OUTPUT_TEST(a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes)
         struct diag diag = {0};
         names_only = i == 1;
         struct output *output = output_open(scratch->path, &diag);
-        assert_int_equal(output_write(output, "new", 3, &diag), 0);
+        assert_done(output_write, output, "new", 3);
         irreplaceable = true;
         assert_int_equal(output_close(output, true, &diag), -1);
         irreplaceable = false;
@@ -594,7 +593,7 @@ OUTPUT_TEST(a_name_may_be_as_long_as_the_file_system_allows)
         struct output *output = output_open(path, &diag);
         assert_int_equal(output != NULL, letters == 255);
         if (output != NULL)
-            assert_int_equal(output_close(output, true, &diag), 0);
+            assert_done(output_close, output, true);
         unlink(path);
     }
     assert_non_null(strstr(diag.text, ": File name too long"));
@@ -672,8 +671,8 @@ OUTPUT_TEST(pipes_and_devices_are_written_directly)
 {
     struct diag diag = {0};
     struct output *output = output_open("/dev/null", &diag);
-    assert_int_equal(output_write(output, "abc", 3, &diag), 0);
-    assert_int_equal(output_close(output, 0, &diag), 0);
+    assert_done(output_write, output, "abc", 3);
+    assert_done(output_close, output, 0);
     struct stat status;
     assert_int_equal(stat("/dev/null", &status), 0);
     assert_true(S_ISCHR(status.st_mode));
@@ -707,12 +706,12 @@ OUTPUT_TEST(what_a_pipe_holds_back_is_flushed)
     assert_int_equal(mkfifo(scratch_in(scratch, "fifo"), 0600), 0);
     int reader = open(scratch_in(scratch, "fifo"), O_RDONLY | O_NONBLOCK);
     struct output *output = output_open(scratch_in(scratch, "fifo"), &diag);
-    assert_int_equal(output_flush(output, &diag), 0);
-    assert_int_equal(output_write(output, "held", 4, &diag), 0);
+    assert_done(output_flush, output);
+    assert_done(output_write, output, "held", 4);
     assert_int_equal(waiting_in(reader), 0);
-    assert_int_equal(output_flush(output, &diag), 0);
+    assert_done(output_flush, output);
     assert_int_equal(waiting_in(reader), 4);
-    assert_int_equal(output_close(output, true, &diag), 0);
+    assert_done(output_close, output, true);
     assert_int_equal(waiting_in(reader), 4);
     close(reader);
 }
@@ -724,9 +723,9 @@ OUTPUT_TEST(files_keep_what_they_hold_back)
         struct diag diag = {0};
         struct output *output =
             output_open(packed ? scratch_in(scratch, "a.gz") : scratch->path, &diag);
-        assert_int_equal(output_write(output, "held", 4, &diag), 0);
-        assert_int_equal(output_flush(output, &diag), 0);
+        assert_done(output_write, output, "held", 4);
+        assert_done(output_flush, output);
         assert_int_equal(output_text(output)->length, 4);
-        assert_int_equal(output_close(output, true, &diag), 0);
+        assert_done(output_close, output, true);
     }
 }

@@ -114,16 +114,15 @@ TEST(a_group_is_checked_only_if_it_is_present_and_wanted)
 {
     struct thing thing = good_thing();
     struct part *part = field_list_add(&fields[PARTS], &thing, check_arena());
-    struct diag diag = {0};
     part->width_m = -1;
     thing.later_s = 2;
     assert_string_equal(fault(&thing), "");
     thing.present = IN_PARTS;
     assert_string_equal(fault(&thing), "parts[0].width_m: -1 is outside [1, 10] m");
-    assert_int_equal(record_write_check(&record, &thing, IN_LATER, &diag), 0);
+    assert_done(record_write_check, &record, &thing, IN_LATER);
     thing.present |= IN_LATER;
-    assert_int_equal(record_write_check(&record, &thing, IN_LATER, &diag), -1);
-    assert_string_equal(diag.text, "later_s: 2 is outside [0, 1] s");
+    assert_refused(DIAG_DATA, "later_s: 2 is outside [0, 1] s", record_write_check, &record, &thing,
+                   IN_LATER);
 }
 
 /* The bad name follows the same name that is good, and precedes another one. */

@@ -344,9 +344,8 @@ TEST(a_shifted_scenario_moves_like_a_local_one)
     utm[0].y_m = -56.78 + origin_m.y;
     struct scenario scenario = scenario_of(utm, 2);
     scenario_shift(&scenario, origin_m);
-    struct diag diag = {0};
     utm[1].id = "b";
-    assert_int_equal(scenario_check(&scenario, &diag), 0);
+    assert_done(scenario_check, &scenario);
     for (size_t i = 0; i < 2; i++)
         for (int j = 0; j <= 200; j++) {
             struct motion near_body = motion_at(&local[i], 0.05 * j);
@@ -451,14 +450,13 @@ TEST(a_scenario_knows_its_interferers)
     struct actor actors[] = {driver(NULL, 0)};
     struct interferer interferers[] = {{.object = "a"}, {.object = "nobody"}};
     struct scenario scenario = scenario_of(actors, 1);
-    struct diag diag = {0};
     scenario.conditions.interferers.items = interferers;
     scenario.conditions.interferers.count = 1;
-    assert_int_equal(scenario_check(&scenario, &diag), 0);
+    assert_done(scenario_check, &scenario);
     scenario.conditions.interferers.count = 2;
-    assert_int_equal(scenario_check(&scenario, &diag), -1);
-    assert_string_equal(diag.text,
-                        "conditions.interferers[1].object: \"nobody\" is not the id of an object");
+    assert_refused(DIAG_CONFIG,
+                   "conditions.interferers[1].object: \"nobody\" is not the id of an object",
+                   scenario_check, &scenario);
 }
 
 TEST(values_outside_their_bounds_are_refused)
@@ -466,13 +464,11 @@ TEST(values_outside_their_bounds_are_refused)
     struct waypoint waypoints[] = {{0, 1e9, -1e9}, {1, 0, 1.5e9}};
     struct actor actors[] = {driver(NULL, 0), follower(waypoints, 2)};
     struct scenario scenario = scenario_of(actors, 2);
-    struct diag diag = {0};
-    assert_int_equal(record_write_check(&scenario_record, &scenario, ~0U, &diag), -1);
-    assert_string_equal(diag.text, "objects[1].waypoints[1].y_m: 1.5e+09 is outside [-1e9, 1e9] m");
+    assert_refused(DIAG_DATA, "objects[1].waypoints[1].y_m: 1.5e+09 is outside [-1e9, 1e9] m",
+                   record_write_check, &scenario_record, &scenario, ~0U);
     waypoints[1].y_m = 0;
-    diag = (struct diag){0};
-    assert_int_equal(record_write_check(&scenario_record, &scenario, ~0U, &diag), 0);
+    assert_done(record_write_check, &scenario_record, &scenario, ~0U);
     scenario.rate_hz = 0.05;
-    assert_int_equal(record_write_check(&scenario_record, &scenario, ~0U, &diag), -1);
-    assert_string_equal(diag.text, "rate_hz: 0.05 is outside [0.1, 10000] Hz");
+    assert_refused(DIAG_DATA, "rate_hz: 0.05 is outside [0.1, 10000] Hz", record_write_check,
+                   &scenario_record, &scenario, ~0U);
 }

@@ -56,11 +56,8 @@ struct packed {
 static void add_line(struct packed *packed, const char *line)
 {
     struct frame frame = {.arena = &packed->frame_arena};
-    struct diag diag = {0};
-    if (frame_text_read(line, strlen(line), &frame, &diag) != 0)
-        fail_msg("%s", diag.text);
-    if (view_data_add(&packed->data, &frame, &diag) != 0)
-        fail_msg("%s", diag.text);
+    assert_done(frame_text_read, line, strlen(line), &frame);
+    assert_done(view_data_add, &packed->data, &frame);
 }
 
 static void finish(struct packed *packed)
