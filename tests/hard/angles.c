@@ -44,8 +44,8 @@ static void end_pattern(struct pattern *exact)
 
 static void set_pattern(struct pattern *exact, double azimuth_rad)
 {
-    mpfr_t u, cosine;
-    mpfr_inits2(BITS, u, cosine, (mpfr_ptr)0);
+    MPFR_DECL_INIT(u, BITS);
+    MPFR_DECL_INIT(cosine, BITS);
     mpfr_set_d(u, azimuth_rad, MPFR_RNDN);
     mpfr_sin_cos(u, cosine, u, MPFR_RNDN);
     mpfr_const_pi(exact->element, MPFR_RNDN);
@@ -54,7 +54,6 @@ static void set_pattern(struct pattern *exact, double azimuth_rad)
     mpfr_sin_cos(exact->sin_u, exact->cos_u, u, MPFR_RNDN);
     mpfr_div(exact->element, exact->sin_u, u, MPFR_RNDN);
     mpfr_mul(exact->element, exact->element, cosine, MPFR_RNDN);
-    mpfr_clears(u, cosine, (mpfr_ptr)0);
 }
 
 /* The paper's x = pi sin(azimuth), the phase between the dipoles. */
@@ -150,9 +149,8 @@ TEST(pointers_keep_their_digits_from_boresight_to_the_side)
         {"5", "sum magnitude from its parts", naive_sum, ours_sum_chord, exact_sum, 1e-300, 8},
     };
     struct pattern pattern;
-    mpfr_t exact;
+    MPFR_DECL_INIT(exact, BITS);
     start_pattern(&pattern);
-    mpfr_init2(exact, BITS);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         double naive = 0, ours = 0;
         int count = hard_points(30000);
@@ -166,7 +164,6 @@ TEST(pointers_keep_their_digits_from_boresight_to_the_side)
         }
         hard_case(cases[k].number, cases[k].title, "ulp", naive, ours, cases[k].bound);
     }
-    mpfr_clear(exact);
     end_pattern(&pattern);
 }
 
@@ -201,8 +198,7 @@ TEST(an_echo_from_the_side_is_not_invented_elsewhere)
 /* The exact azimuth of a pair: asin((2/pi) atan2(delta, sum)). */
 static void set_azimuth(mpfr_t azimuth, double delta, double sum)
 {
-    mpfr_t quarter;
-    mpfr_init2(quarter, BITS);
+    MPFR_DECL_INIT(quarter, BITS);
     mpfr_set_d(azimuth, delta, MPFR_RNDN);
     mpfr_set_d(quarter, sum, MPFR_RNDN);
     mpfr_atan2(azimuth, azimuth, quarter, MPFR_RNDN);
@@ -210,7 +206,6 @@ static void set_azimuth(mpfr_t azimuth, double delta, double sum)
     mpfr_div_2ui(quarter, quarter, 1, MPFR_RNDN);
     mpfr_div(azimuth, azimuth, quarter, MPFR_RNDN);
     mpfr_asin(azimuth, azimuth, MPFR_RNDN);
-    mpfr_clear(quarter);
 }
 
 /* Delta and sum at an azimuth, each rounded to the nearest double. */
@@ -225,9 +220,8 @@ static void round_pair(struct pattern *exact, double azimuth_rad, double *delta,
 TEST(the_pair_is_inverted_up_to_the_side)
 {
     struct pattern pattern;
-    mpfr_t exact;
+    MPFR_DECL_INIT(exact, BITS);
     start_pattern(&pattern);
-    mpfr_init2(exact, BITS);
     double naive = 0, ours = 0;
     int count = hard_points(30000);
     for (int i = 0; i < count; i++) {
@@ -239,7 +233,6 @@ TEST(the_pair_is_inverted_up_to_the_side)
         ours = hard_worse(ours, error_ulp(antenna_azimuth_rad(&CENTRE, delta, sum), exact));
     }
     hard_case("7", "the angle up to the side", "ulp", naive, ours, 4);
-    mpfr_clear(exact);
     end_pattern(&pattern);
 }
 
@@ -264,11 +257,9 @@ static void add_cell(struct frame *frame, struct antenna_pointers pointers)
 /* The cells after a trip through a pipe. */
 static void send_cells(const struct frame *frame, struct frame *received, struct text *line)
 {
-    struct diag diag = {0};
     line->length = 0;
-    assert_int_equal(frame_text_write(frame, line, &diag), 0);
-    if (frame_text_read(line->bytes, line->length - 1, received, &diag) != 0)
-        fail_msg("%s", diag.text);
+    assert_done(frame_text_write, frame, line);
+    assert_done(frame_text_read, line->bytes, line->length - 1, received);
     assert_int_equal(received->cells.count, frame->cells.count);
 }
 
@@ -288,8 +279,7 @@ TEST(the_angle_survives_the_pipe)
     struct arena arena = {0}, other = {0};
     struct text line = {0};
     struct frame frame = {.arena = &arena}, received = {.arena = &other};
-    mpfr_t exact;
-    mpfr_init2(exact, BITS);
+    MPFR_DECL_INIT(exact, BITS);
     double naive = 0, ours = 0;
     int count = hard_points(30000) / CELLS * CELLS;
     for (int begin = 0; begin < count; begin += CELLS) {
@@ -313,7 +303,6 @@ TEST(the_angle_survives_the_pipe)
         }
     }
     hard_case("8", "the angle after the pipe, naive by ASR", "ulp", naive, ours, 4);
-    mpfr_clear(exact);
     text_free(&line);
     arena_free(&arena);
     arena_free(&other);
@@ -351,9 +340,9 @@ TEST(the_closed_form_beats_a_table)
         table[i] = (struct asr_row){azimuth_rad, tan(PI / 2 * sin(azimuth_rad) - PI / 4)};
     }
     struct pattern pattern;
-    mpfr_t exact, error;
+    MPFR_DECL_INIT(exact, BITS);
+    MPFR_DECL_INIT(error, BITS);
     start_pattern(&pattern);
-    mpfr_inits2(BITS, exact, error, (mpfr_ptr)0);
     double naive = 0, ours = 0;
     int count = hard_points(30000);
     for (int i = 0; i < count; i++) {
@@ -366,28 +355,24 @@ TEST(the_closed_form_beats_a_table)
         ours = hard_worse(ours, fabs(mpfr_get_d(error, MPFR_RNDN)));
     }
     hard_case("9", "the angle, naive by a table of 1,024", "rad", naive, ours, 4e-16);
-    mpfr_clears(exact, error, (mpfr_ptr)0);
     end_pattern(&pattern);
 }
 
 static void set_si(mpfr_t exact, double x)
 {
-    mpfr_t divisor;
-    mpfr_init2(divisor, BITS);
+    MPFR_DECL_INIT(divisor, BITS);
     mpfr_set_d(divisor, x, MPFR_RNDN);
     mpfr_sin(exact, divisor, MPFR_RNDN);
     if (x == 0)
         mpfr_set_ui(exact, 1, MPFR_RNDN);
     else
         mpfr_div(exact, exact, divisor, MPFR_RNDN);
-    mpfr_clear(divisor);
 }
 
 /* Hard case 10. */
 TEST(si_needs_no_series)
 {
-    mpfr_t exact;
-    mpfr_init2(exact, BITS);
+    MPFR_DECL_INIT(exact, BITS);
     uint64_t sample = 10;
     double naive = 0, ours = 0;
     int count = hard_points(100000);
@@ -400,7 +385,6 @@ TEST(si_needs_no_series)
         ours = hard_worse(ours, error_ulp(units_si(x), exact));
     }
     hard_case("10", "sin(x)/x from 0 to 3", "ulp", naive, ours, 2);
-    mpfr_clear(exact);
 }
 
 /* Pointers of equal echoes to both sides, the left one stronger by extra. */
@@ -452,8 +436,9 @@ TEST(parallel_directions_have_an_angle)
     uint64_t sample = 12;
     double naive = 0, ours = 0;
     int count = hard_points(1000000);
-    mpfr_t cross, dot, part;
-    mpfr_inits2(320, cross, dot, part, (mpfr_ptr)0);
+    MPFR_DECL_INIT(cross, 320);
+    MPFR_DECL_INIT(dot, 320);
+    MPFR_DECL_INIT(part, 320);
     for (int i = 0; i < count; i++) {
         struct vec2 a = {sample_between(&sample, -50, 50), sample_between(&sample, -50, 50)};
         struct vec2 b = vec2_scale(sample_between(&sample, 0.1, 10) * (i % 2 == 0 ? 1 : -1), a);
@@ -475,5 +460,4 @@ TEST(parallel_directions_have_an_angle)
         naive = hard_worse(naive, fabs(mpfr_get_d(dot, MPFR_RNDN)));
     }
     hard_case("12", "the angle between parallel directions", "rad", naive, ours, 1e-15);
-    mpfr_clears(cross, dot, part, (mpfr_ptr)0);
 }

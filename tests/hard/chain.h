@@ -68,7 +68,5 @@ static inline void hard_chain_step(struct hard_chain *chain, size_t from, size_t
 /* Appends the frame's line to a text. */
 static inline void hard_chain_write(const struct hard_chain *chain, struct text *text)
 {
-    struct diag diag = {0};
-    if (frame_text_write(&chain->frame, text, &diag) != 0)
-        fail_msg("%s", diag.text);
+    assert_done(frame_text_write, &chain->frame, text);
 }

@@ -41,8 +41,9 @@ TEST(a_length_is_within_its_bound)
 {
     uint64_t random = 22;
     double naive = 0, ours = 0;
-    mpfr_t x, y, exact;
-    mpfr_inits2(320, x, y, exact, (mpfr_ptr)NULL);
+    MPFR_DECL_INIT(x, 320);
+    MPFR_DECL_INIT(y, 320);
+    MPFR_DECL_INIT(exact, 320);
     for (int i = 0; i < hard_points(1000000); i++) {
         bool local = i % 2;
         struct vec2 way = {between_powers(&random, local ? -40 : -1022, local ? 23 : 1022),
@@ -55,7 +56,6 @@ TEST(a_length_is_within_its_bound)
         mpfr_hypot(exact, x, y, MPFR_RNDN);
         naive = fmax(naive, error_ulp(sqrt(way.x * way.x + way.y * way.y), exact));
     }
-    mpfr_clears(x, y, exact, (mpfr_ptr)NULL);
     hard_case("22", "lengths in range, and of any size", "ulp", naive, ours, 1.2);
 }
 
@@ -326,9 +326,7 @@ static void add_plane(struct scene *scene, struct reflector_set *set, double fro
 static void look(struct scene *scene)
 {
     struct look seen;
-    struct diag diag = {0};
-    if (look_begin(&seen, &scene->frame, &scene->sensor, &everything, 0, &diag) != 0)
-        fail_msg("%s", diag.text);
+    assert_done(look_begin, &seen, &scene->frame, &scene->sensor, &everything, 0);
     direct_echoes_add(&seen);
 }
 

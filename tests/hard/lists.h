@@ -199,10 +199,8 @@ static inline void see(struct frame *frame, const struct suite *suite, bool ghos
         *list_add(&frame->sensors.list, frame->arena) =
             (struct sensor_view){.name = sensor->name, .measured = true};
         struct look look;
-        struct diag diag = {0};
         double seen_s = frame->time_s - sensor->latency_s;
-        if (look_begin(&look, frame, sensor, &everything, seen_s, &diag) != 0)
-            fail_msg("%s", diag.text);
+        assert_done(look_begin, &look, frame, sensor, &everything, seen_s);
         direct_echoes_add(&look);
         if (ghosts)
             ghost_echoes_add(&look);

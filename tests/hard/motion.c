@@ -157,8 +157,9 @@ TEST(a_million_frames_go_straight)
     scenario.objects.count = 1;
     scenario_shift(&scenario, origin_m);
     double naive = 0, ours = 0, sum_m = actor.y_m;
-    mpfr_t start, speed, exact;
-    mpfr_inits2(320, start, speed, exact, (mpfr_ptr)NULL);
+    MPFR_DECL_INIT(start, 320);
+    MPFR_DECL_INIT(speed, 320);
+    MPFR_DECL_INIT(exact, 320);
     mpfr_set_d(speed, yaw_rad, MPFR_RNDN);
     mpfr_sin(speed, speed, MPFR_RNDN);
     mpfr_mul_d(speed, speed, speed_mps, MPFR_RNDN);
@@ -174,7 +175,6 @@ TEST(a_million_frames_go_straight)
         ours = fmax(ours, distance(body.position_m.y, exact));
         sum_m += speed_mps * elementary_sin(yaw_rad) / rate_hz;
     }
-    mpfr_clears(start, speed, exact, (mpfr_ptr)NULL);
     hard_case("24", "1e6 frames straight on", "m", naive, ours, 1e-9);
 }
 
@@ -186,13 +186,12 @@ static void exact_rate(struct vec2 r, struct vec2 v, mpfr_t exact, mpfr_t work)
     mpfr_set_d(work, r.y, MPFR_RNDN);
     mpfr_mul_d(work, work, v.y, MPFR_RNDN);
     mpfr_add(exact, exact, work, MPFR_RNDN);
-    mpfr_t x, y;
-    mpfr_inits2(320, x, y, (mpfr_ptr)NULL);
+    MPFR_DECL_INIT(x, 320);
+    MPFR_DECL_INIT(y, 320);
     mpfr_set_d(x, r.x, MPFR_RNDN);
     mpfr_set_d(y, r.y, MPFR_RNDN);
     mpfr_hypot(work, x, y, MPFR_RNDN);
     mpfr_div(exact, exact, work, MPFR_RNDN);
-    mpfr_clears(x, y, (mpfr_ptr)NULL);
 }
 
 /* Hard case 35: motion that is tangential but for rounding; the sign is right if the error is a few
@@ -202,8 +201,8 @@ TEST(a_nearly_tangential_speed_keeps_its_sign)
     uint64_t random = 35;
     double naive = 0, ours = 0;
     const struct vec2 o = {0, 0}, ahead = {1, 0};
-    mpfr_t exact, work;
-    mpfr_inits2(320, exact, work, (mpfr_ptr)NULL);
+    MPFR_DECL_INIT(exact, 320);
+    MPFR_DECL_INIT(work, 320);
     for (int i = 0; i < hard_points(300000); i++) {
         struct vec2 r = draw_vector(&random, 100);
         struct vec2 v = vec2_scale(sample_between(&random, -1, 1), vec2_left(r));
@@ -213,7 +212,6 @@ TEST(a_nearly_tangential_speed_keeps_its_sign)
         exact_rate(r, v, exact, work);
         naive = fmax(naive, error_ulp(vec2_dot(r, v) / vec2_length(r), exact));
     }
-    mpfr_clears(exact, work, (mpfr_ptr)NULL);
     hard_case("35", "range rate of tangential motion", "ulp", naive, ours, 4);
 }
 
@@ -222,8 +220,8 @@ TEST(ranges_are_never_differenced)
     uint64_t random = 36;
     double naive = 0, ours = 0;
     const struct vec2 o = {0, 0}, ahead = {1, 0};
-    mpfr_t exact, work;
-    mpfr_inits2(320, exact, work, (mpfr_ptr)NULL);
+    MPFR_DECL_INIT(exact, 320);
+    MPFR_DECL_INIT(work, 320);
     for (int i = 0; i < hard_points(100000); i++) {
         struct vec2 aside = vec2_heading(sample_between(&random, -PI, PI));
         struct vec2 r = vec2_scale(10, aside), v = vec2_scale(30, vec2_left(aside));
@@ -233,7 +231,6 @@ TEST(ranges_are_never_differenced)
         naive = fmax(naive, fabs((later_m - vec2_length(r)) / 1e-3 - mpfr_get_d(exact, MPFR_RNDN)));
         ours = fmax(ours, distance(rate_mps, exact));
     }
-    mpfr_clears(exact, work, (mpfr_ptr)NULL);
     hard_case("36", "range rate without differences", "m/s", naive, ours, 30 * 4e-16);
 }
 
@@ -330,8 +327,8 @@ TEST(every_angle_wraps_exactly)
 {
     uint64_t random = 38;
     double naive = 0, ours = 0;
-    mpfr_t turn, exact;
-    mpfr_inits2(2200, turn, exact, (mpfr_ptr)NULL);
+    MPFR_DECL_INIT(turn, 2200);
+    MPFR_DECL_INIT(exact, 2200);
     mpfr_const_pi(turn, MPFR_RNDN);
     mpfr_mul_2ui(turn, turn, 1, MPFR_RNDN);
     for (int i = 0; i < hard_points(1000000); i++) {
@@ -340,7 +337,6 @@ TEST(every_angle_wraps_exactly)
         ours = fmax(ours, wrap_error_rad(angle_rad, wrapped_rad, turn, exact));
         naive = fmax(naive, wrap_error_rad(angle_rad, remainder(angle_rad, 2 * PI), turn, exact));
     }
-    mpfr_clears(turn, exact, (mpfr_ptr)NULL);
     hard_case("38", "wrapped angles of every size", "rad", naive, ours, 1e-15);
 }
 

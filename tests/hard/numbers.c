@@ -29,8 +29,7 @@ static uint64_t point_bits(uint64_t *random, int i)
  * even. This is what reading back to a double means. */
 static bool reads_back(const mpfr_t decimal, uint64_t bits)
 {
-    mpfr_t midpoint;
-    mpfr_init2(midpoint, PRECISION);
+    MPFR_DECL_INIT(midpoint, PRECISION);
     const double value = sample_from_bits(bits);
     const bool last = bits == ((uint64_t)LARGEST_FIELD << 52 | UINT64_MAX >> 12);
     mpfr_set_d(midpoint, sample_from_bits(bits - 1), MPFR_RNDN);
@@ -41,22 +40,19 @@ static bool reads_back(const mpfr_t decimal, uint64_t bits)
     mpfr_add_d(midpoint, midpoint, value, MPFR_RNDN);
     mpfr_div_2ui(midpoint, midpoint, 1, MPFR_RNDN);
     const int above = last ? -1 : mpfr_cmp(decimal, midpoint);
-    mpfr_clear(midpoint);
     return bits % 2 == 0 ? below >= 0 && above <= 0 : below > 0 && above < 0;
 }
 
 /* The decimal of so many digits next to a value on one side, in enough bits for comparisons. */
 static void set_decimal(mpfr_t decimal, double value, size_t digits, mpfr_rnd_t side)
 {
-    mpfr_t exact;
-    mpfr_init2(exact, PRECISION);
+    MPFR_DECL_INIT(exact, PRECISION);
     mpfr_set_d(exact, value, MPFR_RNDN);
     mpfr_exp_t exponent;
     char mantissa[64], text[96];
     mpfr_get_str(mantissa, &exponent, 10, digits, exact, side);
     snprintf(text, sizeof text, "0.%se%ld", mantissa, (long)exponent);
     mpfr_set_str(decimal, text, 10, MPFR_RNDN);
-    mpfr_clear(exact);
 }
 
 /* The nearest of the decimals that read back and have as few digits as any; of two, the even one.
@@ -65,8 +61,7 @@ static void set_shortest(mpfr_t nearest, uint64_t bits)
 {
     const double value = sample_from_bits(bits);
     bool below = false, above = false;
-    mpfr_t lower;
-    mpfr_init2(lower, DECIMAL_PRECISION);
+    MPFR_DECL_INIT(lower, DECIMAL_PRECISION);
     for (size_t digits = 1; !below && !above; digits++) {
         assert_in_range(digits, 1, MOST_DIGITS);
         set_decimal(lower, value, digits, MPFR_RNDD);
@@ -78,7 +73,6 @@ static void set_shortest(mpfr_t nearest, uint64_t bits)
     }
     if (!above)
         mpfr_set(nearest, lower, MPFR_RNDN);
-    mpfr_clear(lower);
 }
 
 /* Large whole numbers are written with all digits where that is not longer. */
@@ -86,12 +80,10 @@ static bool written_as_nearest(double value, const mpfr_t nearest)
 {
     char text[NUMBER_SIZE + 1];
     text[number_write(value, text)] = '\0';
-    mpfr_t written;
-    mpfr_init2(written, DECIMAL_PRECISION);
+    MPFR_DECL_INIT(written, DECIMAL_PRECISION);
     mpfr_set_str(written, text, 10, MPFR_RNDN);
     const bool all_digits = strpbrk(text, ".e") == NULL && mpfr_cmp_d(written, value) == 0;
     const bool same = all_digits || mpfr_equal_p(written, nearest);
-    mpfr_clear(written);
     return same;
 }
 
@@ -100,8 +92,8 @@ TEST(the_shortest_decimals_of_all_sizes_are_written)
     uint64_t random = 54;
     const int points = hard_points(30000);
     double naive = 0, ours = 0;
-    mpfr_t nearest, plain;
-    mpfr_inits2(DECIMAL_PRECISION, nearest, plain, (mpfr_ptr)0);
+    MPFR_DECL_INIT(nearest, DECIMAL_PRECISION);
+    MPFR_DECL_INIT(plain, DECIMAL_PRECISION);
     for (int i = 0; i < points; i++) {
         const uint64_t bits = point_bits(&random, i);
         const double value = sample_from_bits(bits);
@@ -112,7 +104,6 @@ TEST(the_shortest_decimals_of_all_sizes_are_written)
         naive += !mpfr_equal_p(plain, nearest);
         ours += !written_as_nearest(value, nearest);
     }
-    mpfr_clears(nearest, plain, (mpfr_ptr)0);
     hard_case("54", "decimals not the shortest and nearest (naive: %.17g)", "wrong", naive, ours,
               0);
 }
@@ -120,8 +111,7 @@ TEST(the_shortest_decimals_of_all_sizes_are_written)
 /* The text of the decimal midway between a double and the next, with more behind it. */
 static void put_midway(uint64_t bits, const char *more, char *text)
 {
-    mpfr_t midpoint;
-    mpfr_init2(midpoint, PRECISION);
+    MPFR_DECL_INIT(midpoint, PRECISION);
     mpfr_set_d(midpoint, sample_from_bits(bits), MPFR_RNDN);
     mpfr_add_d(midpoint, midpoint, sample_from_bits(bits + 1), MPFR_RNDN);
     mpfr_div_2ui(midpoint, midpoint, 1, MPFR_RNDN);
@@ -133,7 +123,6 @@ static void put_midway(uint64_t bits, const char *more, char *text)
         count--;
     snprintf(text, TEXT_SIZE, "%.*s%se%ld", (int)count, digits, more,
              (long)exponent - (long)count - (long)strlen(more));
-    mpfr_clear(midpoint);
 }
 
 /* The last digit of the text before its exponent is made smaller by one, and nines follow. */

@@ -147,10 +147,8 @@ static struct look look_at_pole(struct bench *bench, struct vec2 ego, struct vec
         .name = "r", .full_rad = PI, .zero_rad = PI, .shape = VISIBILITY_HARD, .ercs = 1};
     frame->present |= PART_OBJECTS | PART_REFLECTORS;
     struct look look;
-    struct diag diag = {0};
     static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
-    if (look_begin(&look, frame, &bench->sensor, &everything, 0, &diag) != 0)
-        fail_msg("%s", diag.text);
+    assert_done(look_begin, &look, frame, &bench->sensor, &everything, 0);
     direct_echoes_add(&look);
     return look;
 }
@@ -186,8 +184,7 @@ TEST(a_target_on_the_sensor_is_told)
 TEST(lone_targets_stay_where_they_are)
 {
     double naive_ahead = 0, ours_ahead = 0, naive_side = 0, ours_side = 0;
-    mpfr_t exact;
-    mpfr_init2(exact, BITS);
+    MPFR_DECL_INIT(exact, BITS);
     for (int k = 0; k < 4; k++) {
         struct bench bench;
         bench_open(&bench, PHASES[k / 2], ESTIMATORS[k % 2]);
@@ -213,7 +210,6 @@ TEST(lone_targets_stay_where_they_are)
               8);
     hard_case("side", "a lone target at 90 degrees and before", "rad", naive_side, ours_side,
               5e-16);
-    mpfr_clear(exact);
 }
 
 /* The cell of received echoes that are given in any order. */
@@ -268,8 +264,7 @@ static double pair_azimuth(int i, int count, double most_rad)
  * atan(tan^2 u), MODEL 8.1. */
 static void set_equal_pair(mpfr_t azimuth, double azimuth_rad)
 {
-    mpfr_t quarter;
-    mpfr_init2(quarter, BITS);
+    MPFR_DECL_INIT(quarter, BITS);
     mpfr_const_pi(quarter, MPFR_RNDN);
     mpfr_div_2ui(quarter, quarter, 1, MPFR_RNDN);
     mpfr_set_d(azimuth, azimuth_rad, MPFR_RNDN);
@@ -280,14 +275,12 @@ static void set_equal_pair(mpfr_t azimuth, double azimuth_rad)
     mpfr_atan(azimuth, azimuth, MPFR_RNDN);
     mpfr_div(azimuth, azimuth, quarter, MPFR_RNDN);
     mpfr_asin(azimuth, azimuth, MPFR_RNDN);
-    mpfr_clear(quarter);
 }
 
 TEST(equal_echoes_meet_where_their_closed_form_says)
 {
     double naive_middle = 0, ours_middle = 0, naive = 0, ours = 0;
-    mpfr_t exact;
-    mpfr_init2(exact, BITS);
+    MPFR_DECL_INIT(exact, BITS);
     uint64_t sample = 1;
     for (int k = 0; k < 4; k++) {
         struct bench bench;
@@ -315,7 +308,6 @@ TEST(equal_echoes_meet_where_their_closed_form_says)
     }
     hard_case("pair", "equal echoes to both sides: 0 degrees", "rad", naive_middle, ours_middle, 0);
     hard_case("pair element", "equal echoes, element and magnitude", "ulp", naive, ours, 12);
-    mpfr_clear(exact);
 }
 
 /* How far one ulp of either strength moves the azimuth of a pair of equal echoes. */
@@ -435,8 +427,8 @@ TEST(a_weak_target_outlives_strong_ones_that_cancel)
 {
     enum { GROUPS = 40, ALL = 3 * GROUPS + 1 };
     struct bench bench;
-    mpfr_t exact, sizes;
-    mpfr_inits2(SUM_BITS, exact, sizes, (mpfr_ptr)0);
+    MPFR_DECL_INIT(exact, SUM_BITS);
+    MPFR_DECL_INIT(sizes, SUM_BITS);
     bench_open(&bench, PHASE_CENTRE, MONOPULSE_RATIO);
     uint64_t sample = 13;
     double naive = 0, ours = 0;
@@ -463,7 +455,6 @@ TEST(a_weak_target_outlives_strong_ones_that_cancel)
         ours = hard_worse(ours, error_ulp(cell.delta_im, exact));
     }
     hard_case("13 cell", "a weak target where strong ones cancel", "ulp", naive, ours, 2);
-    mpfr_clears(exact, sizes, (mpfr_ptr)0);
     bench_close(&bench);
 }
 
@@ -509,9 +500,8 @@ TEST(the_order_of_echoes_does_not_change_a_byte)
         assert_int_equal(runner_step(&bench.sense, &bench.frame), 0);
         assert_int_equal(bench.frame.cells.count, 1);
         frame_drop(&bench.frame, PART_ECHOES); /* their order is another each time */
-        struct diag diag = {0};
         line.length = 0;
-        assert_int_equal(frame_text_write(&bench.frame, &line, &diag), 0);
+        assert_done(frame_text_write, &bench.frame, &line);
         add_unseen(lines, &ours, hash_bytes(HASH_START, line.bytes, line.length));
         add_unseen(plain, &naive, hash_bytes(HASH_START, &sum, sizeof sum));
     }
@@ -579,8 +569,8 @@ static double naive_ratio(struct antenna_pointers pointers)
  * list. */
 TEST(every_amplitude_is_a_target_or_told)
 {
-    mpfr_t exact, error;
-    mpfr_inits2(SUM_BITS, exact, error, (mpfr_ptr)0);
+    MPFR_DECL_INIT(exact, SUM_BITS);
+    MPFR_DECL_INIT(error, SUM_BITS);
     double naive = 0, ours = 0;
     int wrong = 0, naive_wrong = 0;
     struct bench bench;
@@ -603,7 +593,6 @@ TEST(every_amplitude_is_a_target_or_told)
     bench_close(&bench);
     hard_case("1e300 list", "1e-300 to 1e300: not told", "wrong", naive_wrong, wrong, 0);
     hard_case("1e300 angle", "1e-300 to 1e300: the angle", "rad", naive, ours, 1e-15);
-    mpfr_clears(exact, error, (mpfr_ptr)0);
 }
 
 /* Two echoes whose sum of amplitudes is beyond the doubles. */
@@ -641,8 +630,7 @@ static void set_turns(mpfr_t exact, double range_m, double carrier_hz)
 /* Hard case 39. */
 TEST(the_phase_of_the_path_keeps_its_digits)
 {
-    mpfr_t exact;
-    mpfr_init2(exact, BITS);
+    MPFR_DECL_INIT(exact, BITS);
     uint64_t sample = 39;
     double naive = 0, ours = 0;
     int count = hard_points(1000000);
@@ -655,5 +643,4 @@ TEST(the_phase_of_the_path_keeps_its_digits)
         naive = hard_worse(naive, turn_error_rad(exact, (double)single));
     }
     hard_case("39", "4 pi R/lambda at 77 GHz, naive in floats", "rad", naive, ours, 1e-14);
-    mpfr_clear(exact);
 }

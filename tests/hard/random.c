@@ -67,8 +67,7 @@ TEST(the_tail_reaches_as_far_as_52_bits_let_it)
 /* A Gaussian draw by Box and Muller with the C library, of the uniforms at the same address. */
 static void exact_gaussian(mpfr_t result, double radius_draw, double angle_draw, bool sine)
 {
-    mpfr_t angle;
-    mpfr_init2(angle, PRECISION);
+    MPFR_DECL_INIT(angle, PRECISION);
     mpfr_set_d(angle, angle_draw, MPFR_RNDN);
     if (sine)
         mpfr_sinu(angle, angle, 1, MPFR_RNDN);
@@ -79,7 +78,6 @@ static void exact_gaussian(mpfr_t result, double radius_draw, double angle_draw,
     mpfr_mul_si(result, result, -2, MPFR_RNDN);
     mpfr_sqrt(result, result, MPFR_RNDN);
     mpfr_mul(result, result, angle, MPFR_RNDN);
-    mpfr_clear(angle);
 }
 
 TEST(gaussian_draws_are_exact_to_a_few_ulp)
@@ -87,8 +85,7 @@ TEST(gaussian_draws_are_exact_to_a_few_ulp)
     struct random_address address = {.seed = 53};
     int blocks = hard_points(25000);
     double naive = 0, ours = 0;
-    mpfr_t exact;
-    mpfr_init2(exact, PRECISION);
+    MPFR_DECL_INIT(exact, PRECISION);
     for (int i = 0; i < blocks; i++) {
         double uniform[4], gaussian[4];
         random_uniform(&address, RANDOM_POINTERS, (uint32_t)i, uniform);
@@ -103,7 +100,6 @@ TEST(gaussian_draws_are_exact_to_a_few_ulp)
             ours = fmax(ours, error_ulp(gaussian[k], exact));
         }
     }
-    mpfr_clear(exact);
     hard_case("53", "Gaussian draw (naive: libm)", "ulp", naive, ours, 3);
 }
 

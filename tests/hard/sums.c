@@ -49,8 +49,8 @@ static double our_mean(const struct members *of)
 
 static void exact_mean(const struct members *of, mpfr_t mean)
 {
-    mpfr_t term, total;
-    mpfr_inits2(PRECISION, term, total, (mpfr_ptr)0);
+    MPFR_DECL_INIT(term, PRECISION);
+    MPFR_DECL_INIT(total, PRECISION);
     mpfr_set_zero(total, 1);
     mpfr_set_zero(mean, 1);
     for (size_t i = 0; i < of->count; i++) {
@@ -60,7 +60,6 @@ static void exact_mean(const struct members *of, mpfr_t mean)
         mpfr_add(mean, mean, term, MPFR_RNDN);
     }
     mpfr_div(mean, mean, total, MPFR_RNDN);
-    mpfr_clears(term, total, (mpfr_ptr)0);
 }
 
 TEST(echoes_at_one_range_stay_there)
@@ -126,8 +125,7 @@ TEST(a_mean_range_is_within_an_ulp)
     uint64_t random = 161;
     int points = hard_points(300000);
     double naive = 0, ours = 0;
-    mpfr_t exact;
-    mpfr_init2(exact, PRECISION);
+    MPFR_DECL_INIT(exact, PRECISION);
     for (int i = 0; i < points; i++) {
         struct members of = draw_members(&random, 0.5, 200, 0.15);
         exact_mean(&of, exact);
@@ -135,7 +133,6 @@ TEST(a_mean_range_is_within_an_ulp)
         exact_mean(&of, exact);
         ours = fmax(ours, error_ulp(our_mean(&of), exact));
     }
-    mpfr_clear(exact);
     hard_case("16", "mean range", "ulp", naive, ours, 1);
 }
 
@@ -146,8 +143,8 @@ TEST(a_mean_rate_near_zero_is_as_exact_as_its_members)
     uint64_t random = 162;
     int points = hard_points(300000);
     double naive = 0, ours = 0;
-    mpfr_t exact, error;
-    mpfr_inits2(PRECISION, exact, error, (mpfr_ptr)0);
+    MPFR_DECL_INIT(exact, PRECISION);
+    MPFR_DECL_INIT(error, PRECISION);
     for (int i = 0; i < points; i++) {
         struct members of = draw_members(&random, -0.25, 0.25, 0.25);
         exact_mean(&of, exact);
@@ -156,7 +153,6 @@ TEST(a_mean_rate_near_zero_is_as_exact_as_its_members)
         mpfr_sub_d(error, exact, our_mean(&of), MPFR_RNDN);
         ours = fmax(ours, fabs(mpfr_get_d(error, MPFR_RNDN)));
     }
-    mpfr_clears(exact, error, (mpfr_ptr)0);
     hard_case("16", "mean rate near zero", "m/s", naive, ours, 0x1p-52);
 }
 
@@ -307,8 +303,7 @@ TEST(amplitudes_cross_the_pipe_unchanged)
     uint64_t random = 19;
     int points = hard_points(200000);
     double naive = 0, ours = 0;
-    mpfr_t exact;
-    mpfr_init2(exact, PRECISION);
+    MPFR_DECL_INIT(exact, PRECISION);
     for (int i = 0; i < points; i++) {
         double amplitude = any_amplitude(&random), back;
         char text[NUMBER_SIZE];
@@ -318,7 +313,6 @@ TEST(amplitudes_cross_the_pipe_unchanged)
         assert_true(number_read(text, text + number_write(amplitude, text), &back));
         ours = fmax(ours, error_ulp(back, exact));
     }
-    mpfr_clear(exact);
     hard_case("19", "amplitude through the pipe (naive: in dB)", "ulp", naive, ours, 0);
 }
 
@@ -327,8 +321,8 @@ TEST(decibels_in_targets_are_within_two_ulp)
     uint64_t random = 191;
     int points = hard_points(200000);
     double naive = 0, ours = 0;
-    mpfr_t exact, db;
-    mpfr_inits2(PRECISION, exact, db, (mpfr_ptr)0);
+    MPFR_DECL_INIT(exact, PRECISION);
+    MPFR_DECL_INIT(db, PRECISION);
     for (int i = 0; i < points; i++) {
         double amplitude = any_amplitude(&random);
         mpfr_set_d(db, amplitude, MPFR_RNDN);
@@ -338,7 +332,6 @@ TEST(decibels_in_targets_are_within_two_ulp)
         naive = fmax(naive, error_ulp(20 / log(10) * log(amplitude), exact));
         ours = fmax(ours, error_ulp(units_amplitude_db(amplitude), db));
     }
-    mpfr_clears(exact, db, (mpfr_ptr)0);
     hard_case("19", "amplitude_db of a target (naive: by ln)", "ulp", naive, ours, 2);
 }
 

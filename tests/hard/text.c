@@ -38,8 +38,7 @@ TEST(every_double_comes_back)
     uint64_t random = 54;
     int points = hard_points(300000);
     double naive = 0, ours = 0, naive_ulp = 0, ours_ulp = 0;
-    mpfr_t exact;
-    mpfr_init2(exact, PRECISION);
+    MPFR_DECL_INIT(exact, PRECISION);
     for (int i = 0; i < points; i++) {
         double value = any_finite(&random), back = through_text(value);
         char text[64];
@@ -52,7 +51,6 @@ TEST(every_double_comes_back)
         mpfr_set_d(exact, value, MPFR_RNDN);
         ours_ulp = fmax(ours_ulp, error_ulp(back, exact));
     }
-    mpfr_clear(exact);
     hard_case("54", "doubles changed by text (naive: %.15g)", "wrong", naive, ours, 0);
     hard_case("54", "error of doubles as text (naive: %.15g)", "ulp", naive_ulp, ours_ulp, 0);
 }
@@ -339,10 +337,8 @@ TEST(seeds_keep_all_their_bits)
         uint64_t seed = i == 0   ? UINT64_C(9007199254740993)
                         : i == 1 ? UINT64_MAX
                                  : sample_word(&random);
-        mpfr_t number;
-        mpfr_init2(number, 53);
+        MPFR_DECL_INIT(number, 53);
         naive += mpfr_set_uj(number, seed, MPFR_RNDN) != 0;
-        mpfr_clear(number);
         ours += !seed_comes_back(seed);
     }
     hard_case("60", "64-bit seeds (naive: as JSON numbers)", "wrong", naive, ours, 0);

@@ -60,8 +60,7 @@ SCRATCH_TEST(a_million_frames_stand_at_their_times)
 {
     struct frame frame = {.arena = check_arena()};
     double naive = 0, ours = 0;
-    mpfr_t exact;
-    mpfr_init2(exact, PRECISION);
+    MPFR_DECL_INIT(exact, PRECISION);
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
         const struct scenario *scene = open_scene(scratch, rates_hz[r]);
         double clock_s = 0;
@@ -77,7 +76,6 @@ SCRATCH_TEST(a_million_frames_stand_at_their_times)
             naive = fmax(naive, error_ulp(clock_s, exact));
         }
     }
-    mpfr_clear(exact);
     hard_case("40", "time of 1e6 frames at 10 to 30 Hz", "ulp", naive, ours, 0.5);
 }
 
@@ -150,8 +148,7 @@ static double position_error_m(const struct frame *frame, mpfr_t time_s, mpfr_t 
 {
     const struct object *car = &frame->objects.items[0];
     double worst_m = 0;
-    mpfr_t place;
-    mpfr_init2(place, PRECISION);
+    MPFR_DECL_INIT(place, PRECISION);
     for (int axis = 0; axis < 2; axis++) {
         mpfr_mul(place, time_s, axis == 0 ? cosine : sine, MPFR_RNDN);
         mpfr_mul_d(place, place, SPEED_MPS, MPFR_RNDN);
@@ -160,7 +157,6 @@ static double position_error_m(const struct frame *frame, mpfr_t time_s, mpfr_t 
         mpfr_sub_d(place, place, axis == 0 ? car->x_m : car->y_m, MPFR_RNDN);
         worst_m = fmax(worst_m, fabs(mpfr_get_d(place, MPFR_RNDN)));
     }
-    mpfr_clear(place);
     return worst_m;
 }
 
@@ -169,8 +165,9 @@ SCRATCH_TEST(straight_motion_does_not_drift)
     static const double rates[] = {17, 25};
     struct frame frame = {.arena = check_arena()}, drifting = {.arena = check_arena()};
     double naive = 0, ours = 0;
-    mpfr_t time_s, cosine, sine;
-    mpfr_inits2(PRECISION, time_s, cosine, sine, (mpfr_ptr)0);
+    MPFR_DECL_INIT(time_s, PRECISION);
+    MPFR_DECL_INIT(cosine, PRECISION);
+    MPFR_DECL_INIT(sine, PRECISION);
     mpfr_set_d(sine, YAW_RAD, MPFR_RNDN);
     mpfr_cos(cosine, sine, MPFR_RNDN);
     mpfr_sin(sine, sine, MPFR_RNDN);
@@ -190,7 +187,6 @@ SCRATCH_TEST(straight_motion_does_not_drift)
             car.y_m += SPEED_MPS * sin(YAW_RAD) / rates[r];
         }
     }
-    mpfr_clears(time_s, cosine, sine, (mpfr_ptr)0);
     hard_case("24", "place after 1e6 frames at 50 m/s from UTM", "m", naive, ours, 1e-9);
 }
 
@@ -232,8 +228,7 @@ TEST(the_border_of_a_cell_is_decided_in_doubles)
     uint64_t random = 44;
     int points = hard_points(1000000);
     double naive = 0, ours = 0;
-    mpfr_t difference;
-    mpfr_init2(difference, 53);
+    MPFR_DECL_INIT(difference, 53);
     for (int i = 0; i < points; i++) {
         int64_t a = 20000 + sample_integer(&random, 19000), b = a + sample_integer(&random, 20);
         struct resolution_echo echoes[] = {{(double)a / 100, 0, 2, 0, 0},
@@ -249,7 +244,6 @@ TEST(the_border_of_a_cell_is_decided_in_doubles)
         ours += one != (mpfr_cmp_d(difference, 0.15) <= 0) || (i < 5 && one != shared[i]);
         naive += i >= 5 && one != (llabs(a - b) <= 15);
     }
-    mpfr_clear(difference);
     hard_case("44", "cell border (naive: as decimals)", "wrong", naive, ours, 0);
 }
 
@@ -462,8 +456,7 @@ static double count_changes(struct hard_chain *chain, uint64_t *random, bool obj
     hard_chain_write(chain, &line);
     find_targets(chain, from, &first);
     for (int i = 0; i < hard_points(ORDERS) / SCENES; i++) {
-        struct diag diag = {0};
-        assert_int_equal(frame_text_read(line.bytes, line.length - 1, frame, &diag), 0);
+        assert_done(frame_text_read, line.bytes, line.length - 1, frame);
         if (objects)
             shuffle(random, frame->objects.items, frame->objects.count, sizeof(struct object));
         else

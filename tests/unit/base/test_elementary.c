@@ -50,12 +50,10 @@ static double atan2_of_place(double x, double y)
 /* 1400 bits hold any double in full and 160 bits of the result beyond it. */
 static int exact_wrap(mpfr_t result, const mpfr_t x, mpfr_rnd_t round)
 {
-    mpfr_t turn;
-    mpfr_init2(turn, 1400);
+    MPFR_DECL_INIT(turn, 1400);
     mpfr_const_pi(turn, MPFR_RNDN);
     mpfr_mul_2ui(turn, turn, 1, MPFR_RNDN);
     int rounded = mpfr_remainder(result, x, turn, round);
-    mpfr_clear(turn);
     return rounded;
 }
 
@@ -92,8 +90,9 @@ static const struct function of_sin = {.of_one = elementary_sin, .exact_of_one =
 /* The error of a function at a point; 0 where the exact value is beyond the doubles. */
 static double error_at(const struct function *function, struct point at)
 {
-    mpfr_t x, y, exact;
-    mpfr_inits2(160, x, y, exact, (mpfr_ptr)NULL);
+    MPFR_DECL_INIT(x, 160);
+    MPFR_DECL_INIT(y, 160);
+    MPFR_DECL_INIT(exact, 160);
     mpfr_set_d(x, at.x, MPFR_RNDN);
     mpfr_set_d(y, at.y, MPFR_RNDN);
     double ours;
@@ -106,7 +105,6 @@ static double error_at(const struct function *function, struct point at)
     }
     bool finite = mpfr_cmp_d(exact, DBL_MAX) <= 0;
     double ulp = finite ? error_ulp(ours, exact) : 0;
-    mpfr_clears(x, y, exact, (mpfr_ptr)NULL);
     return ulp;
 }
 
