@@ -265,24 +265,30 @@ static const struct lost_echo *find_lost(const struct frame *frame, enum effect_
     return NULL;
 }
 
-/* Notes what calls for the trial's effect in a list that changed: by the targets of the whole chain
- * that it marked, or by those of the trial that the whole chain lost. */
-static void note_cause(struct trial_bench *bench, struct trial *trial, const struct target *target,
-                       bool of_whole)
+/* Notes what calls for the trial's effect in a list that changed: the strongest echo that the
+ * effect marked in this target of the whole chain. */
+static void note_marked(struct trial_bench *bench, struct trial *trial, const struct target *target)
 {
     const struct contributor *strongest = NULL;
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *part = &target->contributors.items[i];
-        const struct lost_echo *lost =
-            of_whole ? NULL : find_lost(&bench->frame, trial->effect, target->sensor, &part->id);
-        if (lost != NULL)
-            count_cause(bench, trial, part->id.object, lost->by);
         if (may_be_marked(effect_table[trial->effect], &part->id) &&
             (strongest == NULL || part->weight > strongest->weight))
             strongest = part;
     }
-    if (of_whole && strongest != NULL && (target->effects & EFFECT_BIT(trial->effect)) != 0)
+    if (strongest != NULL && (target->effects & EFFECT_BIT(trial->effect)) != 0)
         count_cause(bench, trial, strongest->id.object, strongest->id.mirror);
+}
+
+/* The same by the echoes in this target of the trial that the whole chain lost by the effect. */
+static void note_lost(struct trial_bench *bench, struct trial *trial, const struct target *target)
+{
+    for (size_t i = 0; i < target->contributors.count; i++) {
+        const struct echo_id *id = &target->contributors.items[i].id;
+        const struct lost_echo *lost = find_lost(&bench->frame, trial->effect, target->sensor, id);
+        if (lost != NULL)
+            count_cause(bench, trial, id->object, lost->by);
+    }
 }
 
 /* Where the targets of a sensor end, of which this is the first. */
@@ -311,9 +317,9 @@ static void count_changed(struct trial_bench *bench, struct trial *trial,
     if (trial->effect == EFFECT_NONE || effect_table[trial->effect]->scene == NULL)
         return;
     for (size_t i = 0; i < count; i++)
-        note_cause(bench, trial, &targets[i], true);
+        note_marked(bench, trial, &targets[i]);
     for (size_t i = 0; i < made_count; i++)
-        note_cause(bench, trial, &made[i], false);
+        note_lost(bench, trial, &made[i]);
 }
 
 /* Returns how many lists of the frame changed. */
