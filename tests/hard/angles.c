@@ -277,7 +277,7 @@ static double cell_azimuth(const struct cell *cell)
 TEST(the_angle_survives_the_pipe)
 {
     struct arena arena = {0}, other = {0};
-    struct text line = {0};
+    struct text *line = check_text();
     struct frame frame = {.arena = &arena}, received = {.arena = &other};
     MPFR_DECL_INIT(exact, BITS);
     double naive = 0, ours = 0;
@@ -290,7 +290,7 @@ TEST(the_angle_survives_the_pipe)
         frame.present = PART_CELLS;
         for (int i = 0; i < CELLS; i++)
             add_cell(&frame, antenna_pointers(&ELEMENT, azimuth_at(begin + i, count, 1e-140)));
-        send_cells(&frame, &received, &line);
+        send_cells(&frame, &received, line);
         for (int i = 0; i < CELLS; i++) {
             const struct cell *sent = &frame.cells.items[i];
             double sum = elementary_hypot(sent->sum_re, sent->sum_im);
@@ -303,7 +303,6 @@ TEST(the_angle_survives_the_pipe)
         }
     }
     hard_case("8", "the angle after the pipe, naive by ASR", "ulp", naive, ours, 4);
-    text_free(&line);
     arena_free(&arena);
     arena_free(&other);
 }

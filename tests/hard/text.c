@@ -108,15 +108,14 @@ static bool reads_x(struct arena *arena, const char *x, double *value)
 /* The number in a document, which jansson reads. */
 static bool document_reads_x(struct arena *arena, const char *x, double *value)
 {
-    struct text text = {0};
+    struct text *text = check_text();
     struct scenario scenario;
     struct diag diag = {0};
-    text_format(&text,
+    text_format(text,
                 "{\"origin\":\"t\",\"ego\":\"e\",\"rate_hz\":1,\"duration_s\":1,\"objects\":"
                 "[{\"id\":\"e\",\"class\":\"car\",\"x_m\":%s}]}",
                 x);
-    int done = document_parse("test", &text, &scenario_record, &scenario, arena, &diag);
-    text_free(&text);
+    int done = document_parse("test", text, &scenario_record, &scenario, arena, &diag);
     if (done == 0)
         *value = scenario.objects.items[0].x_m;
     return done == 0;
@@ -125,11 +124,10 @@ static bool document_reads_x(struct arena *arena, const char *x, double *value)
 static bool parse_table(struct arena *arena, const char *bytes, size_t length,
                         struct csv_table *table, struct diag *diag)
 {
-    struct text text = {0};
+    struct text *text = check_text();
     *diag = (struct diag){0};
-    text_add(&text, bytes, length);
-    bool done = csv_table_parse(&text, table, arena, diag) == 0;
-    text_free(&text);
+    text_add(text, bytes, length);
+    bool done = csv_table_parse(text, table, arena, diag) == 0;
     return done;
 }
 
@@ -297,14 +295,13 @@ static bool seed_comes_back(uint64_t seed)
     struct arena arena = {0};
     struct frame frame;
     struct diag diag;
-    struct text line = {0};
+    struct text *line = check_text();
     char text[32];
     snprintf(text, sizeof text, "\"%llu\"", (unsigned long long)seed);
     bool same = read_frame(&arena, text, "0", "", &frame, &diag) == 0 && frame.seed == seed &&
-                frame_text_write(&frame, &line, &diag) == 0 &&
-                frame_text_read(line.bytes, line.length - 1, &frame, &diag) == 0 &&
+                frame_text_write(&frame, line, &diag) == 0 &&
+                frame_text_read(line->bytes, line->length - 1, &frame, &diag) == 0 &&
                 frame.seed == seed;
-    text_free(&line);
     arena_free(&arena);
     return same;
 }
@@ -369,12 +366,11 @@ static bool takes_depth(size_t depth)
 static bool takes_document(const char *bytes, size_t length)
 {
     struct arena arena = {0};
-    struct text text = {0};
+    struct text *text = check_text();
     struct scenario scenario;
     struct diag diag = {0};
-    text_add(&text, bytes, length);
-    bool taken = document_parse("test", &text, &scenario_record, &scenario, &arena, &diag) == 0;
-    text_free(&text);
+    text_add(text, bytes, length);
+    bool taken = document_parse("test", text, &scenario_record, &scenario, &arena, &diag) == 0;
     arena_free(&arena);
     return taken;
 }

@@ -447,26 +447,24 @@ enum { ORDERS = 1000, SCENES = 20 };
  * changed. */
 static double count_changes(struct hard_chain *chain, uint64_t *random, bool objects)
 {
-    struct text line = {0}, first = {0}, text = {0};
+    struct text *line = check_text(), *first = check_text(), *text = check_text();
     struct frame *frame = &chain->frame;
     size_t from = objects ? 1 : 3;
     double changes = 0;
     hard_chain_next(chain);
     hard_chain_step(chain, 1, from - 1);
-    hard_chain_write(chain, &line);
-    find_targets(chain, from, &first);
+    hard_chain_write(chain, line);
+    find_targets(chain, from, first);
     for (int i = 0; i < hard_points(ORDERS) / SCENES; i++) {
-        assert_done(frame_text_read, line.bytes, line.length - 1, frame);
+        assert_done(frame_text_read, line->bytes, line->length - 1, frame);
         if (objects)
             shuffle(random, frame->objects.items, frame->objects.count, sizeof(struct object));
         else
             shuffle_echoes(random, frame);
-        find_targets(chain, from, &text);
-        changes += text.length != first.length || memcmp(text.bytes, first.bytes, text.length) != 0;
+        find_targets(chain, from, text);
+        changes +=
+            text->length != first->length || memcmp(text->bytes, first->bytes, text->length) != 0;
     }
-    text_free(&line);
-    text_free(&first);
-    text_free(&text);
     return changes;
 }
 

@@ -71,6 +71,9 @@ static inline void *check_make(void **state, size_t size)
 /* Memory of the test that runs; it is freed when the test has passed. */
 struct arena *check_arena(void);
 
+/* An empty text of the test that runs; it is freed when the test has passed. */
+struct text *check_text(void);
+
 void check_end(void);
 
 /* Of an array, not of a pointer. */

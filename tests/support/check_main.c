@@ -8,6 +8,7 @@
 #include "check.h"
 
 #include "base/arena.h"
+#include "base/text.h"
 
 extern const struct check_entry *const __start_check_entries[];
 extern const struct check_entry *const __stop_check_entries[];
@@ -25,8 +26,22 @@ struct arena *check_arena(void)
     return &arena;
 }
 
+static struct arena text_arena;
+static LIST_OF(struct text *) texts;
+
+struct text *check_text(void)
+{
+    struct text *text = arena_get(&text_arena, sizeof *text);
+    *list_add(&texts, &text_arena) = text;
+    return text;
+}
+
 void check_end(void)
 {
+    for (size_t i = 0; i < texts.count; i++)
+        text_free(texts.items[i]);
+    texts.count = texts.room = 0;
+    arena_free(&text_arena);
     arena_free(&arena);
 }
 

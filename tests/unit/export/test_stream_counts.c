@@ -14,13 +14,12 @@ static void check_shares(size_t cars, const char *first, const char *second)
     }
     struct frame frame = {.scene = "s", .last = true, .objects = {objects, cars + 1, MANY + 1}};
     struct stream_counts counts = {.arena = check_arena()};
-    struct text text = {0};
+    struct text *text = check_text();
     assert_done(stream_counts_add, &counts, &frame);
-    stream_counts_write(&counts, &text);
-    text_add(&text, "", 1);
-    assert_non_null(strstr(text.bytes, first));
-    assert_non_null(strstr(text.bytes, second));
-    text_free(&text);
+    stream_counts_write(&counts, text);
+    text_add(text, "", 1);
+    assert_non_null(strstr(text->bytes, first));
+    assert_non_null(strstr(text->bytes, second));
     arena_free(&counts.open_names);
 }
 

@@ -386,22 +386,22 @@ TEST_OF(scratch, neighbours_are_those_within_the_radius)
 {
     static const double radii_m[] = {0, 0.5, 3, 20, 1e3};
     enum { CARS = 60 };
-    struct text text = {0};
-    text_add_word(&text, WALKERS);
+    struct text *text = check_text();
+    text_add_word(text, WALKERS);
     uint64_t random = 1;
     struct vec2 places[CARS];
     for (int i = 0; i < CARS; i++) {
         random = random * UINT64_C(6364136223846793005) + 1442695040888963407u;
         places[i] = (struct vec2){(double)(random >> 40 & 255) / 4 - 32,
                                   (double)(random >> 52 & 255) / 4 - 32};
-        text_format(&text, "%02d,0,0,car,%.17g,%.17g,0,0\n", i, places[i].x, places[i].y);
+        text_format(text, "%02d,0,0,car,%.17g,%.17g,0,0\n", i, places[i].x, places[i].y);
     }
-    text_add(&text, "", 1);
+    text_add(text, "", 1);
     for (size_t r = 0; r < COUNT(radii_m); r++) {
         struct recording_options options;
         options_for(&options, "all");
         options.radius_m = radii_m[r];
-        struct played *played = play(scratch, text.bytes, &options);
+        struct played *played = play(scratch, text->bytes, &options);
         assert_int_equal(played->count, CARS);
         for (size_t ego = 0; ego < CARS; ego++) {
             size_t found = 0;
@@ -411,7 +411,6 @@ TEST_OF(scratch, neighbours_are_those_within_the_radius)
             assert_int_equal(played->frames[ego].objects.count, found);
         }
     }
-    text_free(&text);
 }
 
 TEST_OF(scratch, damaged_recordings_are_refused)

@@ -243,13 +243,12 @@ TEST(a_tool_refuses_options_that_would_do_nothing)
 
 static void assert_helps(const struct stage *stage, const char *const *parts, size_t count)
 {
-    struct text text = {0};
-    options_help(stage, &text);
-    text_add(&text, "", 1);
+    struct text *text = check_text();
+    options_help(stage, text);
+    text_add(text, "", 1);
     for (size_t i = 0; i < count; i++)
-        if (strstr(text.bytes, parts[i]) == NULL)
-            fail_msg("\"%s\" is not in:\n%s", parts[i], text.bytes);
-    text_free(&text);
+        if (strstr(text->bytes, parts[i]) == NULL)
+            fail_msg("\"%s\" is not in:\n%s", parts[i], text->bytes);
 }
 
 TEST(help_names_every_option_with_unit_bounds_and_choices)
@@ -280,10 +279,9 @@ TEST(help_names_every_option_with_unit_bounds_and_choices)
     assert_helps(&source, of_source, COUNT(of_source));
     assert_helps(&tables, of_tables, COUNT(of_tables));
     assert_helps(&maker, of_maker, COUNT(of_maker));
-    struct text text = {0};
-    options_help(&source, &text);
-    text_add(&text, "", 1);
-    assert_null(strstr(text.bytes, "--complete"));
-    assert_null(strstr(text.bytes, "--where"));
-    text_free(&text);
+    struct text *text = check_text();
+    options_help(&source, text);
+    text_add(text, "", 1);
+    assert_null(strstr(text->bytes, "--complete"));
+    assert_null(strstr(text->bytes, "--where"));
 }

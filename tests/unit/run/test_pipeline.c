@@ -14,16 +14,16 @@ static int parse(const char *text, struct pipeline *pipeline, struct arena *aren
 }
 
 /* The commands as one text: words in <>, commands parted by |. */
-static struct text shown(const struct pipeline *pipeline)
+static struct text *shown(const struct pipeline *pipeline)
 {
-    struct text text = {0};
+    struct text *text = check_text();
     for (size_t i = 0; i < pipeline->commands.count; i++) {
         const struct command *command = &pipeline->commands.items[i];
-        text_add_word(&text, i > 0 ? "|" : "");
+        text_add_word(text, i > 0 ? "|" : "");
         for (size_t j = 0; j < command->words.count; j++)
-            text_format(&text, "<%s>", command->words.items[j]);
+            text_format(text, "<%s>", command->words.items[j]);
     }
-    text_add(&text, "", 1);
+    text_add(text, "", 1);
     return text;
 }
 
@@ -49,15 +49,14 @@ TEST(words_and_bars_are_what_they_look_like)
         struct diag diag;
         if (parse(cases[i].text, &pipeline, check_arena(), &diag) != 0)
             fail_msg("%s: %s", cases[i].text, diag.text);
-        struct text text = shown(&pipeline);
-        assert_string_equal(text.bytes, cases[i].commands);
-        text_free(&text);
+        struct text *text = shown(&pipeline);
+        assert_string_equal(text->bytes, cases[i].commands);
     }
 }
 
 /* What bash makes of each text as one command's words: each followed by a newline, each text by a
  * line of its own. printf repeats its format for every word. */
-static struct text asked_of_bash(const struct text *script)
+static struct text *asked_of_bash(const struct text *script)
 {
     char path[] = "/tmp/glint-pipeline-XXXXXX", command[64];
     int fd = mkstemp(path);
@@ -67,9 +66,9 @@ static struct text asked_of_bash(const struct text *script)
     snprintf(command, sizeof command, "bash %s 2>&1", path);
     FILE *pipe = popen(command, "r");
     assert_non_null(pipe);
-    struct text answer = {0};
-    for (size_t got = 1; got > 0; answer.length += got)
-        got = fread(text_room(&answer, 4096), 1, 4096, pipe);
+    struct text *answer = check_text();
+    for (size_t got = 1; got > 0; answer->length += got)
+        got = fread(text_room(answer, 4096), 1, 4096, pipe);
     pclose(pipe);
     unlink(path);
     return answer;
@@ -79,19 +78,18 @@ static void add_question(const char *words, struct text *script, struct text *ex
 {
     struct pipeline pipeline;
     struct diag diag;
-    struct text text = {0};
-    text_format(&text, "p %s\n\n", words);
-    if (pipeline_parse(text.bytes, text.length, &pipeline, check_arena(), &diag) == 0 &&
+    struct text *text = check_text();
+    text_format(text, "p %s\n\n", words);
+    if (pipeline_parse(text->bytes, text->length, &pipeline, check_arena(), &diag) == 0 &&
         pipeline.commands.count == 1) {
-        text_format(script, "printf '%%s\\n' - %.*secho = end\n", (int)text.length - 2,
-                    text.bytes + 2);
+        text_format(script, "printf '%%s\\n' - %.*secho = end\n", (int)text->length - 2,
+                    text->bytes + 2);
         const struct command *command = pipeline.commands.items;
         text_add_word(expected, "-\n");
         for (size_t i = 1; i < command->words.count; i++)
             text_format(expected, "%s\n", command->words.items[i]);
         text_add_word(expected, "= end\n");
     }
-    text_free(&text);
 }
 
 TEST(bash_sees_the_same_words)
@@ -169,16 +167,13 @@ TEST(bash_sees_the_same_words)
                                         "/a/~ ./~",
                                         "--file=~/x",
                                         "a'#'b#c"};
-    struct text script = {0}, expected = {0};
+    struct text *script = check_text(), *expected = check_text();
     for (size_t i = 0; i < COUNT(words); i++)
-        add_question(words[i], &script, &expected);
-    struct text answer = asked_of_bash(&script);
-    text_add(&answer, "", 1);
-    text_add(&expected, "", 1);
-    assert_string_equal(answer.bytes, expected.bytes);
-    text_free(&script);
-    text_free(&expected);
-    text_free(&answer);
+        add_question(words[i], script, expected);
+    struct text *answer = asked_of_bash(script);
+    text_add(answer, "", 1);
+    text_add(expected, "", 1);
+    assert_string_equal(answer->bytes, expected->bytes);
 }
 
 /* Random texts of the characters that mean something: whatever is not refused, bash reads alike. */
@@ -188,27 +183,23 @@ TEST(bash_sees_the_same_words_in_random_texts)
                                          "\\", "\n", " ", " ", "#",  "\t",  "\\\n",
                                          "$",  "x=", "%", "]", "-",  "\\\""};
     uint64_t random = 8;
-    struct text script = {0}, expected = {0};
+    struct text *script = check_text(), *expected = check_text();
     for (int i = 0; i < 20000; i++) {
-        struct text text = {0};
+        struct text *text = check_text();
         for (uint64_t count = 1 + sample_bits(&random) % 8; count > 0; count--)
-            text_add_word(&text, pieces[sample_bits(&random) % COUNT(pieces)]);
-        text_add(&text, "", 1);
-        add_question(text.bytes, &script, &expected);
-        text_free(&text);
+            text_add_word(text, pieces[sample_bits(&random) % COUNT(pieces)]);
+        text_add(text, "", 1);
+        add_question(text->bytes, script, expected);
     }
-    assert_true(expected.length > 50000);
-    struct text answer = asked_of_bash(&script);
-    const char *a = answer.bytes, *b = expected.bytes;
+    assert_true(expected->length > 50000);
+    struct text *answer = asked_of_bash(script);
+    const char *a = answer->bytes, *b = expected->bytes;
     size_t same = 0;
-    while (same < answer.length && same < expected.length && a[same] == b[same])
+    while (same < answer->length && same < expected->length && a[same] == b[same])
         same++;
-    if (same < answer.length || same < expected.length)
+    if (same < answer->length || same < expected->length)
         fail_msg("bash: ...%.40s\nglint: ...%.40s", a + (same < 20 ? 0 : same - 20),
                  b + (same < 20 ? 0 : same - 20));
-    text_free(&script);
-    text_free(&expected);
-    text_free(&answer);
 }
 
 TEST(everything_else_is_refused_with_its_line)

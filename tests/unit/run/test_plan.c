@@ -52,12 +52,11 @@ static int make_bench(void **state)
 
 static void assert_writes(const struct plan *plan, bool all, const char *part, bool expected)
 {
-    struct text text = {0};
-    plan_write(plan, all, &text);
-    text_add(&text, "", 1);
-    if ((strstr(text.bytes, part) != NULL) != expected)
-        fail_msg("\"%s\" is %sin:\n%s", part, expected ? "not " : "", text.bytes);
-    text_free(&text);
+    struct text *text = check_text();
+    plan_write(plan, all, text);
+    text_add(text, "", 1);
+    if ((strstr(text->bytes, part) != NULL) != expected)
+        fail_msg("\"%s\" is %sin:\n%s", part, expected ? "not " : "", text->bytes);
 }
 
 /* An effect is idle, or it changes a list and stays. */
@@ -143,12 +142,11 @@ PLAN_TEST(what_is_put_back_is_named)
 
 PLAN_TEST(no_frames_make_no_plan)
 {
-    struct text text = {0};
+    struct text *text = check_text();
     begin(bench, NULL);
     assert_int_equal(plan_end(&bench->plan), 0);
-    plan_write(&bench->plan, true, &text);
-    assert_int_equal(text.length, 0);
-    text_free(&text);
+    plan_write(&bench->plan, true, text);
+    assert_int_equal(text->length, 0);
 }
 
 /* The rounds of the whole chain lie 3 us apart. */

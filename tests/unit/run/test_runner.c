@@ -13,14 +13,6 @@ static void begin(struct runner *runner, const struct stage *stage, size_t count
         fail_msg("%s: %s", stage->name, runner->diag.text);
 }
 
-static const struct stage *stage_of(const char *name)
-{
-    size_t i = 0;
-    while (strcmp(stages[i]->name, name) != 0)
-        i++;
-    return stages[i];
-}
-
 /* Whoever writes reflectors completes sizes, by documents that were checked (extraction_step). */
 static void forget_sizes(struct frame *frame, struct arena *arena)
 {
@@ -53,17 +45,14 @@ static void write_rest(const struct frame *frame, unsigned present, const struct
 static bool keeps_to_its_part(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
-    struct text before = {0}, after = {0};
+    struct text *before = check_text(), *after = check_text();
     frame_drop(frame, stage->writes & ~stage->reads & ~(unsigned)(PART_LOST | PART_COUNTS));
     unsigned present = frame->present;
-    write_rest(frame, present, stage, &before);
+    write_rest(frame, present, stage, before);
     if (runner_step(runner, frame) != 0)
         fail_msg("%s: %s", stage->name, runner->diag.text);
-    write_rest(frame, present, stage, &after);
-    bool same = strcmp(before.bytes, after.bytes) == 0;
-    text_free(&before);
-    text_free(&after);
-    return same;
+    write_rest(frame, present, stage, after);
+    return strcmp(before->bytes, after->bytes) == 0;
 }
 
 static bool is_filter(const struct stage *stage)
@@ -84,7 +73,7 @@ static size_t order_filters(const char *suite, const struct stage **filters)
     static const char *const chain[] = {"extract", "ideal", "sensor", "noise"};
     size_t count = 0;
     for (; count < COUNT(chain); count++)
-        filters[count] = stage_of(chain[count]);
+        filters[count] = stage_by_name(chain[count]);
     for (size_t i = 0; stages[i] != NULL; i++) {
         bool known = !is_filter(stages[i]) || !fits(stages[i], suite);
         for (size_t j = 0; j < COUNT(chain) && !known; j++)
@@ -101,7 +90,7 @@ static void run_filters(const char *suite, const char *density)
     const struct stage *filters[64];
     size_t count = order_filters(suite, filters);
     struct frame frame = {.arena = check_arena()};
-    begin(&source, stage_of("traffic-random"), 7,
+    begin(&source, stage_by_name("traffic-random"), 7,
           (const char *[]){"--density", density, "--draw-conditions", "--frames", "20",
                            "--sections", "all"});
     for (size_t i = 0; i < count; i++)
@@ -152,7 +141,7 @@ static int write_negative_length(void *state, struct frame *frame, struct runner
 static void begin_frame(struct frame *frame)
 {
     struct runner source;
-    begin(&source, stage_of("traffic-random"), 2, (const char *[]){"--density", "dense"});
+    begin(&source, stage_by_name("traffic-random"), 2, (const char *[]){"--density", "dense"});
     assert_int_equal(runner_next(&source, frame), 1);
     runner_free(&source);
 }

@@ -99,11 +99,10 @@ static int run(const struct stage *tool, struct scratch *scratch, const char *co
 
 static void assert_holds(struct scratch *scratch, const char *name, const char *expected)
 {
-    struct text text = {0};
-    assert_done(document_bytes, scratch_in(scratch, name), &text);
-    text_add(&text, "", 1);
-    assert_string_equal(text.bytes, expected);
-    text_free(&text);
+    struct text *text = check_text();
+    assert_done(document_bytes, scratch_in(scratch, name), text);
+    text_add(text, "", 1);
+    assert_string_equal(text->bytes, expected);
 }
 
 #define TOOL_TEST(name) TEST_WITH(make_folder, remove_scratch, struct scratch *scratch, name)

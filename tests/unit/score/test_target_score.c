@@ -52,13 +52,11 @@ static struct score score_scan(const struct score_scene *truth, const struct sco
 
 static void assert_same_text(const struct score *one, const struct score *other)
 {
-    struct text text = {0}, other_text = {0};
-    record_write(&score_record, one, NULL, &text);
-    record_write(&score_record, other, NULL, &other_text);
-    assert_int_equal(text.length, other_text.length);
-    assert_memory_equal(text.bytes, other_text.bytes, text.length);
-    text_free(&text);
-    text_free(&other_text);
+    struct text *text = check_text(), *other_text = check_text();
+    record_write(&score_record, one, NULL, text);
+    record_write(&score_record, other, NULL, other_text);
+    assert_int_equal(text->length, other_text->length);
+    assert_memory_equal(text->bytes, other_text->bytes, text->length);
 }
 
 TEST(the_azimuth_cell_is_the_option_the_suites_or_a_twentieth_of_the_view)

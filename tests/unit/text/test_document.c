@@ -11,11 +11,10 @@
 static int read_document(const char *path, const struct record *record, void *base,
                          struct arena *arena, struct diag *diag)
 {
-    struct text bytes = {0};
-    int result = document_bytes(path, &bytes, diag);
+    struct text *bytes = check_text();
+    int result = document_bytes(path, bytes, diag);
     if (result == 0)
-        result = document_parse(path, &bytes, record, base, arena, diag);
-    text_free(&bytes);
+        result = document_parse(path, bytes, record, base, arena, diag);
     return result;
 }
 

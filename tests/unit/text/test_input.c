@@ -49,11 +49,11 @@ static void add_member(const char *bytes, size_t length, struct text *text)
     deflateEnd(&stream);
 }
 
-static struct text repeatable_bytes(size_t length, uint64_t seed)
+static struct text *repeatable_bytes(size_t length, uint64_t seed)
 {
-    struct text text = {0};
+    struct text *text = check_text();
     for (size_t i = 0; i < length; i++)
-        text_add(&text, &"0123456789,\n{}ab"[sample_bits(&seed) % 16], 1);
+        text_add(text, &"0123456789,\n{}ab"[sample_bits(&seed) % 16], 1);
     return text;
 }
 
@@ -63,26 +63,24 @@ TEST_OF(scratch, plain_and_gzip_and_several_members_read_the_same)
 {
     static const size_t lengths[] = {0, 1, 2, 3, 65535, 65536, 65537, 131072, 300000};
     for (size_t i = 0; i < COUNT(lengths); i++) {
-        struct text bytes = repeatable_bytes(lengths[i], i), packed = {0}, members = {0};
-        const char *start = bytes.bytes != NULL ? bytes.bytes : "";
-        add_member(start, bytes.length, &packed);
+        struct text *bytes = repeatable_bytes(lengths[i], i), *packed = check_text(),
+                    *members = check_text();
+        const char *start = bytes->bytes != NULL ? bytes->bytes : "";
+        add_member(start, bytes->length, packed);
         for (size_t part = 0; part < 5; part++)
-            add_member(start + bytes.length * part / 5,
-                       bytes.length * (part + 1) / 5 - bytes.length * part / 5, &members);
-        const struct text forms[] = {{(char *)(uintptr_t)start, bytes.length, 0}, packed, members};
+            add_member(start + bytes->length * part / 5,
+                       bytes->length * (part + 1) / 5 - bytes->length * part / 5, members);
+        const struct text forms[] = {
+            {(char *)(uintptr_t)start, bytes->length, 0}, *packed, *members};
         for (size_t form = 0; form < COUNT(forms); form++) {
-            struct text text = {0};
+            struct text *text = check_text();
             struct diag diag;
-            if (read_bytes(scratch, forms[form].bytes, forms[form].length, &text, &diag) != 0)
+            if (read_bytes(scratch, forms[form].bytes, forms[form].length, text, &diag) != 0)
                 fail_msg("%zu bytes, form %zu: %s", lengths[i], form, diag.text);
-            assert_int_equal(text.length, bytes.length);
-            if (text.length > 0)
-                assert_memory_equal(text.bytes, bytes.bytes, text.length);
-            text_free(&text);
+            assert_int_equal(text->length, bytes->length);
+            if (text->length > 0)
+                assert_memory_equal(text->bytes, bytes->bytes, text->length);
         }
-        text_free(&bytes);
-        text_free(&packed);
-        text_free(&members);
     }
 }
 
@@ -90,90 +88,78 @@ TEST_OF(scratch, gzip_that_expands_a_thousandfold_is_read_whole)
 {
     enum { LENGTH = 5000000 };
     char *zeros = calloc(1, LENGTH);
-    struct text packed = {0}, text = {0};
-    add_member(zeros, LENGTH, &packed);
-    assert_true(packed.length < LENGTH / 900);
-    assert_done(read_bytes, scratch, packed.bytes, packed.length, &text);
-    assert_int_equal(text.length, LENGTH);
-    assert_memory_equal(text.bytes, zeros, LENGTH);
-    text_free(&packed);
-    text_free(&text);
+    struct text *packed = check_text(), *text = check_text();
+    add_member(zeros, LENGTH, packed);
+    assert_true(packed->length < LENGTH / 900);
+    assert_done(read_bytes, scratch, packed->bytes, packed->length, text);
+    assert_int_equal(text->length, LENGTH);
+    assert_memory_equal(text->bytes, zeros, LENGTH);
     free(zeros);
 }
 
 TEST_OF(scratch, gzip_cut_anywhere_is_refused)
 {
-    struct text bytes = repeatable_bytes(1500, 1), packed = {0};
-    add_member(bytes.bytes, bytes.length, &packed);
-    size_t first = packed.length;
-    add_member(bytes.bytes, bytes.length, &packed);
-    for (size_t length = 2; length < packed.length; length++) {
-        struct text text = {0};
+    struct text *bytes = repeatable_bytes(1500, 1), *packed = check_text();
+    add_member(bytes->bytes, bytes->length, packed);
+    size_t first = packed->length;
+    add_member(bytes->bytes, bytes->length, packed);
+    for (size_t length = 2; length < packed->length; length++) {
+        struct text *text = check_text();
         struct diag diag;
-        int result = read_bytes(scratch, packed.bytes, length, &text, &diag);
+        int result = read_bytes(scratch, packed->bytes, length, text, &diag);
         /* Cut between the members it is a complete file. */
         assert_int_equal(result, length == first ? 0 : -1);
         if (length != first) {
             assert_string_equal(diag.text, "the gzip data ends early");
             assert_int_equal(diag.code, DIAG_DATA);
         }
-        text_free(&text);
     }
-    text_free(&bytes);
-    text_free(&packed);
 }
 
 TEST_OF(scratch, a_flipped_bit_in_gzip_is_refused_or_changes_nothing)
 {
-    struct text bytes = repeatable_bytes(400, 2), packed = {0};
-    add_member(bytes.bytes, bytes.length, &packed);
-    for (size_t i = 0; i < 8 * packed.length; i++) {
+    struct text *bytes = repeatable_bytes(400, 2), *packed = check_text();
+    add_member(bytes->bytes, bytes->length, packed);
+    for (size_t i = 0; i < 8 * packed->length; i++) {
         /* gzip does not protect the time, the extra flags and the system in its header, nor the
          * flag that says the content is text. */
         bool unprotected = (i / 8 >= 4 && i / 8 < 10) || i == 8 * 3;
-        struct text text = {0};
+        struct text *text = check_text();
         struct diag diag;
-        packed.bytes[i / 8] = (char)(packed.bytes[i / 8] ^ 1 << i % 8);
-        int result = read_bytes(scratch, packed.bytes, packed.length, &text, &diag);
-        packed.bytes[i / 8] = (char)(packed.bytes[i / 8] ^ 1 << i % 8);
+        packed->bytes[i / 8] = (char)(packed->bytes[i / 8] ^ 1 << i % 8);
+        int result = read_bytes(scratch, packed->bytes, packed->length, text, &diag);
+        packed->bytes[i / 8] = (char)(packed->bytes[i / 8] ^ 1 << i % 8);
         if (i / 8 < 2) {
             /* Not gzip any more by its first bytes, so plain text, and not JSON. */
             assert_int_equal(result, 0);
-            assert_int_equal(text.length, packed.length);
+            assert_int_equal(text->length, packed->length);
         } else {
             if (result != (unprotected ? 0 : -1))
                 fail_msg("bit %zu of byte %zu: %d", i % 8, i / 8, result);
             if (unprotected)
-                assert_memory_equal(text.bytes, bytes.bytes, bytes.length);
+                assert_memory_equal(text->bytes, bytes->bytes, bytes->length);
             else
                 assert_int_equal(diag.code, DIAG_DATA);
         }
-        text_free(&text);
     }
-    text_free(&bytes);
-    text_free(&packed);
 }
 
 TEST_OF(scratch, anything_after_the_last_member_is_refused)
 {
-    static const char *const tails[] = {"x", "\n", "{}\n", "\x1f", "\x1f\x8b", "\x1f\x8b\x08"};
+    static const struct {
+        const char *bytes;
+        size_t length;
+    } tails[] = {{"x", 1},    {"\n", 1},       {"{}\n", 3},        {"\0", 1},
+                 {"\x1f", 1}, {"\x1f\x8b", 2}, {"\x1f\x8b\x08", 3}};
     for (size_t i = 0; i < COUNT(tails); i++) {
-        struct text packed = {0}, text = {0};
+        struct text *packed = check_text();
         struct diag diag;
-        add_member("abc\n", 4, &packed);
-        text_add_word(&packed, tails[i]);
-        assert_int_equal(read_bytes(scratch, packed.bytes, packed.length, &text, &diag), -1);
+        add_member("abc\n", 4, packed);
+        text_add(packed, tails[i].bytes, tails[i].length);
+        assert_int_equal(read_bytes(scratch, packed->bytes, packed->length, check_text(), &diag),
+                         -1);
         assert_int_equal(diag.code, DIAG_DATA);
-        text_free(&packed);
-        text_free(&text);
     }
-    struct text packed = {0}, text = {0};
-    struct diag diag;
-    add_member("abc\n", 4, &packed);
-    text_add(&packed, "\0", 1);
-    assert_int_equal(read_bytes(scratch, packed.bytes, packed.length, &text, &diag), -1);
-    text_free(&packed);
-    text_free(&text);
 }
 
 static void assert_lines(struct input *input, const char *const *lines, size_t count)
@@ -203,21 +189,21 @@ TEST_OF(scratch, lines_end_at_newlines_and_at_the_end)
 
 TEST_OF(scratch, lines_across_buffer_borders_are_whole)
 {
-    struct text bytes = {0}, packed = {0};
+    struct text *bytes = check_text(), *packed = check_text();
     uint64_t random = 4;
     static const size_t long_lines[] = {65534, 65535, 65536, 65537, 131071, 131072, 200000, 0, 1};
     size_t count = 0;
-    for (; bytes.length < 1500000; count++) {
+    for (; bytes->length < 1500000; count++) {
         size_t length = count < COUNT(long_lines) ? long_lines[count] : sample_bits(&random) % 300;
         for (size_t i = 0; i < length; i++)
-            text_add(&bytes, &"abcdefghij"[(count + i) % 10], 1);
-        text_add(&bytes, "\n", 1);
+            text_add(bytes, &"abcdefghij"[(count + i) % 10], 1);
+        text_add(bytes, "\n", 1);
     }
-    add_member(bytes.bytes, bytes.length, &packed);
-    const struct text forms[] = {bytes, packed};
+    add_member(bytes->bytes, bytes->length, packed);
+    const struct text forms[] = {*bytes, *packed};
     for (size_t form = 0; form < 2; form++) {
         struct input *input = open_bytes(scratch, forms[form].bytes, forms[form].length);
-        const char *at = bytes.bytes, *line;
+        const char *at = bytes->bytes, *line;
         size_t length, lines = 0;
         struct diag diag = {0};
         for (; input_line(input, 200000, &line, &length, &diag) == 1; lines++, at += length + 1) {
@@ -228,8 +214,6 @@ TEST_OF(scratch, lines_across_buffer_borders_are_whole)
         assert_int_equal(lines, count);
         input_close(input);
     }
-    text_free(&bytes);
-    text_free(&packed);
 }
 
 TEST_OF(scratch, a_line_may_be_as_long_as_the_limit)
@@ -266,25 +250,24 @@ TEST_OF(scratch, the_message_says_why_a_file_cannot_be_read)
     struct input *input = input_open(scratch->directory, &diag);
     assert_non_null(input);
     assert_string_equal(input_name(input), scratch->directory);
-    struct text text = {0};
-    assert_refused(DIAG_NO_INPUT, "Is a directory", input_all, input, SIZE_MAX, &text);
-    text_free(&text);
+    struct text *text = check_text();
+    assert_refused(DIAG_NO_INPUT, "Is a directory", input_all, input, SIZE_MAX, text);
     input_close(input);
 }
 
 /* A pipe gives what it has; the least is one byte at a time. */
 static void check_slow_pipe(int flags)
 {
-    struct text packed = {0}, text = {0};
+    struct text *packed = check_text(), *text = check_text();
     struct diag diag = {0};
-    add_member("one\ntwo\n", 8, &packed);
+    add_member("one\ntwo\n", 8, packed);
     int ends[2], standard = dup(STDIN_FILENO);
     assert_int_equal(pipe(ends), 0);
     assert_int_equal(fcntl(ends[0], F_SETFL, flags), 0);
     pid_t child = fork();
     if (child == 0) {
-        for (size_t i = 0; i < packed.length; i++) {
-            if (write(ends[1], packed.bytes + i, 1) != 1)
+        for (size_t i = 0; i < packed->length; i++) {
+            if (write(ends[1], packed->bytes + i, 1) != 1)
                 _exit(1);
             for (volatile int wait = 0; wait < 20000; wait++)
                 continue;
@@ -296,15 +279,13 @@ static void check_slow_pipe(int flags)
     close(ends[0]);
     struct input *input = input_open("-", &diag);
     assert_string_equal(input_name(input), "stdin");
-    assert_done(input_all, input, SIZE_MAX, &text);
-    assert_int_equal(text.length, 8);
-    assert_memory_equal(text.bytes, "one\ntwo\n", 8);
+    assert_done(input_all, input, SIZE_MAX, text);
+    assert_int_equal(text->length, 8);
+    assert_memory_equal(text->bytes, "one\ntwo\n", 8);
     input_close(input);
     assert_int_equal(waitpid(child, NULL, 0), child);
     dup2(standard, STDIN_FILENO);
     close(standard);
-    text_free(&packed);
-    text_free(&text);
 }
 
 TEST(a_pipe_that_gives_one_byte_at_a_time_is_read_whole)
@@ -331,21 +312,20 @@ static void answer(void *with)
     unsigned char packed[4096];
     assert_true(writer->lines < COUNT(answers));
     size_t length = answers[writer->lines++];
-    struct text line = {0};
-    memset(text_room(&line, length + 1), 'a', length + 1);
-    line.bytes[length > 0 ? length - 1 : 0] = '\n';
-    writer->stream.next_in = (unsigned char *)line.bytes;
+    struct text *line = check_text();
+    memset(text_room(line, length + 1), 'a', length + 1);
+    line->bytes[length > 0 ? length - 1 : 0] = '\n';
+    writer->stream.next_in = (unsigned char *)line->bytes;
     writer->stream.avail_in = (unsigned)length;
     writer->stream.next_out = packed;
     writer->stream.avail_out = sizeof packed;
     int flush = length > 0 ? Z_SYNC_FLUSH : Z_FINISH;
     assert_true(!writer->packed || deflate(&writer->stream, flush) >= Z_OK);
-    const void *bytes = writer->packed ? (const void *)packed : line.bytes;
+    const void *bytes = writer->packed ? (const void *)packed : line->bytes;
     size_t count = writer->packed ? sizeof packed - writer->stream.avail_out : length;
     assert_int_equal(write(writer->fd, bytes, count), (ssize_t)count);
     if (length == 0)
         assert_int_equal(close(writer->fd), 0);
-    text_free(&line);
 }
 
 /* A wait that came too early, with a whole line there to be read, would make the writer write
@@ -390,14 +370,12 @@ static void count_pause(void *with)
 
 TEST_OF(scratch, a_file_is_read_without_a_pause)
 {
-    struct text bytes = repeatable_bytes(300000, 1), text = {0};
+    struct text *bytes = repeatable_bytes(300000, 1), *text = check_text();
     size_t pauses = 0;
-    struct input *input = open_bytes(scratch, bytes.bytes, bytes.length);
+    struct input *input = open_bytes(scratch, bytes->bytes, bytes->length);
     input_before_waiting(input, (struct input_pause){count_pause, &pauses});
-    assert_done(input_all, input, SIZE_MAX, &text);
-    assert_int_equal(text.length, bytes.length);
+    assert_done(input_all, input, SIZE_MAX, text);
+    assert_int_equal(text->length, bytes->length);
     assert_int_equal(pauses, 0);
     input_close(input);
-    text_free(&bytes);
-    text_free(&text);
 }

@@ -25,10 +25,9 @@ static void line_of(struct text *line, const char *points)
 
 static int read_points(struct frame *frame, const char *points, struct diag *diag)
 {
-    struct text line = {0};
-    line_of(&line, points);
-    int result = frame_text_read(line.bytes, line.length, frame, diag);
-    text_free(&line);
+    struct text *line = check_text();
+    line_of(line, points);
+    int result = frame_text_read(line->bytes, line->length, frame, diag);
     return result;
 }
 
@@ -102,22 +101,21 @@ CACHE_TEST(lists_that_do_not_repeat_are_kept_up_to_a_limit)
 /* A stream's memory stays bounded whatever its lines hold. */
 CACHE_TEST(long_lists_are_kept_up_to_a_limit_too)
 {
-    struct text points = {0};
+    struct text *points = check_text();
     for (int i = 0; i < 40; i++) {
-        points.length = 0;
-        text_format(&points, "[%s", point_of("a", i * 0.001));
+        points->length = 0;
+        text_format(points, "[%s", point_of("a", i * 0.001));
         for (int j = 0; j < 1000; j++) {
             char name[16];
             snprintf(name, sizeof name, "b%d", j % 1000);
-            text_format(&points, ",%s", point_of(name, 0.25));
+            text_format(points, ",%s", point_of(name, 0.25));
         }
-        text_add(&points, "]", 2);
-        assert_int_equal(read_points(&bench->frame, points.bytes, &bench->diag), 0);
+        text_add(points, "]", 2);
+        assert_int_equal(read_points(&bench->frame, points->bytes, &bench->diag), 0);
         assert_int_equal(bench->frame.reflectors.items[0].points.count, 1001);
     }
     assert_true(bench->cache.size >= LIST_CACHE_SIZE && bench->cache.size < 2 * LIST_CACHE_SIZE);
     assert_true(bench->cache.kept.count < 40);
-    text_free(&points);
 }
 
 CACHE_TEST(a_list_that_grows_leaves_the_kept_one_alone)
@@ -137,16 +135,15 @@ CACHE_TEST(a_list_that_grows_leaves_the_kept_one_alone)
 static void write_set(struct list_cache *cache, struct reflector_set *set, struct text *line)
 {
     struct frame frame = {.scene = "s", .ego = "e", .present = PART_REFLECTORS};
-    struct text plain = {0};
+    struct text *plain = check_text();
     frame.reflectors.items = set;
     frame.reflectors.count = 1;
-    assert_done(frame_text_write, &frame, &plain);
+    assert_done(frame_text_write, &frame, plain);
     frame.list_cache = cache;
     line->length = 0;
     assert_done(frame_text_write, &frame, line);
-    assert_int_equal(line->length, plain.length);
-    assert_memory_equal(line->bytes, plain.bytes, plain.length);
-    text_free(&plain);
+    assert_int_equal(line->length, plain->length);
+    assert_memory_equal(line->bytes, plain->bytes, plain->length);
 }
 
 static struct reflector_set document_of(struct point_reflector *points, size_t count)
@@ -249,21 +246,20 @@ CACHE_TEST(the_text_of_points_is_no_list_of_planes)
 /* The list's text in the line that was read has filled the memory already. */
 CACHE_TEST(a_list_that_fills_the_memory_is_written_every_time)
 {
-    struct text points = {0};
-    text_add(&points, "[", 1);
-    for (int i = 0; points.length < LIST_CACHE_SIZE; i++) {
+    struct text *points = check_text();
+    text_add(points, "[", 1);
+    for (int i = 0; points->length < LIST_CACHE_SIZE; i++) {
         char name[16];
         snprintf(name, sizeof name, "b%d", i);
-        text_format(&points, "%s%s", i == 0 ? "" : ",", point_of(name, 0.25));
+        text_format(points, "%s%s", i == 0 ? "" : ",", point_of(name, 0.25));
     }
-    text_add(&points, "]", 2);
-    assert_int_equal(read_points(&bench->frame, points.bytes, &bench->diag), 0);
+    text_add(points, "]", 2);
+    assert_int_equal(read_points(&bench->frame, points->bytes, &bench->diag), 0);
     size_t size = bench->cache.size;
     for (int i = 0; i < 2; i++)
         write_set(&bench->cache, &bench->frame.reflectors.items[0], &bench->line);
     assert_true(size >= LIST_CACHE_SIZE && bench->cache.size == size);
     assert_null(bench->cache.kept.items[0].written.bytes);
-    text_free(&points);
 }
 
 CACHE_TEST(text_that_was_written_is_kept_up_to_a_limit)

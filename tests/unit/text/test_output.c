@@ -61,22 +61,22 @@ int __wrap_rename(const char *from, const char *to)
     return irreplaceable ? -1 : __real_rename(from, to);
 }
 
-static struct text read_all(const char *path)
+static struct text *read_all(const char *path)
 {
-    struct text text = {0};
+    struct text *text = check_text();
     struct diag diag = {0};
     struct input *input = input_open(path, &diag);
-    if (input == NULL || input_all(input, SIZE_MAX, &text, &diag) != 0)
+    if (input == NULL || input_all(input, SIZE_MAX, text, &diag) != 0)
         fail_msg("%s", diag.text);
     input_close(input);
     return text;
 }
 
-static struct text sample_text(size_t length)
+static struct text *sample_text(size_t length)
 {
-    struct text text = {0};
+    struct text *text = check_text();
     for (size_t i = 0; i < length; i++)
-        text_add(&text, &"0123456789abcde\n"[(i * i / 7 + i / 1000) % 16], 1);
+        text_add(text, &"0123456789abcde\n"[(i * i / 7 + i / 1000) % 16], 1);
     return text;
 }
 
@@ -109,14 +109,12 @@ OUTPUT_TEST(written_bytes_can_be_read)
         for (size_t j = i > 4 ? 1 : 0; j < 5; j++)
             for (int packed = 0; packed < 2; packed++) {
                 const char *path = packed ? scratch_in(scratch, "a.gz") : scratch->path;
-                struct text text = sample_text(lengths[i]);
-                write_file(path, &text, pieces[j]);
-                struct text back = read_all(path);
-                assert_int_equal(back.length, text.length);
-                if (text.length > 0)
-                    assert_memory_equal(back.bytes, text.bytes, text.length);
-                text_free(&back);
-                text_free(&text);
+                struct text *text = sample_text(lengths[i]);
+                write_file(path, text, pieces[j]);
+                struct text *back = read_all(path);
+                assert_int_equal(back->length, text->length);
+                if (text->length > 0)
+                    assert_memory_equal(back->bytes, text->bytes, text->length);
             }
     assert_int_equal(scratch_count(scratch), 2);
 }
@@ -124,35 +122,32 @@ OUTPUT_TEST(written_bytes_can_be_read)
 OUTPUT_TEST(appended_text_is_written_in_whole_pieces)
 {
     static const size_t lengths[] = {1, 1000, 65535, 65536, 200000};
-    struct text all = {0};
+    struct text *all = check_text();
     struct diag diag = {0};
     struct output *output = output_open(scratch->path, &diag);
     assert_non_null(output);
     for (size_t i = 0; i < 100; i++) {
-        struct text line = sample_text(lengths[i % 5]);
-        text_add(output_text(output), line.bytes, line.length);
-        text_add(&all, line.bytes, line.length);
+        struct text *line = sample_text(lengths[i % 5]);
+        text_add(output_text(output), line->bytes, line->length);
+        text_add(all, line->bytes, line->length);
         assert_done(output_send, output);
-        assert_int_equal(output_text(output)->length, all.length % 65536);
-        text_free(&line);
+        assert_int_equal(output_text(output)->length, all->length % 65536);
     }
     assert_done(output_close, output, 1);
-    struct text back = read_all(scratch->path);
-    assert_int_equal(back.length, all.length);
-    assert_memory_equal(back.bytes, all.bytes, all.length);
-    text_free(&back);
-    text_free(&all);
+    struct text *back = read_all(scratch->path);
+    assert_int_equal(back->length, all->length);
+    assert_memory_equal(back->bytes, all->bytes, all->length);
 }
 
 OUTPUT_TEST(gz_is_gzip_and_depends_on_nothing_but_its_content)
 {
-    struct text text = sample_text(200000);
+    struct text *text = sample_text(200000);
     unsigned char first[70000], second[70000];
     size_t lengths[2];
     for (int i = 0; i < 2; i++) {
         char other[128];
         snprintf(other, sizeof other, "%s/other%d.gz", scratch->directory, i);
-        write_file(other, &text, i ? 1000 : 70001);
+        write_file(other, text, i ? 1000 : 70001);
         FILE *file = fopen(other, "rb");
         lengths[i] = fread(i ? second : first, 1, sizeof first, file);
         fclose(file);
@@ -164,31 +159,26 @@ OUTPUT_TEST(gz_is_gzip_and_depends_on_nothing_but_its_content)
     assert_memory_equal(first, second, lengths[0]);
     /* The magic, deflate, no flags (so no name), no time. */
     assert_memory_equal(first, "\x1f\x8b\x08\0\0\0\0\0", 8);
-    text_free(&text);
 }
 
 static void rewrite(struct scratch *scratch, const char *path, bool whole)
 {
-    struct text old = {0}, new = sample_text(100000), back;
-    text_add_word(&old, "old");
-    write_file(path, &old, 3);
+    struct text *old = check_text(), *new = sample_text(100000), *back;
+    text_add_word(old, "old");
+    write_file(path, old, 3);
     int before = scratch_count(scratch);
     int temporary = has_unnamed(scratch->directory) ? 0 : 1;
     struct diag diag = {0};
     struct output *output = output_open(path, &diag);
-    assert_done(output_write, output, new.bytes, new.length);
+    assert_done(output_write, output, new->bytes, new->length);
     assert_done(output_finish, output);
     back = read_all(path);
-    assert_int_equal(back.length, 3);
-    text_free(&back);
+    assert_int_equal(back->length, 3);
     assert_int_equal(scratch_count(scratch), before + temporary);
     assert_done(output_close, output, whole);
     assert_int_equal(scratch_count(scratch), before);
     back = read_all(path);
-    assert_int_equal(back.length, whole ? new.length : old.length);
-    text_free(&back);
-    text_free(&old);
-    text_free(&new);
+    assert_int_equal(back->length, whole ? new->length : old->length);
 }
 
 OUTPUT_TEST(the_name_is_taken_only_when_the_file_is_complete)
@@ -217,19 +207,17 @@ OUTPUT_TEST(a_file_that_is_replaced_keeps_its_mode)
 
 static void expect_bytes(const char *path, const char *bytes)
 {
-    struct text back = read_all(path);
-    assert_int_equal(back.length, strlen(bytes));
-    assert_memory_equal(back.bytes, bytes, back.length);
-    text_free(&back);
+    struct text *back = read_all(path);
+    assert_int_equal(back->length, strlen(bytes));
+    assert_memory_equal(back->bytes, bytes, back->length);
 }
 
 /* A whole file of these bytes. */
 static void write_word(const char *path, const char *word)
 {
-    struct text text = {0};
-    text_add_word(&text, word);
-    write_file(path, &text, text.length);
-    text_free(&text);
+    struct text *text = check_text();
+    text_add_word(text, word);
+    write_file(path, text, text->length);
 }
 
 /* A process that has written a file but not named it, and then ends: by the signal or, for 0, by
@@ -317,10 +305,9 @@ OUTPUT_TEST(files_that_belong_together_are_never_old_beside_new)
         for (int i = 0; i < TOGETHER; i++) {
             if (access(paths[i], F_OK) != 0)
                 continue;
-            struct text text = read_all(paths[i]);
-            old += memcmp(text.bytes, "old", 3) == 0;
-            new += memcmp(text.bytes, "new", 3) == 0;
-            text_free(&text);
+            struct text *text = read_all(paths[i]);
+            old += memcmp(text->bytes, "old", 3) == 0;
+            new += memcmp(text->bytes, "new", 3) == 0;
         }
         assert_true(old == 0 || new == 0);
         assert_true(killed || new == TOGETHER);
@@ -398,7 +385,7 @@ OUTPUT_TEST(a_temporary_file_that_may_be_in_use_stays)
 
 OUTPUT_TEST(a_full_disk_leaves_the_folder_as_it_was)
 {
-    struct text new = sample_text(100000);
+    struct text *new = sample_text(100000);
     write_word(scratch->path, "old");
     int before = scratch_count(scratch);
     for (int i = 0; i < 2; i++) {
@@ -410,7 +397,7 @@ OUTPUT_TEST(a_full_disk_leaves_the_folder_as_it_was)
             signal(SIGXFSZ, SIG_IGN);
             setrlimit(RLIMIT_FSIZE, &(struct rlimit){1000, 1000});
             struct output *output = output_open(scratch->path, &diag);
-            output_write(output, new.bytes, new.length, &diag);
+            output_write(output, new->bytes, new->length, &diag);
             output_close(output, true, &diag);
             _exit((int)diag.code);
         }
@@ -419,7 +406,6 @@ OUTPUT_TEST(a_full_disk_leaves_the_folder_as_it_was)
         assert_int_equal(scratch_count(scratch), before);
         expect_bytes(scratch->path, "old");
     }
-    text_free(&new);
 }
 
 /* Somebody who guessed the temporary name has made a link of that name. */
@@ -653,17 +639,16 @@ TEST(a_full_device_is_noticed_at_the_latest_when_it_is_closed)
 {
     static const size_t lengths[] = {1, 65536, 65537, 1000000};
     for (size_t i = 0; i < 4; i++) {
-        struct text text = sample_text(lengths[i]);
+        struct text *text = sample_text(lengths[i]);
         struct diag diag = {0};
         struct output *output = output_open("/dev/full", &diag);
         assert_non_null(output);
-        int written = output_write(output, text.bytes, text.length, &diag);
+        int written = output_write(output, text->bytes, text->length, &diag);
         assert_int_equal(written, lengths[i] >= 65536 ? -1 : 0);
         int closed = output_close(output, written == 0, &diag);
         assert_true(written != 0 || closed != 0);
         assert_string_equal(diag.text, "/dev/full: No space left on device");
         assert_int_equal(diag.code, DIAG_IO);
-        text_free(&text);
     }
 }
 
@@ -683,13 +668,10 @@ OUTPUT_TEST(pipes_and_devices_are_written_directly)
         output_write(output, "through", 7, &diag);
         _exit(output_close(output, 1, &diag) != 0);
     }
-    struct text back = read_all(scratch_in(scratch, "fifo"));
-    assert_int_equal(back.length, 7);
-    assert_memory_equal(back.bytes, "through", 7);
+    expect_bytes(scratch_in(scratch, "fifo"), "through");
     int code = -1;
     assert_int_equal(waitpid(child, &code, 0), child);
     assert_int_equal(code, 0);
-    text_free(&back);
 }
 
 static long waiting_in(int fd)

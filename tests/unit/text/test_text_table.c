@@ -4,12 +4,11 @@
 
 static void assert_table(const char *lines, int *widths, const char *mark, const char *expected)
 {
-    struct text rows = {0}, text = {0};
-    text_add_word(&rows, lines);
-    text_table_write(&rows, widths, mark, &text);
-    text_add(&text, "", 1);
-    assert_string_equal(text.bytes, expected);
-    text_free(&text);
+    struct text *rows = check_text(), *text = check_text();
+    text_add_word(rows, lines);
+    text_table_write(rows, widths, mark, text);
+    text_add(text, "", 1);
+    assert_string_equal(text->bytes, expected);
 }
 
 TEST(columns_are_as_wide_as_their_widest_cells)
