@@ -35,11 +35,11 @@ static void keep(struct played *played, const struct frame *frame, struct arena 
     }
 }
 
-static const struct recording_options *options_for(struct recording_options *options,
-                                                   const char *ego)
+static struct recording_options options_for(const char *ego)
 {
-    field_clear(&recording_options_record, options);
-    options->ego = ego;
+    struct recording_options options;
+    field_clear(&recording_options_record, &options);
+    options.ego = ego;
     return options;
 }
 
@@ -62,10 +62,15 @@ static struct played *play(struct scratch *scratch, const char *text,
     return played;
 }
 
+static struct played *play_as(struct scratch *scratch, const char *ego, const char *text)
+{
+    struct recording_options options = options_for(ego);
+    return play(scratch, text, &options);
+}
+
 static struct played *play_all(struct scratch *scratch, const char *text)
 {
-    struct recording_options options;
-    struct played *played = play(scratch, text, options_for(&options, "all"));
+    struct played *played = play_as(scratch, "all", text);
     if (played->diag.code != DIAG_OK)
         fail_msg("%s", played->diag.text);
     return played;
@@ -107,15 +112,13 @@ TEST_OF(scratch, a_row_becomes_an_object)
 
 TEST_OF(scratch, frames_ascend_in_time_and_their_objects_in_id)
 {
-    struct recording_options options;
-    struct played *played = play(scratch,
-                                 HEADER "9,3,350,car,0,0,0,0,0,4,2\n"
-                                        "10,3,350,car,0,0,0,0,0,4,2\n"
-                                        "9,1,100,car,0,0,0,0,0,4,2\n"
-                                        "b,2,200,car,0,0,0,0,0,4,2\n"
-                                        "2,3,350,car,0,0,0,0,0,4,2\n"
-                                        "9,2,200,car,0,0,0,0,0,4,2\n",
-                                 options_for(&options, "9"));
+    struct played *played = play_as(scratch, "9",
+                                    HEADER "9,3,350,car,0,0,0,0,0,4,2\n"
+                                           "10,3,350,car,0,0,0,0,0,4,2\n"
+                                           "9,1,100,car,0,0,0,0,0,4,2\n"
+                                           "b,2,200,car,0,0,0,0,0,4,2\n"
+                                           "2,3,350,car,0,0,0,0,0,4,2\n"
+                                           "9,2,200,car,0,0,0,0,0,4,2\n");
     static const struct {
         double time_s, interval_s;
         const char *ids[4];
@@ -152,12 +155,10 @@ TEST_OF(scratch, stamps_are_in_the_unit_of_their_column)
 
 TEST_OF(scratch, without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest)
 {
-    struct recording_options options;
-    struct played *played = play(scratch,
-                                 HEADER "P1,1,100,pedestrian/bicycle,0,0,-1,1,,,\n"
-                                        "P2,1,100,pedestrian/bicycle,0,0,0,0,,,\n"
-                                        "P1,1,200,pedestrian/bicycle,0,0,-0.0,0,,,\n",
-                                 options_for(&options, "P1"));
+    struct played *played = play_as(scratch, "P1",
+                                    HEADER "P1,1,100,pedestrian/bicycle,0,0,-1,1,,,\n"
+                                           "P2,1,100,pedestrian/bicycle,0,0,0,0,,,\n"
+                                           "P1,1,200,pedestrian/bicycle,0,0,-0.0,0,,,\n");
     assert_int_equal(played->count, 2);
     assert_close(object_at(played, 0.1, "P1")->yaw_rad, 3 * PI / 4, 1e-15);
     assert_close(object_at(played, 0.2, "P1")->yaw_rad, 3 * PI / 4, 1e-15);
@@ -203,12 +204,10 @@ TEST_OF(scratch, places_become_centres_and_velocities)
 
 TEST_OF(scratch, the_distance_travelled_adds_up_from_place_to_place)
 {
-    struct recording_options options;
-    struct played *played = play(scratch,
-                                 HEADER "a,3,300,car,503,5000000,0,-40,0,4,2\n"
-                                        "a,2,200,car,503,5000004,30,0,0,4,2\n"
-                                        "a,1,100,car,500,5000000,30,80,0,4,2\n",
-                                 options_for(&options, "a"));
+    struct played *played = play_as(scratch, "a",
+                                    HEADER "a,3,300,car,503,5000000,0,-40,0,4,2\n"
+                                           "a,2,200,car,503,5000004,30,0,0,4,2\n"
+                                           "a,1,100,car,500,5000000,30,80,0,4,2\n");
     assert_close(object_at(played, 0.1, "a")->travelled_m, 0, 0);
     assert_close(object_at(played, 0.2, "a")->travelled_m, 5, 0);
     assert_close(object_at(played, 0.3, "a")->travelled_m, 9, 0);
@@ -226,8 +225,7 @@ TEST_OF(scratch, many_short_steps_are_not_lost)
         (size_t)sprintf(text, WALKERS "a,0,0,car,0,1e8,0,-222\na,0,900000000,car,0,0,0,0\n");
     for (int i = 1; i <= STEPS; i++)
         used += (size_t)sprintf(text + used, "a,0,%d,car,%de-9,0,0,0\n", 900000000 + i, i);
-    struct recording_options options;
-    struct played *played = play(scratch, text, options_for(&options, "a"));
+    struct played *played = play_as(scratch, "a", text);
     free(text);
     const struct object *last = &played->frames[played->count - 1].objects.items[0];
     assert_close(last->travelled_m - 1e8, STEPS * 1e-9, 2e-8);
@@ -236,13 +234,11 @@ TEST_OF(scratch, many_short_steps_are_not_lost)
 /* Who is missing from a step, or jumps, comes again as another: another scene, no differences. */
 TEST_OF(scratch, a_visit_ends_where_its_road_user_is_missing_or_jumps)
 {
-    struct recording_options options;
-    struct played *played = play(scratch,
-                                 WALKERS "a,0,0,car,0,0,1,0\nb,0,0,car,0,0,0,0\n"
-                                         "b,0,100,car,0,0,0,0\n"
-                                         "a,0,200,car,5,0,1,0\nb,0,200,car,900,0,0,0\n"
-                                         "a,0,300,car,5,1,1,0\nb,0,300,car,900,0,0,0\n",
-                                 options_for(&options, "a,b"));
+    struct played *played = play_as(scratch, "a,b",
+                                    WALKERS "a,0,0,car,0,0,1,0\nb,0,0,car,0,0,0,0\n"
+                                            "b,0,100,car,0,0,0,0\n"
+                                            "a,0,200,car,5,0,1,0\nb,0,200,car,900,0,0,0\n"
+                                            "a,0,300,car,5,1,1,0\nb,0,300,car,900,0,0,0\n");
     static const struct {
         const char *scene;
         int frame;
@@ -262,8 +258,7 @@ TEST_OF(scratch, a_visit_ends_where_its_road_user_is_missing_or_jumps)
 
 TEST_OF(scratch, a_recording_begins_and_ends_at_given_times)
 {
-    struct recording_options options;
-    options_for(&options, "a");
+    struct recording_options options = options_for("a");
     options.from_s = 0.15;
     options.to_s = 0.4;
     struct played *played = play(scratch,
@@ -283,8 +278,7 @@ TEST_OF(scratch, a_recording_begins_and_ends_at_given_times)
  * distance travelled, where the mean of the steps would be 19. */
 TEST_OF(scratch, the_distance_travelled_is_resampled_like_the_place)
 {
-    struct recording_options options;
-    options_for(&options, "a");
+    struct recording_options options = options_for("a");
     options.rate_hz = 4;
     struct played *played = play(scratch,
                                  WALKERS "a,0,0,car,0,0,20,0\na,0,2000,car,38,0,18,0\n"
@@ -303,8 +297,7 @@ TEST_OF(scratch, the_distance_travelled_is_resampled_like_the_place)
  * plain cubic is at 12.15 m at 2.33 s and rolls back at 0.33 m/s. */
 TEST_OF(scratch, resampling_rolls_nobody_back)
 {
-    struct recording_options options;
-    options_for(&options, "v");
+    struct recording_options options = options_for("v");
     options.rate_hz = 20;
     struct played *played = play(scratch,
                                  SUMO "0;v;0;0;90;passenger;10\n1;v;10;0;90;passenger;10\n"
@@ -341,8 +334,7 @@ TEST(resampling_rolls_nobody_back_beside_a_lane_change)
 /* A body that reverses does so between the steps, too: from 1 m/s to -1 m/s within 1 s. */
 TEST_OF(scratch, resampling_lets_who_reverses_reverse)
 {
-    struct recording_options options;
-    options_for(&options, "a");
+    struct recording_options options = options_for("a");
     options.rate_hz = 2;
     struct played *played =
         play(scratch, WALKERS "a,0,0,car,0,0,1,0\na,0,1000,car,0,0,-1,0\n", &options);
@@ -353,8 +345,7 @@ TEST_OF(scratch, resampling_lets_who_reverses_reverse)
  * is that of the gap. */
 TEST_OF(scratch, nothing_crosses_a_denied_way)
 {
-    struct recording_options options;
-    options_for(&options, "all");
+    struct recording_options options = options_for("all");
     options.rate_hz = 10;
     struct played *played = play(scratch,
                                  SUMO "0;e;0;0;90;passenger;9\n0;v;60;0;90;passenger;0\n"
@@ -398,8 +389,7 @@ TEST_OF(scratch, neighbours_are_those_within_the_radius)
     }
     text_add(text, "", 1);
     for (size_t r = 0; r < COUNT(radii_m); r++) {
-        struct recording_options options;
-        options_for(&options, "all");
+        struct recording_options options = options_for("all");
         options.radius_m = radii_m[r];
         struct played *played = play(scratch, text->bytes, &options);
         assert_int_equal(played->count, CARS);
@@ -457,8 +447,7 @@ TEST_OF(scratch, damaged_recordings_are_refused)
         {HEADER, "--ego: \"1\" is no track_id"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct recording_options options;
-        struct played *played = play(scratch, cases[i].text, options_for(&options, "1"));
+        struct played *played = play_as(scratch, "1", cases[i].text);
         const char *text = strstr(played->diag.text, "tracks.csv: ");
         assert_non_null(text);
         assert_string_equal(text + strlen("tracks.csv: "), cases[i].message);

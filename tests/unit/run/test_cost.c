@@ -26,6 +26,21 @@ static void end(struct bench *bench)
     arena_free(&bench->arena);
 }
 
+static int make_bench(void **state)
+{
+    check_make(state, sizeof(struct bench));
+    return 0;
+}
+
+static int remove_bench(void **state)
+{
+    end(*state);
+    free(*state);
+    return 0;
+}
+
+#define COST_TEST(name) TEST_WITH(make_bench, remove_bench, struct bench *bench, name)
+
 /* The chains on 12 frames. */
 static void measure(struct bench *bench, bool brief)
 {
@@ -94,12 +109,11 @@ TEST(a_sample_has_250_frames_or_fewer_where_the_signal_is_long)
     end(&bench);
 }
 
-TEST(an_effect_has_a_row_if_the_frames_call_for_it)
+COST_TEST(an_effect_has_a_row_if_the_frames_call_for_it)
 {
     static const char *const names[] = {"perfect", "paper", "auto", "smear"};
-    struct bench bench;
-    measure(&bench, false);
-    const struct cost_table *table = &bench.cost.table;
+    measure(bench, false);
+    const struct cost_table *table = &bench->cost.table;
     assert_int_equal(table->chains.count, 4);
     for (size_t i = 0; i < 4; i++) {
         assert_string_equal(table->chains.items[i].chain, names[i]);
@@ -108,10 +122,10 @@ TEST(an_effect_has_a_row_if_the_frames_call_for_it)
     assert_close(table->chains.items[0].relative_distance.value, 1, 1e-12);
     assert_string_equal(table->chains.items[2].effects, "auto");
     assert_string_equal(table->chains.items[3].programs.items[0], "glint-sensor-smear");
-    assert_int_equal(table->effects.count, bench.cost.chains.list.count - 4);
+    assert_int_equal(table->effects.count, bench->cost.chains.list.count - 4);
     for (size_t i = 0; i < table->effects.count; i++) {
         const struct cost_effect *row = &table->effects.items[i];
-        assert_true(trial_simulated(&bench.cost.bench, row->effect));
+        assert_true(trial_simulated(&bench->cost.bench, row->effect));
         assert_in_range(row->lists_changed, 0, table->lists);
         if (row->lists_changed == 0)
             assert_close(row->squared_error_added.value, 0, 0);
@@ -124,47 +138,41 @@ TEST(an_effect_has_a_row_if_the_frames_call_for_it)
     assert_true(table->scale.lost_30_percent > 0.05 && table->scale.one_cell_off > 0.05);
     assert_true(table->scale.lost_half > 1.2 * table->scale.lost_30_percent);
     assert_true(table->scale.lost_half < 1);
-    end(&bench);
 }
 
 /* The squared error that an effect adds is a difference of energies over that of ideal echoes. */
-TEST(what_an_effect_adds_is_paired)
+COST_TEST(what_an_effect_adds_is_paired)
 {
-    struct bench bench;
-    measure(&bench, false);
-    const struct tried_chain *merging = without(&bench, EFFECT_MERGING);
-    const struct tried_chain *whole = chain_at(&bench, COST_WHOLE);
+    measure(bench, false);
+    const struct tried_chain *merging = without(bench, EFFECT_MERGING);
+    const struct tried_chain *whole = chain_at(bench, COST_WHOLE);
     double energy = merging->row.energy.value - whole->row.energy.value;
-    struct relative_error added = cost_added(&bench.cost, merging);
+    struct relative_error added = cost_added(&bench->cost, merging);
     assert_string_equal(merging->row.chain, "auto, no merging");
     assert_string_equal(merging->row.effects, "auto,-merging");
-    assert_close(cost_added(&bench.cost, whole).value, 0, 1e-12);
-    assert_close(added.value, energy / chain_at(&bench, COST_IDEAL)->row.energy.value, 1e-12);
+    assert_close(cost_added(&bench->cost, whole).value, 0, 1e-12);
+    assert_close(added.value, energy / chain_at(bench, COST_IDEAL)->row.energy.value, 1e-12);
     struct relative_error error =
-        relative_error_of(&merging->lists, &chain_at(&bench, COST_IDEAL)->lists);
+        relative_error_of(&merging->lists, &chain_at(bench, COST_IDEAL)->lists);
     assert_true(added.high - added.low < error.high - error.low);
-    end(&bench);
 }
 
-TEST(a_brief_cost_leaves_out_no_effect)
+COST_TEST(a_brief_cost_leaves_out_no_effect)
 {
-    struct bench bench;
-    measure(&bench, true);
-    assert_int_equal(bench.cost.chains.list.count, 4);
-    assert_int_equal(bench.cost.table.effects.count, 0);
-    end(&bench);
+    measure(bench, true);
+    assert_int_equal(bench->cost.chains.list.count, 4);
+    assert_int_equal(bench->cost.table.effects.count, 0);
 }
 
 /* What Buehren and Yang's model has: the list of a radar is limited in it, too. */
-TEST(the_chain_of_the_paper_has_the_papers_effects_and_its_list_limit)
+COST_TEST(the_chain_of_the_paper_has_the_papers_effects_and_its_list_limit)
 {
     static const char *const papers[] = {",-visibility",    ",-plane_reflection", ",-rows",
                                          ",-occlusion",     ",-ambiguity",        ",-merging",
                                          ",-superposition", ",-threshold",        ",-angle_noise",
                                          ",-range_noise",   ",-final_threshold",  ",-list_limit"};
-    struct bench bench;
-    measure(&bench, true);
-    const struct cost_chain *paper = &chain_at(&bench, COST_PAPER)->row;
+    measure(bench, true);
+    const struct cost_chain *paper = &chain_at(bench, COST_PAPER)->row;
     assert_string_equal(paper->chain, "paper");
     size_t left_out = 0;
     for (const char *at = paper->effects; (at = strstr(at, ",-")) != NULL; at++)
@@ -173,8 +181,7 @@ TEST(the_chain_of_the_paper_has_the_papers_effects_and_its_list_limit)
     for (size_t i = 0; i < sizeof papers / sizeof *papers; i++)
         if (strstr(paper->effects, papers[i]) != NULL)
             fail_msg("the paper's chain leaves out %s: %s", papers[i], paper->effects);
-    assert_string_equal(chain_at(&bench, COST_IDEAL)->row.effects, paper->effects);
-    end(&bench);
+    assert_string_equal(chain_at(bench, COST_IDEAL)->row.effects, paper->effects);
 }
 
 /* Times and errors that no machine changes. */
@@ -185,9 +192,8 @@ static void set_chain(struct tried_chain *chain, double us, double error)
     chain->row.relative_distance = (struct relative_error){error, error, error, 0};
 }
 
-TEST(the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found)
+COST_TEST(the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found)
 {
-    struct bench bench;
     static const struct {
         enum cost_search_bound bound;
         double most;
@@ -197,43 +203,40 @@ TEST(the_cheapest_or_the_most_accurate_chain_within_the_bound_is_found)
         {COST_SEARCH_ERROR, 2, "paper"},   {COST_SEARCH_US, 100, "auto"},
         {COST_SEARCH_US, 12, "perfect"},   {COST_SEARCH_US, 10, "paper"},
     };
-    measure(&bench, true);
-    assert_int_equal(bench.cost.chains.list.count, 4);
-    set_chain(chain_at(&bench, 0), 11, 0.2);
-    set_chain(chain_at(&bench, 1), 10, 0.25);
-    set_chain(chain_at(&bench, 2), 40, 0.01);
-    set_chain(chain_at(&bench, 3), 90, 0.02);
+    measure(bench, true);
+    assert_int_equal(bench->cost.chains.list.count, 4);
+    set_chain(chain_at(bench, 0), 11, 0.2);
+    set_chain(chain_at(bench, 1), 10, 0.25);
+    set_chain(chain_at(bench, 2), 40, 0.01);
+    set_chain(chain_at(bench, 3), 90, 0.02);
     for (size_t i = 0; i < COUNT(cases); i++) {
-        const struct tried_chain *found = cost_search(&bench.cost, cases[i].bound, cases[i].most);
+        const struct tried_chain *found = cost_search(&bench->cost, cases[i].bound, cases[i].most);
         assert_non_null(found);
         assert_string_equal(found->row.chain, cases[i].found);
-        assert_ptr_equal(bench.cost.table.chosen, found->row.chain);
+        assert_ptr_equal(bench->cost.table.chosen, found->row.chain);
     }
-    assert_null(cost_search(&bench.cost, COST_SEARCH_US, 9.99));
-    assert_int_equal(bench.runner.diag.code, DIAG_DATA);
-    assert_string_equal(bench.runner.diag.text,
+    assert_null(cost_search(&bench->cost, COST_SEARCH_US, 9.99));
+    assert_int_equal(bench->runner.diag.code, DIAG_DATA);
+    assert_string_equal(bench->runner.diag.text,
                         "no chain holds the bound; the nearest, paper, takes 10.0 us a frame and "
                         "has an error of up to 25.0 %");
-    end(&bench);
 }
 
 /* Without merging the chain is faster in every round, without angle noise only in most. */
-TEST(an_effect_stays_unless_its_time_is_told_from_nothing)
+COST_TEST(an_effect_stays_unless_its_time_is_told_from_nothing)
 {
-    struct bench bench;
-    measure(&bench, false);
-    for (size_t i = 0; i < bench.cost.chains.list.count; i++) {
-        set_chain(chain_at(&bench, i), 100, 0.1);
-        chain_at(&bench, i)->saved = (struct trial_time){0, -1, 1};
+    measure(bench, false);
+    for (size_t i = 0; i < bench->cost.chains.list.count; i++) {
+        set_chain(chain_at(bench, i), 100, 0.1);
+        chain_at(bench, i)->saved = (struct trial_time){0, -1, 1};
     }
-    struct tried_chain *merging = without(&bench, EFFECT_MERGING);
-    struct tried_chain *noise = without(&bench, EFFECT_ANGLE_NOISE);
+    struct tried_chain *merging = without(bench, EFFECT_MERGING);
+    struct tried_chain *noise = without(bench, EFFECT_ANGLE_NOISE);
     merging->row.us_per_frame = 90, merging->saved = (struct trial_time){10, 0.1, 12};
     noise->row.us_per_frame = 50, noise->saved = (struct trial_time){50, -0.1, 60};
-    const struct tried_chain *found = cost_search(&bench.cost, COST_SEARCH_ERROR, 1);
+    const struct tried_chain *found = cost_search(&bench->cost, COST_SEARCH_ERROR, 1);
     assert_non_null(found);
     assert_int_equal(found->left_out & ~EFFECT_BIT(EFFECT_MERGING), 0);
-    end(&bench);
 }
 
 /* No chain without several effects that breaks the bound is chosen, and what is chosen is measured.
@@ -253,14 +256,12 @@ TEST(a_bound_of_the_error_holds_for_what_is_found)
     }
 }
 
-TEST(without_an_error_of_ideal_echoes_nothing_is_found)
+COST_TEST(without_an_error_of_ideal_echoes_nothing_is_found)
 {
-    struct bench bench;
-    measure(&bench, true);
-    chain_at(&bench, COST_IDEAL)->row.present = COST_ENERGY;
-    assert_null(cost_search(&bench.cost, COST_SEARCH_ERROR, 1));
-    assert_int_equal(bench.runner.diag.code, DIAG_DATA);
-    assert_memory_equal(bench.runner.diag.text, "ideal echoes cannot be told from the reference",
+    measure(bench, true);
+    chain_at(bench, COST_IDEAL)->row.present = COST_ENERGY;
+    assert_null(cost_search(&bench->cost, COST_SEARCH_ERROR, 1));
+    assert_int_equal(bench->runner.diag.code, DIAG_DATA);
+    assert_memory_equal(bench->runner.diag.text, "ideal echoes cannot be told from the reference",
                         46);
-    end(&bench);
 }

@@ -178,11 +178,16 @@ TEST(inner_waypoints_of_a_parabola_lie_on_the_parabola)
 static const struct waypoint WINDING[] = {{0.5, 0, 0}, {2, 12, 3},  {2.6, 18, 1},
                                           {5, 25, 22}, {6, 20, 30}, {8.5, -3, 18}};
 
+static struct actor winding(void)
+{
+    struct waypoint *waypoints = arena_get(check_arena(), sizeof WINDING);
+    memcpy(waypoints, WINDING, sizeof WINDING);
+    return follower(waypoints, COUNT(WINDING));
+}
+
 TEST(a_curve_goes_through_its_waypoints)
 {
-    struct waypoint waypoints[COUNT(WINDING)];
-    memcpy(waypoints, WINDING, sizeof waypoints);
-    struct actor actor = follower(waypoints, COUNT(waypoints));
+    struct actor actor = winding();
     for (size_t i = 0; i < COUNT(WINDING); i++)
         check_place(motion_at(&actor, WINDING[i].time_s).position_m, WINDING[i].x_m, WINDING[i].y_m,
                     1e-14);
@@ -190,9 +195,7 @@ TEST(a_curve_goes_through_its_waypoints)
 
 TEST(a_curve_is_smooth_at_its_waypoints)
 {
-    struct waypoint waypoints[COUNT(WINDING)];
-    memcpy(waypoints, WINDING, sizeof waypoints);
-    struct actor actor = follower(waypoints, COUNT(waypoints));
+    struct actor actor = winding();
     for (size_t i = 1; i + 1 < COUNT(WINDING); i++) {
         struct motion before = motion_at(&actor, WINDING[i].time_s - 1e-10);
         struct motion at = motion_at(&actor, WINDING[i].time_s);
@@ -207,9 +210,7 @@ TEST(a_curve_is_smooth_at_its_waypoints)
 
 TEST(velocity_yaw_rate_and_way_are_derivatives_of_the_curve)
 {
-    struct waypoint waypoints[COUNT(WINDING)];
-    memcpy(waypoints, WINDING, sizeof waypoints);
-    struct actor actor = follower(waypoints, COUNT(waypoints));
+    struct actor actor = winding();
     for (int i = 0; i < 790; i++) {
         double time_s = 0.505 + 0.01 * i, step_s = 1e-5;
         struct motion before = motion_at(&actor, time_s - step_s);
@@ -225,9 +226,7 @@ TEST(velocity_yaw_rate_and_way_are_derivatives_of_the_curve)
 
 TEST(the_way_along_a_curve_is_that_of_its_chords)
 {
-    struct waypoint waypoints[COUNT(WINDING)];
-    memcpy(waypoints, WINDING, sizeof waypoints);
-    struct actor actor = follower(waypoints, COUNT(waypoints));
+    struct actor actor = winding();
     enum { CHORDS = 80000 };
     double sum_m = 0;
     struct vec2 last = motion_at(&actor, 0.5).position_m;
