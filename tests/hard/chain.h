@@ -3,10 +3,9 @@
 #pragma once
 
 #include "hard.h"
+#include "support/run_bench.h"
 
 #include "frame/frame_text.h"
-#include "run/runner.h"
-#include "run/stage.h"
 
 enum { CHAIN_STAGES = 5 };
 
@@ -16,16 +15,6 @@ struct hard_chain {
     struct frame frame;
 };
 
-static inline void hard_chain_stage(struct runner *runner, const char *name, size_t count,
-                                    const char *const *words)
-{
-    const struct stage *const *stage = stages;
-    while (strcmp((*stage)->name, name) != 0)
-        stage++;
-    if (runner_prepare(runner, *stage, count, words) != 0 || runner_start(runner) != 0)
-        fail_msg("%s", runner->diag.text);
-}
-
 /* The frames of adversarial scenes, which have ties, from first to first + frames - 1. */
 static inline void hard_chain_start(struct hard_chain *chain, int first, int frames)
 {
@@ -33,15 +22,14 @@ static inline void hard_chain_start(struct hard_chain *chain, int first, int fra
     char first_word[32], frames_word[32];
     snprintf(first_word, sizeof first_word, "%d", first);
     snprintf(frames_word, sizeof frames_word, "%d", frames);
-    const char *const scene[] = {"--sensors", suite,      "--first",
-                                 first_word,  "--frames", frames_word};
     *chain = (struct hard_chain){.frame = {.arena = NULL}};
     chain->frame.arena = &chain->arena;
-    hard_chain_stage(&chain->runners[0], "traffic-adversarial", 6, scene);
-    hard_chain_stage(&chain->runners[1], "extract", 0, NULL);
-    hard_chain_stage(&chain->runners[2], "ideal", 2, scene);
-    hard_chain_stage(&chain->runners[3], "sensor", 0, NULL);
-    hard_chain_stage(&chain->runners[4], "noise", 0, NULL);
+    begin_stage(&chain->runners[0], "traffic-adversarial",
+                WORDS("--sensors", suite, "--first", first_word, "--frames", frames_word));
+    begin_stage(&chain->runners[1], "extract", NO_WORDS);
+    begin_stage(&chain->runners[2], "ideal", WORDS("--sensors", suite));
+    begin_stage(&chain->runners[3], "sensor", NO_WORDS);
+    begin_stage(&chain->runners[4], "noise", NO_WORDS);
 }
 
 static inline void hard_chain_stop(struct hard_chain *chain)

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "hard.h"
+#include "support/traffic_models.h"
 
 #include "base/hash.h"
 #include "base/sort.h"
 #include "documents/suite_file.h"
-#include "documents/vehicle.h"
 #include "frame/frame_order.h"
 #include "ideal/direct_echoes.h"
 #include "ideal/ghost_echoes.h"
@@ -61,19 +61,10 @@ struct chain {
     struct fates cells, targets;
 };
 
-static inline const struct stage *stage_of(const char *name)
-{
-    for (size_t i = 0; stages[i] != NULL; i++)
-        if (strcmp(stages[i]->name, name) == 0)
-            return stages[i];
-    fail_msg("no stage %s", name);
-    return NULL;
-}
-
 static inline void prepare(struct runner *runner, const char *stage)
 {
     static const char *const words[] = {"--sections", "reflectors,echoes,cells"};
-    assert_int_equal(runner_prepare(runner, stage_of(stage), 2, words), 0);
+    assert_int_equal(runner_prepare(runner, stage_by_name(stage), 2, words), 0);
 }
 
 static inline void prepare_chain(struct chain *chain)
@@ -90,20 +81,6 @@ static inline void free_chain(struct chain *chain)
     runner_free(&chain->sensor);
     runner_free(&chain->noise);
     arena_free(&chain->arena);
-}
-
-/* Loads the vehicles that random scenes have. */
-static inline void load_models(struct random_traffic *scene, struct arena *arena)
-{
-    struct diag diag = {0};
-    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
-        const struct vehicle *vehicle =
-            vehicle_load(random_traffic_class_name(class), NULL, arena, &diag);
-        if (vehicle == NULL)
-            fail_msg("%s", diag.text);
-        scene->models[class] = (struct random_traffic_model){vehicle->length_m, vehicle->width_m,
-                                                             &vehicle->reflectors};
-    }
 }
 
 static inline const struct suite *load_suite(const char *name, struct arena *arena)
@@ -128,7 +105,7 @@ static inline int make_runs(size_t size, void **state)
 {
     struct runs *runs = calloc(1, size);
     assert_non_null(runs);
-    load_models(&runs->scene, &runs->documents);
+    load_traffic_models(runs->scene.models, &runs->documents);
     prepare_chain(&runs->before);
     prepare_chain(&runs->after);
     *state = runs;

@@ -10,13 +10,6 @@
 #include "geometry/motion.h"
 #include "traffic/scenario.h"
 
-/* |actual - exact|; the exact value is used up. */
-static double distance(double actual, mpfr_t exact)
-{
-    mpfr_sub_d(exact, exact, actual, MPFR_RNDN);
-    return fabs(mpfr_get_d(exact, MPFR_RNDN));
-}
-
 static double worse(double one, double other)
 {
     return isnan(other) ? one : fmax(one, other);
@@ -72,7 +65,7 @@ static double local_error_m(double local_m, int64_t um, double origin_m, mpfr_t 
     mpfr_set_sj(work, um, MPFR_RNDN);
     mpfr_div_ui(work, work, 1000000, MPFR_RNDN);
     mpfr_sub_d(work, work, origin_m, MPFR_RNDN);
-    return distance(local_m, work);
+    return error_size(local_m, work);
 }
 
 /* The exact coordinate in a frame with the heading (0.6, 0.8); the plain way turns before it
@@ -90,7 +83,7 @@ static double turned_error_m(struct utm utm, struct vec2 origin_m, mpfr_t *work)
     mpfr_sub_d(work[1], work[1], origin_m.y, MPFR_RNDN);
     mpfr_mul_d(work[1], work[1], heading.y, MPFR_RNDN);
     mpfr_add(work[0], work[0], work[1], MPFR_RNDN);
-    return distance(ahead_m, work[0]);
+    return error_size(ahead_m, work[0]);
 }
 
 /* The exact distance of two places. */
@@ -100,7 +93,7 @@ static double range_error_m(double range_m, struct utm one, struct utm other, mp
     mpfr_set_sj(work[1], one.y_um - other.y_um, MPFR_RNDN);
     mpfr_hypot(work[0], work[0], work[1], MPFR_RNDN);
     mpfr_div_ui(work[0], work[0], 1000000, MPFR_RNDN);
-    return distance(range_m, work[0]);
+    return error_size(range_m, work[0]);
 }
 
 /* Hard case 23: a table of UTM places, read as glint-traffic reads it; local places and ranges from
@@ -172,7 +165,7 @@ TEST(a_million_frames_go_straight)
         mpfr_add(exact, exact, start, MPFR_RNDN);
         double exact_m = mpfr_get_d(exact, MPFR_RNDN);
         naive = fmax(naive, fabs(sum_m - origin_m.y - exact_m));
-        ours = fmax(ours, distance(body.position_m.y, exact));
+        ours = fmax(ours, error_size(body.position_m.y, exact));
         sum_m += speed_mps * elementary_sin(yaw_rad) / rate_hz;
     }
     hard_case("24", "1e6 frames straight on", "m", naive, ours, 1e-9);
@@ -209,7 +202,6 @@ TEST(a_nearly_tangential_speed_keeps_its_sign)
         double rate_mps = kinematics_of(o, o, ahead, r, v).range_rate_mps;
         exact_rate(r, v, exact, work);
         ours = fmax(ours, error_ulp(rate_mps, exact));
-        exact_rate(r, v, exact, work);
         naive = fmax(naive, error_ulp(vec2_dot(r, v) / vec2_length(r), exact));
     }
     hard_case("35", "range rate of tangential motion", "ulp", naive, ours, 4);
@@ -229,7 +221,7 @@ TEST(ranges_are_never_differenced)
         double rate_mps = kinematics_of(o, o, ahead, r, v).range_rate_mps;
         exact_rate(r, v, exact, work);
         naive = fmax(naive, fabs((later_m - vec2_length(r)) / 1e-3 - mpfr_get_d(exact, MPFR_RNDN)));
-        ours = fmax(ours, distance(rate_mps, exact));
+        ours = fmax(ours, error_size(rate_mps, exact));
     }
     hard_case("36", "range rate without differences", "m/s", naive, ours, 30 * 4e-16);
 }
@@ -289,9 +281,9 @@ TEST(a_turning_step_needs_no_small_angle)
             double plain_m = v / w * (elementary_sin(yaw + w * t) - elementary_sin(yaw));
             naive = worse(naive, fabs(plain_m - mpfr_get_d(way, MPFR_RNDN)) / length_m);
         }
-        double x_m = distance(end.position_m.x, way) / length_m;
+        double x_m = error_size(end.position_m.x, way) / length_m;
         exact_way(yaw, true, v, a, w, t, way, m);
-        ours = fmax(ours, hypot(x_m, distance(end.position_m.y, way) / length_m));
+        ours = fmax(ours, hypot(x_m, error_size(end.position_m.y, way) / length_m));
     }
     mpfr_clear(way);
     for (int i = 0; i < WORKS; i++)
@@ -357,7 +349,7 @@ TEST(a_heading_of_any_size_points_somewhere)
         naive = fmax(naive, fabs(mpfr_get_d(work, MPFR_RNDN)));
         mpfr_mul_ui(sine, sine, 30, MPFR_RNDN);
         mpfr_mul_ui(cosine, cosine, 30, MPFR_RNDN);
-        double x_m = distance(end.position_m.x, cosine), y_m = distance(end.position_m.y, sine);
+        double x_m = error_size(end.position_m.x, cosine), y_m = error_size(end.position_m.y, sine);
         ours = fmax(ours, hypot(x_m, y_m) / 30);
     }
     mpfr_clears(yaw, sine, cosine, work, (mpfr_ptr)NULL);

@@ -48,7 +48,6 @@ TEST(every_double_comes_back)
         ours += memcmp(&back, &value, sizeof value) != 0;
         mpfr_set_d(exact, value, MPFR_RNDN);
         naive_ulp = fmax(naive_ulp, isfinite(plain) ? error_ulp(plain, exact) : 0);
-        mpfr_set_d(exact, value, MPFR_RNDN);
         ours_ulp = fmax(ours_ulp, error_ulp(back, exact));
     }
     hard_case("54", "doubles changed by text (naive: %.15g)", "wrong", naive, ours, 0);
@@ -77,11 +76,12 @@ TEST(small_and_large_numbers_keep_their_digits)
 }
 
 /* A line of a frame with one object; its words SEED, X and MORE are replaced. */
-static int read_frame(struct arena *arena, const char *seed, const char *x, const char *more,
-                      struct frame *frame, struct diag *diag)
+static int read_frame(const char *seed, const char *x, const char *more, struct frame *frame,
+                      struct diag *diag)
 {
     char line[4096];
-    *frame = (struct frame){.arena = arena};
+    arena_clear(check_arena());
+    *frame = (struct frame){.arena = check_arena()};
     *diag = (struct diag){0};
     int length = snprintf(line, sizeof line,
                           "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,"
@@ -95,18 +95,18 @@ static int read_frame(struct arena *arena, const char *seed, const char *x, cons
     return frame_text_read(line, (size_t)length, frame, diag);
 }
 
-static bool reads_x(struct arena *arena, const char *x, double *value)
+static bool reads_x(const char *x, double *value)
 {
     struct frame frame;
     struct diag diag;
-    if (read_frame(arena, "\"1\"", x, "", &frame, &diag) != 0)
+    if (read_frame("\"1\"", x, "", &frame, &diag) != 0)
         return false;
     *value = frame.objects.items[0].x_m;
     return true;
 }
 
 /* The number in a document, which jansson reads. */
-static bool document_reads_x(struct arena *arena, const char *x, double *value)
+static bool document_reads_x(const char *x, double *value)
 {
     struct text *text = check_text();
     struct scenario scenario;
@@ -115,51 +115,47 @@ static bool document_reads_x(struct arena *arena, const char *x, double *value)
                 "{\"origin\":\"t\",\"ego\":\"e\",\"rate_hz\":1,\"duration_s\":1,\"objects\":"
                 "[{\"id\":\"e\",\"class\":\"car\",\"x_m\":%s}]}",
                 x);
-    int done = document_parse("test", text, &scenario_record, &scenario, arena, &diag);
+    int done = document_parse("test", text, &scenario_record, &scenario, check_arena(), &diag);
     if (done == 0)
         *value = scenario.objects.items[0].x_m;
     return done == 0;
 }
 
-static bool parse_table(struct arena *arena, const char *bytes, size_t length,
-                        struct csv_table *table, struct diag *diag)
+static bool parse_table(const char *bytes, size_t length, struct csv_table *table,
+                        struct diag *diag)
 {
     struct text *text = check_text();
     *diag = (struct diag){0};
     text_add(text, bytes, length);
-    bool done = csv_table_parse(text, table, arena, diag) == 0;
-    return done;
+    return csv_table_parse(text, table, check_arena(), diag) == 0;
 }
 
-static bool table_reads_x(struct arena *arena, const char *x, double *value)
+static bool table_reads_x(const char *x, double *value)
 {
     char text[128];
     struct csv_table table;
     struct diag diag;
     int length = snprintf(text, sizeof text, "id,x\n1,%s\n", x);
-    return parse_table(arena, text, (size_t)length, &table, &diag) &&
+    return parse_table(text, (size_t)length, &table, &diag) &&
            csv_table_number(&table, 0, 1, -1e300, 1e300, value, &diag) == 0;
 }
 
-static bool option_reads_x(struct arena *arena, const char *x, double *value)
+static bool option_reads_x(const char *x, double *value)
 {
-    (void)arena;
     return field_read_number(x, strlen(x), value) == 0;
 }
 
-static bool (*const readers[])(struct arena *, const char *, double *) = {
-    reads_x, document_reads_x, table_reads_x, option_reads_x};
+static bool (*const readers[])(const char *, double *) = {reads_x, document_reads_x, table_reads_x,
+                                                          option_reads_x};
 
 /* How many readers do not read the text as this double, bit for bit. */
 static double count_misread(const char *text, double expected)
 {
     double wrong = 0;
     for (size_t i = 0; i < COUNT(readers); i++) {
-        struct arena arena = {0};
         double value;
-        if (!readers[i](&arena, text, &value) || memcmp(&value, &expected, sizeof value) != 0)
+        if (!readers[i](text, &value) || memcmp(&value, &expected, sizeof value) != 0)
             wrong++;
-        arena_free(&arena);
     }
     return wrong;
 }
@@ -169,10 +165,8 @@ static double count_taken(const char *text)
 {
     double wrong = 0;
     for (size_t i = 0; i < COUNT(readers); i++) {
-        struct arena arena = {0};
         double value;
-        wrong += readers[i](&arena, text, &value);
-        arena_free(&arena);
+        wrong += readers[i](text, &value);
     }
     return wrong;
 }
@@ -194,10 +188,9 @@ TEST(minus_zero_keeps_its_sign)
     double ours = strcmp(text, "-0.0") != 0;
     ours += !signbit(by_jansson(text, json_number_value));
     ours += count_misread("-0.0", -0.0) + count_misread("-0e0", -0.0);
-    struct arena *arena = check_arena();
-    ours += !reads_x(arena, "-0", &value) || !signbit(value);
-    ours += !table_reads_x(arena, "-0", &value) || !signbit(value);
-    ours += !option_reads_x(arena, "-0", &value) || !signbit(value);
+    ours += !reads_x("-0", &value) || !signbit(value);
+    ours += !table_reads_x("-0", &value) || !signbit(value);
+    ours += !option_reads_x("-0", &value) || !signbit(value);
     hard_case("56", "-0.0 through every reader (naive: jansson)", "wrong", naive, ours, 0);
 }
 
@@ -290,30 +283,23 @@ TEST(the_ends_of_the_doubles_are_exact_or_refused)
     hard_case("59", "1e309, 1e-400, subnormals (naive: strtod)", "wrong", naive, ours, 0);
 }
 
-static bool seed_comes_back(uint64_t seed)
+static bool seed_comes_back(uint64_t seed, struct text *line)
 {
-    struct arena arena = {0};
     struct frame frame;
     struct diag diag;
-    struct text *line = check_text();
     char text[32];
+    line->length = 0;
     snprintf(text, sizeof text, "\"%llu\"", (unsigned long long)seed);
-    bool same = read_frame(&arena, text, "0", "", &frame, &diag) == 0 && frame.seed == seed &&
-                frame_text_write(&frame, line, &diag) == 0 &&
-                frame_text_read(line->bytes, line->length - 1, &frame, &diag) == 0 &&
-                frame.seed == seed;
-    arena_free(&arena);
-    return same;
+    return read_frame(text, "0", "", &frame, &diag) == 0 && frame.seed == seed &&
+           frame_text_write(&frame, line, &diag) == 0 &&
+           frame_text_read(line->bytes, line->length - 1, &frame, &diag) == 0 && frame.seed == seed;
 }
 
 static bool takes_seed(const char *text)
 {
-    struct arena arena = {0};
     struct frame frame;
     struct diag diag;
-    bool taken = read_frame(&arena, text, "0", "", &frame, &diag) == 0;
-    arena_free(&arena);
-    return taken;
+    return read_frame(text, "0", "", &frame, &diag) == 0;
 }
 
 TEST(seeds_keep_all_their_bits)
@@ -325,6 +311,7 @@ TEST(seeds_keep_all_their_bits)
                                       "\"1e3\"", "\" 1\"",
                                       "null",    "1.5",
                                       "\"1 \""};
+    struct text *line = check_text();
     uint64_t random = 60;
     double naive = 0, ours = 0;
     for (size_t i = 0; i < COUNT(bad); i++)
@@ -336,19 +323,16 @@ TEST(seeds_keep_all_their_bits)
                                  : sample_word(&random);
         MPFR_DECL_INIT(number, 53);
         naive += mpfr_set_uj(number, seed, MPFR_RNDN) != 0;
-        ours += !seed_comes_back(seed);
+        ours += !seed_comes_back(seed, line);
     }
     hard_case("60", "64-bit seeds (naive: as JSON numbers)", "wrong", naive, ours, 0);
 }
 
 static bool takes_frame(const char *x, const char *more)
 {
-    struct arena arena = {0};
     struct frame frame;
     struct diag diag;
-    bool taken = read_frame(&arena, "\"1\"", x, more, &frame, &diag) == 0;
-    arena_free(&arena);
-    return taken;
+    return read_frame("\"1\"", x, more, &frame, &diag) == 0;
 }
 
 /* An object's extra member, nested so deep. */
@@ -365,13 +349,12 @@ static bool takes_depth(size_t depth)
 
 static bool takes_document(const char *bytes, size_t length)
 {
-    struct arena arena = {0};
     struct text *text = check_text();
     struct scenario scenario;
     struct diag diag = {0};
     text_add(text, bytes, length);
-    bool taken = document_parse("test", text, &scenario_record, &scenario, &arena, &diag) == 0;
-    arena_free(&arena);
+    bool taken =
+        document_parse("test", text, &scenario_record, &scenario, check_arena(), &diag) == 0;
     return taken;
 }
 
@@ -501,17 +484,15 @@ static double count_plain_csv_wrong(void)
  * cell. */
 static bool table_says(const char *bytes, const char *expected)
 {
-    struct arena arena = {0};
     struct csv_table table;
     struct diag diag;
     char said[2100];
     double value;
-    if (parse_table(&arena, bytes, strlen(bytes), &table, &diag) &&
+    if (parse_table(bytes, strlen(bytes), &table, &diag) &&
         csv_table_number(&table, table.rows - 1, table.columns - 1, -1e9, 1e9, &value, &diag) == 0)
         snprintf(said, sizeof said, "%g in row %zu", value, table.numbers[table.rows - 1]);
     else
         snprintf(said, sizeof said, "%s", diag.text);
-    arena_free(&arena);
     if (strcmp(said, expected) == 0)
         return true;
     print_error("%s\n", said);

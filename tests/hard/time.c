@@ -71,8 +71,6 @@ SCRATCH_TEST(a_million_frames_stand_at_their_times)
             mpfr_set_sj(exact, i, MPFR_RNDN);
             mpfr_div_d(exact, exact, rates_hz[r], MPFR_RNDN);
             ours = fmax(ours, error_ulp(frame.time_s, exact));
-            mpfr_set_sj(exact, i, MPFR_RNDN);
-            mpfr_div_d(exact, exact, rates_hz[r], MPFR_RNDN);
             naive = fmax(naive, error_ulp(clock_s, exact));
         }
     }

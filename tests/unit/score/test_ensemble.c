@@ -15,7 +15,6 @@ static const struct sensor_view VIEW = {.name = "front",
 
 /* One stream with one scene "s", a seed per list, and its frame. */
 struct stream {
-    struct arena arena;
     struct ensemble ensemble;
     struct frame frame;
 };
@@ -23,10 +22,10 @@ struct stream {
 static void begin(struct stream *stream, uint64_t seed)
 {
     memset(stream, 0, sizeof *stream);
-    stream->ensemble.arena = stream->frame.arena = &stream->arena;
+    stream->ensemble.arena = stream->frame.arena = check_arena();
     stream->frame.scene = "s";
     stream->frame.seed = seed;
-    *list_add(&stream->frame.sensors.list, &stream->arena) = VIEW;
+    *list_add(&stream->frame.sensors.list, check_arena()) = VIEW;
 }
 
 /* Adds the next seed's list: count targets at these ranges. */
@@ -35,7 +34,7 @@ static void add(struct stream *stream, const double *range_m, size_t count)
     stream->frame.seed++;
     stream->frame.targets.count = 0;
     for (size_t i = 0; i < count; i++)
-        *list_add(&stream->frame.targets, &stream->arena) =
+        *list_add(&stream->frame.targets, check_arena()) =
             (struct target){.sensor = "front", .range_m = range_m[i], .amplitude_db = 20};
     assert_done(ensemble_add, &stream->ensemble, &stream->frame);
 }
@@ -45,16 +44,11 @@ static struct ensemble_score compare(struct stream *truth, struct stream *listed
     struct diag diag = {0};
     struct ensemble_score score;
     int result =
-        ensemble_compare(&truth->ensemble, &listed->ensemble, 0, &truth->arena, &score, &diag);
+        ensemble_compare(&truth->ensemble, &listed->ensemble, 0, check_arena(), &score, &diag);
     if (result != 0)
         print_error("%s\n", diag.text);
     assert_int_equal(result, 0);
     return score;
-}
-
-static void end(struct stream *stream)
-{
-    arena_free(&stream->arena);
 }
 
 /* For fixed lists D is twice their distance. One target is shifted by s cells in range; the other
@@ -76,7 +70,6 @@ TEST(shifted_lists_are_at_twice_their_distance)
         }
         assert_close(score.energy, 2 * sqrt(sum), 1e-12);
         assert_close(score.scenes.items[0].energy_error, 0, 1e-12);
-        end(&truth), end(&listed);
     }
 }
 
@@ -94,7 +87,6 @@ TEST(a_target_listed_less_often_gives_the_distance_by_hand)
     assert_near(score.energy, 0.25 * sqrt(3), 1e-12);
     assert_close(score.scenes.items[0].true_targets, 0.75, 0);
     assert_close(score.scenes.items[0].listed_targets, 0.25, 0);
-    end(&truth), end(&listed);
 }
 
 static double mean_gospa(const double *truth, const double *listed, int count)
@@ -132,8 +124,6 @@ TEST(gospa_favours_lists_without_scatter_and_energy_does_not)
     struct ensemble_score stiff = compare(&streams[0], &streams[2]);
     assert_true(equal.low < 0 && equal.high > 0);
     assert_true(stiff.low > equal.high);
-    for (int i = 0; i < 3; i++)
-        end(&streams[i]);
 }
 
 /* Three seeds of two scenes: a true target at 20 m, and in each scene `count` listed ones at
@@ -162,7 +152,6 @@ TEST(the_interval_spans_the_scenes)
     assert_near(score.energy, sqrt(3), 1e-12);
     assert_close(score.low, 0, 0);
     assert_near(score.high, 2 * sqrt(3), 1e-12);
-    end(&truth), end(&listed);
 }
 
 /* A target is shifted by a cell in one scene and by two in the other: one resample in four has the
@@ -176,7 +165,6 @@ TEST(the_interval_of_two_scenes_ends_at_their_energies)
     assert_true(score.scenes.items[1].energy > score.scenes.items[0].energy);
     assert_near(score.low, score.scenes.items[0].energy, 1e-12);
     assert_near(score.high, score.scenes.items[1].energy, 1e-12);
-    end(&truth), end(&listed);
 }
 
 TEST(streams_that_do_not_match_are_refused)
@@ -191,7 +179,7 @@ TEST(streams_that_do_not_match_are_refused)
     diag = (struct diag){0};
     add(&listed, NULL, 0);
     assert_int_not_equal(
-        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, &truth.arena, &score, &diag), 0);
+        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, check_arena(), &score, &diag), 0);
     assert_non_null(strstr(diag.text, "at least 3"));
     diag = (struct diag){0};
     add(&truth, NULL, 0), add(&truth, NULL, 0);
@@ -199,13 +187,12 @@ TEST(streams_that_do_not_match_are_refused)
     listed.frame.frame = 1;
     add(&listed, NULL, 0);
     assert_int_not_equal(
-        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, &truth.arena, &score, &diag), 0);
+        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, check_arena(), &score, &diag), 0);
     assert_non_null(strstr(diag.text, "other frames"));
     diag = (struct diag){0};
     listed.frame.scene = "t";
     add(&listed, NULL, 0);
     assert_int_not_equal(
-        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, &truth.arena, &score, &diag), 0);
+        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, check_arena(), &score, &diag), 0);
     assert_non_null(strstr(diag.text, "scenes: 2"));
-    end(&truth), end(&listed);
 }
