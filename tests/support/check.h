@@ -60,6 +60,18 @@ struct check_entry {
  * struct scratch *scratch. */
 #define TEST_OF(subject, name) TEST_WITH(NULL, NULL, struct subject *subject, name)
 
+/* A test of what make, a function without parameters, returns. Its memory is that of check_arena or
+ * static. */
+#define TEST_FROM(make, subject, name)                                                             \
+    static void name(subject);                                                                     \
+    static void name##_made(void **state __attribute__((unused)))                                  \
+    {                                                                                              \
+        name(make());                                                                              \
+        check_end();                                                                               \
+    }                                                                                              \
+    CHECK_ENTRY(name##_entry, #name, name##_made, NULL, NULL);                                     \
+    static void name(subject __attribute__((unused)))
+
 /* What a setup makes: zeroed memory, which its teardown frees. */
 static inline void *check_make(void **state, size_t size)
 {

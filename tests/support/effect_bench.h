@@ -10,44 +10,35 @@
 #define EVERY_EFFECT (EFFECT_BIT(EFFECT_COUNT) - 1)
 
 struct effect_bench {
-    struct arena arena;
     struct frame frame;
     struct sensor sensor;
     struct effect_log log;
 };
 
-static inline int make_effect_bench(void **state)
+static inline struct effect_bench *make_effect_bench(void)
 {
-    struct effect_bench *bench = check_make(state, sizeof *bench);
-    struct frame *frame = &bench->frame;
-    *frame = (struct frame){.scene = "s", .ego = "ego", .seed = 1, .arena = &bench->arena};
-    *list_add(&frame->objects, &bench->arena) = (struct object){.id = "ego", .class = "car"};
-    *list_add(&frame->objects, &bench->arena) =
+    static struct effect_bench bench;
+    struct frame *frame = &bench.frame;
+    *frame = (struct frame){.scene = "s", .ego = "ego", .seed = 1, .arena = check_arena()};
+    *list_add(&frame->objects, check_arena()) = (struct object){.id = "ego", .class = "car"};
+    *list_add(&frame->objects, check_arena()) =
         (struct object){.id = "other", .class = "car", .x_m = 50};
-    *list_add(&frame->sensors.list, &bench->arena) =
+    *list_add(&frame->sensors.list, check_arena()) =
         (struct sensor_view){.name = "radar", .measured = true};
-    bench->sensor = (struct sensor){.name = "radar",
-                                    .carrier_hz = 76.5e9,
-                                    .range_min_m = 1,
-                                    .range_max_m = 200,
-                                    .field_of_view_rad = PI / 2,
-                                    .polarization = POLARIZATION_VERTICAL,
-                                    .calibration_ercs = 1,
-                                    .calibration_range_m = 10,
-                                    .exponent = 2,
-                                    .range_floor_m = 0.5,
-                                    .cell_range_m = 1,
-                                    .cell_range_rate_mps = 1};
-    suite_derive(&bench->sensor);
-    return 0;
-}
-
-static inline int remove_effect_bench(void **state)
-{
-    struct effect_bench *bench = *state;
-    arena_free(&bench->arena);
-    free(bench);
-    return 0;
+    bench.sensor = (struct sensor){.name = "radar",
+                                   .carrier_hz = 76.5e9,
+                                   .range_min_m = 1,
+                                   .range_max_m = 200,
+                                   .field_of_view_rad = PI / 2,
+                                   .polarization = POLARIZATION_VERTICAL,
+                                   .calibration_ercs = 1,
+                                   .calibration_range_m = 10,
+                                   .exponent = 2,
+                                   .range_floor_m = 0.5,
+                                   .cell_range_m = 1,
+                                   .cell_range_rate_mps = 1};
+    suite_derive(&bench.sensor);
+    return &bench;
 }
 
 static inline struct echo effect_bench_echo(double range_m)
@@ -109,7 +100,7 @@ static inline struct echo_span effect_bench_added(struct effect_bench *bench, ui
                                                   struct echo echo)
 {
     bench->frame.echoes.count = 0;
-    *list_add(&bench->frame.echoes, &bench->arena) = echo;
+    *list_add(&bench->frame.echoes, check_arena()) = echo;
     struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_SENSOR);
     return effect_added_echoes(&scan);
 }
@@ -123,5 +114,4 @@ static inline void effect_bench_draw(const struct effect_bench *bench, const str
     random_uniform(&address, purpose, index, uniform);
 }
 
-#define EFFECT_TEST(name)                                                                          \
-    TEST_WITH(make_effect_bench, remove_effect_bench, struct effect_bench *bench, name)
+#define EFFECT_TEST(name) TEST_FROM(make_effect_bench, struct effect_bench *bench, name)

@@ -1,6 +1,4 @@
-/* Scenes for tests of lib/ideal: one sensor on the ego, at the origin, and objects around it.
- *
- * make_scene and remove_scene are a cmocka setup and teardown. */
+/* Scenes for tests of lib/ideal: one sensor on the ego, at the origin, and objects around it. */
 #pragma once
 
 #include "base/units.h"
@@ -10,9 +8,9 @@
 
 /* A frame in which object "e" carries a sensor that looks over the half plane ahead. */
 struct scene {
-    struct arena arena;
     struct frame frame;
     struct sensor sensor;
+    struct selection selection;
 };
 
 static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
@@ -22,34 +20,31 @@ static const struct selection automatic = {.allowed = EFFECT_BIT(EFFECT_COUNT) -
 /* Makes the scene anew, without an object but the ego. */
 static inline void clear_scene(struct scene *scene)
 {
-    arena_clear(&scene->arena);
+    arena_clear(check_arena());
     scene->frame = (struct frame){
         .scene = "s", .ego = "e", .time_s = 10, .interval_s = 1, .sections = CARRY_ACCOUNT};
-    scene->frame.arena = &scene->arena;
-    scene->sensor = (struct sensor){
-        .name = "front", .range_max_m = 100, .field_of_view_rad = PI, .range_min_m = 0.1};
-    *list_add(&scene->frame.objects, &scene->arena) =
+    scene->frame.arena = check_arena();
+    scene->sensor = (struct sensor){.name = "front",
+                                    .carrier_hz = 77e9,
+                                    .range_min_m = 0.1,
+                                    .range_max_m = 100,
+                                    .field_of_view_rad = PI,
+                                    .bounces = 3};
+    scene->selection = everything;
+    *list_add(&scene->frame.objects, check_arena()) =
         (struct object){.id = "e", .class = "car", .length_m = 4, .width_m = 2};
 }
 
-static inline int make_scene(void **state)
+static inline struct scene *make_scene(void)
 {
-    struct scene *scene = check_make(state, sizeof *scene);
-    clear_scene(scene);
-    return 0;
-}
-
-static inline int remove_scene(void **state)
-{
-    struct scene *scene = *state;
-    arena_free(&scene->arena);
-    free(scene);
-    return 0;
+    static struct scene scene;
+    clear_scene(&scene);
+    return &scene;
 }
 
 static inline struct object *add_object(struct scene *scene, const char *id, double x_m, double y_m)
 {
-    struct object *object = list_add(&scene->frame.objects, &scene->arena);
+    struct object *object = list_add(&scene->frame.objects, check_arena());
     *object = (struct object){
         .id = id, .class = "car", .x_m = x_m, .y_m = y_m, .length_m = 4, .width_m = 2};
     return object;
@@ -57,18 +52,33 @@ static inline struct object *add_object(struct scene *scene, const char *id, dou
 
 static inline struct reflector_set *add_set(struct scene *scene, const char *object)
 {
-    struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
+    struct reflector_set *set = list_add(&scene->frame.reflectors, check_arena());
     *set = (struct reflector_set){.model = object, .blocks = true};
-    *list_add(&set->objects, &scene->arena) = object;
+    *list_add(&set->objects, check_arena()) = object;
     return set;
 }
 
-static inline struct point_reflector *add_point(struct scene *scene, struct reflector_set *set)
+static inline struct point_reflector *add_point(struct reflector_set *set)
 {
-    struct point_reflector *point = list_add(&set->points, &scene->arena);
+    struct point_reflector *point = list_add(&set->points, check_arena());
     *point = (struct point_reflector){
         .name = "pole", .full_rad = PI, .zero_rad = PI, .shape = VISIBILITY_HARD, .ercs = 0.5};
     return point;
+}
+
+/* Posts from the object's rear end to its front. */
+static inline struct post_row *add_posts(struct reflector_set *set, double spacing_m)
+{
+    struct post_row *row = list_add(&set->rows, check_arena());
+    *row = (struct post_row){.name = "post",
+                             .from_x = -0.5,
+                             .to_x = 0.5,
+                             .spacing_m = spacing_m,
+                             .full_rad = PI,
+                             .zero_rad = PI,
+                             .shape = VISIBILITY_HARD,
+                             .ercs = 0.2};
+    return row;
 }
 
 /* A measurement at time_s, with its direct echoes. */
@@ -76,7 +86,7 @@ static inline struct look look_at(struct scene *scene, double time_s)
 {
     struct look look;
     struct diag diag = {0};
-    if (look_begin(&look, &scene->frame, &scene->sensor, &everything, time_s, &diag) != 0)
+    if (look_begin(&look, &scene->frame, &scene->sensor, &scene->selection, time_s, &diag) != 0)
         fail_msg("%s", diag.text);
     direct_echoes_add(&look);
     return look;
@@ -99,7 +109,7 @@ static inline void add_random_bodies(struct scene *scene, uint64_t *random)
         struct reflector_set *set = add_set(scene, ids[i]);
         set->blocks = i % 4 != 0;
         set->raised = sample_bits(random) % 4 == 0;
-        struct point_reflector *pole = add_point(scene, set);
+        struct point_reflector *pole = add_point(set);
         pole->under_vehicles = sample_bits(random) % 4 == 0 ? 0.5 : 0;
         double reach = sample_bits(random) % 2 ? 0.5 : 1;
         pole->x = sample_between(random, -reach, reach);
@@ -108,7 +118,7 @@ static inline void add_random_bodies(struct scene *scene, uint64_t *random)
         pole->facing_rad = sample_between(random, -PI, PI);
         pole->zero_rad = sample_between(random, 0, PI);
         pole->inset_m = i % 3 == 0 ? sample_between(random, 0, 8) : 0;
-        *list_add(&set->planes, &scene->arena) =
+        *list_add(&set->planes, check_arena()) =
             (struct plane_reflector){.name = "side",
                                      .from_x = 0.5,
                                      .from_y = 0.5,
@@ -123,4 +133,4 @@ static inline void add_random_bodies(struct scene *scene, uint64_t *random)
     }
 }
 
-#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, struct scene *scene, name)
+#define SCENE_TEST(name) TEST_FROM(make_scene, struct scene *scene, name)

@@ -16,7 +16,7 @@ static void prepare(struct effect_bench *bench)
 static struct effect_measurement measure_cell(struct effect_bench *bench, uint64_t effects,
                                               double amplitude, double interference)
 {
-    struct cell *cell = arena_get(&bench->arena, sizeof *cell);
+    struct cell *cell = arena_get(check_arena(), sizeof *cell);
     *cell = (struct cell){.range_m = 10,
                           .amplitude = amplitude,
                           .interference = interference,

@@ -6,7 +6,7 @@ static const double in_band_db = 40.8748;
 
 static struct interferer *add_interferer(struct effect_bench *bench)
 {
-    struct interferer *other = list_add(&bench->frame.conditions.interferers, &bench->arena);
+    struct interferer *other = list_add(&bench->frame.conditions.interferers, check_arena());
     *other = (struct interferer){"other", 33, 7.5e12, 1};
     bench->sensor.receiver_bandwidth_hz = 1e7;
     bench->sensor.noise_figure_db = 12;

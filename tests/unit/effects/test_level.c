@@ -26,7 +26,7 @@ static struct object *drive(struct effect_bench *bench, double range_m, double a
     other->y_m = aside_m;
     other->length_m = 4.5;
     if (bench->frame.echoes.count == 0)
-        *list_add(&bench->frame.echoes, &bench->arena) = effect_bench_echo(range_m);
+        *list_add(&bench->frame.echoes, check_arena()) = effect_bench_echo(range_m);
     return other;
 }
 
@@ -52,7 +52,7 @@ EFFECT_TEST(all_echoes_of_a_body_have_its_level)
     assert_true(factor > 0 && factor != 1);
     assert_close(effect_bench_factor(bench, EFFECT_LEVEL, &corner), factor, 0);
     assert_close(effect_bench_factor(bench, EFFECT_LEVEL, &ghost), factor, 0);
-    *list_add(&bench->frame.echoes, &bench->arena) = clutter;
+    *list_add(&bench->frame.echoes, check_arena()) = clutter;
     assert_close(effect_bench_factor(bench, EFFECT_LEVEL, &clutter), 1, 0);
 }
 
@@ -139,7 +139,7 @@ EFFECT_TEST(a_late_scan_has_the_level_of_its_instant)
 EFFECT_TEST(a_class_may_have_levels_of_its_own)
 {
     drive(bench, 50, 0, 0, 0);
-    struct class_document *car = list_add(&bench->frame.vehicles, &bench->arena);
+    struct class_document *car = list_add(&bench->frame.vehicles, check_arena());
     *car = (struct class_document){.class = "car", .level = {-1, -1, -1}};
     widen(bench, 6, 0, 0);
     bench->sensor.level_keeps = LEVEL_KEEPS_MEDIAN;

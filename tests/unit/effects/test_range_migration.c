@@ -13,7 +13,7 @@ static struct echo walking_echo(struct effect_bench *bench, double range_rate_mp
 {
     struct echo echo = effect_bench_echo(100);
     echo.range_rate_mps = range_rate_mps;
-    *list_add(&bench->frame.echoes, &bench->arena) = echo;
+    *list_add(&bench->frame.echoes, check_arena()) = echo;
     return echo;
 }
 

@@ -26,7 +26,7 @@ static void prepare(struct effect_bench *bench, struct echo *echo)
     bench->sensor.mount_z_m = sensor_m;
     bench->frame.conditions.road = ROAD_CONCRETE;
     echo->height_m = reflector_m;
-    *list_add(&bench->frame.echoes, &bench->arena) = *echo;
+    *list_add(&bench->frame.echoes, check_arena()) = *echo;
 }
 
 EFFECT_TEST(a_point_rises_and_fades_by_the_interference_of_both_paths)

@@ -4,7 +4,6 @@
 
 /* A frame with one target of one echo, and the frame that was computed again, with that echo. */
 struct bench {
-    struct arena arena;
     struct frame frame, again;
     struct contributor *label;
 };
@@ -14,10 +13,10 @@ static void begin(struct bench *bench)
     *bench = (struct bench){0};
     struct echo echo = {
         .sensor = "left", .id.object = "car", .id.reflector = "corner", .range_m = 10};
-    *list_add(&bench->again.echoes, &bench->arena) = echo;
-    struct target *target = list_add(&bench->frame.targets, &bench->arena);
+    *list_add(&bench->again.echoes, check_arena()) = echo;
+    struct target *target = list_add(&bench->frame.targets, check_arena());
     *target = (struct target){.sensor = "left"};
-    bench->label = list_add(&target->contributors, &bench->arena);
+    bench->label = list_add(&target->contributors, check_arena());
     *bench->label = frame_contributor(&echo);
     bench->label->weight = 1;
 }
@@ -31,7 +30,6 @@ static void expect(struct bench *bench, struct frame *again, const char *message
     assert_int_equal(result, message[0] == '\0' ? 0 : -1);
     assert_int_equal(counts.contributors, 1);
     assert_int_equal(counts.recomputed, again != NULL);
-    arena_free(&bench->arena);
 }
 
 TEST(a_label_of_the_echo_as_it_is_passes)

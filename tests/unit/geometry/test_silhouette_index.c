@@ -16,19 +16,6 @@ struct scene {
     struct silhouette_index index;
 };
 
-static int start(void **state)
-{
-    static struct arena arena;
-    *state = &arena;
-    return 0;
-}
-
-static int stop(void **state)
-{
-    arena_free(*state);
-    return 0;
-}
-
 static struct vec2 at(double distance_m, double angle_rad)
 {
     return vec2_scale(distance_m, vec2_heading(angle_rad));
@@ -75,11 +62,11 @@ static void add_box(uint64_t *random, struct scene *scene, size_t i)
     silhouette_index_enter(&scene->index, i, silhouette_span_of(&scene->seen[i]));
 }
 
-static struct scene random_scene(uint64_t *random, struct arena *arena)
+static struct scene random_scene(uint64_t *random)
 {
     struct scene scene = {.count = 1 + sample_bits(random) % MOST};
-    arena_clear(arena);
-    scene.index = silhouette_index_begin(scene.count, arena);
+    arena_clear(check_arena());
+    scene.index = silhouette_index_begin(scene.count, check_arena());
     for (size_t i = 0; i < scene.count; i++)
         add_box(random, &scene, i);
     return scene;
@@ -96,15 +83,13 @@ static bool is_found(const struct silhouette_index *index, size_t count, size_t 
     return false;
 }
 
-FIXTURE(start, stop);
-
-TEST_OF(arena, every_body_before_a_corner_is_found_in_order)
+TEST(every_body_before_a_corner_is_found_in_order)
 {
     static const struct vec2 sensor = {0, 0};
     uint64_t random = 1;
     size_t blocked = 0;
     for (int i = 0; i < SCENES; i++) {
-        struct scene scene = random_scene(&random, arena);
+        struct scene scene = random_scene(&random);
         for (size_t behind = 0; behind < scene.count; behind += 7) {
             size_t next = 0;
             size_t count =
@@ -122,9 +107,9 @@ TEST_OF(arena, every_body_before_a_corner_is_found_in_order)
     assert_true(blocked > 100000);
 }
 
-TEST_OF(arena, a_search_in_one_direction_finds_few_bodies)
+TEST(a_search_in_one_direction_finds_few_bodies)
 {
-    struct silhouette_index index = silhouette_index_begin(MOST, arena);
+    struct silhouette_index index = silhouette_index_begin(MOST, check_arena());
     for (size_t i = 0; i < MOST; i++) {
         struct vec2 heading = vec2_heading((double)i * 2 * PI / MOST);
         struct silhouette box =
@@ -162,12 +147,12 @@ static void random_line(uint64_t *random, struct vec2 *from, struct vec2 *to)
     }
 }
 
-TEST_OF(arena, every_body_that_a_line_touches_is_found)
+TEST(every_body_that_a_line_touches_is_found)
 {
     uint64_t random = 2;
     size_t touched = 0;
     for (int i = 0; i < SCENES; i++) {
-        struct scene scene = random_scene(&random, arena);
+        struct scene scene = random_scene(&random);
         for (int line = 0; line < 20; line++) {
             struct vec2 from, to;
             random_line(&random, &from, &to);
@@ -184,9 +169,9 @@ TEST_OF(arena, every_body_that_a_line_touches_is_found)
     assert_true(touched > 100000);
 }
 
-TEST_OF(arena, everywhere_finds_all_entries_and_nothing_else)
+TEST(everywhere_finds_all_entries_and_nothing_else)
 {
-    struct silhouette_index index = silhouette_index_begin(130, arena);
+    struct silhouette_index index = silhouette_index_begin(130, check_arena());
     struct vec2 heading = {1, 0}, ahead_m = {50, 0};
     struct silhouette ahead = silhouette_at(ahead_m, (struct vec2){1, 1}, heading);
     assert_int_equal(silhouette_index_find(&index, silhouette_everywhere), 0);

@@ -14,7 +14,7 @@ static const struct lost_group *only_loss(const struct scene *scene)
 
 SCENE_TEST(the_first_blocker_by_id_is_named)
 {
-    add_point(scene, add_set(scene, "far"))->ercs = 1;
+    add_point(add_set(scene, "far"))->ercs = 1;
     add_set(scene, "y");
     add_set(scene, "x");
     add_set(scene, "w")->blocks = false;
@@ -39,8 +39,8 @@ SCENE_TEST(the_first_blocker_by_id_is_named)
 SCENE_TEST(what_sends_no_echo_is_lost_where_it_is)
 {
     struct reflector_set *set = add_set(scene, "p");
-    add_point(scene, set)->zero_rad = 1;
-    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+    add_point(set)->zero_rad = 1;
+    *list_add(&set->planes, check_arena()) = (struct plane_reflector){
         .name = "rear", .from_x = 0.5, .from_y = 0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
     add_object(scene, "p", 30, 40);
     look_at(scene, 10);
@@ -56,7 +56,7 @@ SCENE_TEST(what_sends_no_echo_is_lost_where_it_is)
 SCENE_TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing)
 {
     struct reflector_set *set = add_set(scene, "a");
-    add_point(scene, set)->x = 0.5; /* the far end */
+    add_point(set)->x = 0.5; /* the far end */
     add_object(scene, "a", 20, 0);
     scene->sensor.mount_x_m = -2; /* looks through its own car */
     look_at(scene, 10);
@@ -67,8 +67,8 @@ SCENE_TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing)
 SCENE_TEST(wheel_houses_are_seen_under_raised_vehicles_only)
 {
     struct reflector_set *set = add_set(scene, "far");
-    add_point(scene, set)->name = "corner";
-    struct point_reflector *wheel = add_point(scene, set);
+    add_point(set)->name = "corner";
+    struct point_reflector *wheel = add_point(set);
     wheel->name = "wheel";
     wheel->under_vehicles = 0.5;
     add_set(scene, "truck")->raised = true;
@@ -106,7 +106,7 @@ SCENE_TEST(every_loss_has_its_reason)
     for (size_t i = 0; i < COUNT(cases); i++) {
         clear_scene(scene);
         scene->sensor.field_of_view_rad = PI / 2;
-        struct point_reflector *point = add_point(scene, add_set(scene, "a"));
+        struct point_reflector *point = add_point(add_set(scene, "a"));
         point->facing_rad = cases[i].facing_rad;
         point->zero_rad = 1;
         add_object(scene, "a", cases[i].x_m, cases[i].y_m);
@@ -118,7 +118,7 @@ SCENE_TEST(every_loss_has_its_reason)
 SCENE_TEST(planes_mirror_from_the_foot_of_the_perpendicular)
 {
     struct reflector_set *set = add_set(scene, "a");
-    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+    *list_add(&set->planes, check_arena()) = (struct plane_reflector){
         .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
     struct object *car = add_object(scene, "a", 20, 0.9);
     look_at(scene, 10);
@@ -143,7 +143,7 @@ static double lobe_of(double off_degrees, double below_degrees)
 SCENE_TEST(a_lobe_depends_on_direction_and_height_of_the_sensor)
 {
     struct object *object = add_object(scene, "o", 10, 0);
-    struct point_reflector *point = add_point(scene, add_set(scene, "o"));
+    struct point_reflector *point = add_point(add_set(scene, "o"));
     point->z = 1;
     point->lobe = (struct lobe){60 * PI / 180, PI / 2, 40 * PI / 180, 20};
     static const double turned_degrees[] = {180, 165, 200, 0};
@@ -168,14 +168,7 @@ SCENE_TEST(posts_become_echoes_with_their_numbers)
 {
     struct reflector_set *set = add_set(scene, "rail");
     set->blocks = false;
-    *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
-                                                             .from_x = -0.5,
-                                                             .to_x = 0.5,
-                                                             .spacing_m = 4,
-                                                             .full_rad = PI,
-                                                             .zero_rad = PI,
-                                                             .shape = VISIBILITY_HARD,
-                                                             .ercs = 0.2};
+    add_posts(set, 4);
     struct object *rail = add_object(scene, "rail", 0, 5);
     rail->length_m = 400;
     struct look look = look_at(scene, 10);
@@ -229,7 +222,7 @@ SCENE_TEST(a_margin_is_the_distance_from_another_answer)
         scene->frame.sections |= CARRY_MARGINS;
         scene->sensor.field_of_view_rad = PI / 2;
         scene->sensor.range_min_m = 1;
-        struct point_reflector *pole = add_point(scene, add_set(scene, "pole"));
+        struct point_reflector *pole = add_point(add_set(scene, "pole"));
         pole->facing_rad = PI;
         pole->zero_rad = 1;
         add_object(scene, "pole", cases[i].x_m, cases[i].y_m);
@@ -267,7 +260,7 @@ SCENE_TEST(an_echo_from_under_a_truck_can_change_in_two_ways)
     for (size_t i = 0; i < COUNT(cases); i++) {
         clear_scene(scene);
         scene->frame.sections |= CARRY_MARGINS;
-        add_point(scene, add_set(scene, "pole"))->under_vehicles = 0.5;
+        add_point(add_set(scene, "pole"))->under_vehicles = 0.5;
         add_set(scene, "truck")->raised = true;
         add_set(scene, "wall");
         add_object(scene, "pole", 50, 0);
@@ -282,7 +275,7 @@ SCENE_TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end)
 {
     scene->frame.sections |= CARRY_MARGINS;
     struct reflector_set *set = add_set(scene, "a");
-    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+    *list_add(&set->planes, check_arena()) = (struct plane_reflector){
         .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
     struct object *car = add_object(scene, "a", 20, 0.75);
     look_at(scene, 10);
@@ -296,8 +289,8 @@ SCENE_TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end)
 
 SCENE_TEST(without_margins_no_entry_has_any)
 {
-    add_point(scene, add_set(scene, "a"));
-    add_point(scene, add_set(scene, "b"))->zero_rad = 1;
+    add_point(add_set(scene, "a"));
+    add_point(add_set(scene, "b"))->zero_rad = 1;
     add_object(scene, "a", 20, 0);
     add_object(scene, "b", 0, 20);
     look_at(scene, 10);

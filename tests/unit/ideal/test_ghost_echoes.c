@@ -1,77 +1,24 @@
-#include "check.h"
+#include "support/look_scene.h"
 
 #include "base/sort.h"
-#include "base/units.h"
 #include "frame/frame_order.h"
 #include "geometry/obstruction.h"
-#include "ideal/direct_echoes.h"
 #include "ideal/ghost_echoes.h"
 #include "propagation/reflection.h"
-#include "sample.h"
 
-#define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
-
-/* A scene with a sensor at the origin that looks along +x over a half plane. */
-struct scene {
-    struct arena arena;
-    struct frame frame;
-    struct sensor sensor;
-    struct selection selection;
-};
-
-static void clear_scene(struct scene *scene)
+static struct object *add_box(struct scene *scene, const char *id, double x_m, double y_m,
+                              double length_m, double width_m)
 {
-    arena_clear(&scene->arena);
-    scene->frame =
-        (struct frame){.scene = "s", .ego = "e", .time_s = 10, .sections = CARRY_ACCOUNT};
-    scene->frame.arena = &scene->arena;
-    scene->sensor = (struct sensor){.name = "front",
-                                    .carrier_hz = 77e9,
-                                    .range_min_m = 0.1,
-                                    .range_max_m = 100,
-                                    .field_of_view_rad = PI,
-                                    .bounces = 3};
-    scene->selection = (struct selection){.allowed = EVERYTHING};
-    *list_add(&scene->frame.objects, &scene->arena) =
-        (struct object){.id = "e", .class = "car", .length_m = 4, .width_m = 2};
-}
-
-static int make_scene(void **state)
-{
-    struct scene *scene = check_make(state, sizeof *scene);
-    clear_scene(scene);
-    return 0;
-}
-
-static int remove_scene(void **state)
-{
-    struct scene *scene = *state;
-    arena_free(&scene->arena);
-    free(scene);
-    return 0;
-}
-
-static struct object *add_object(struct scene *scene, const char *id, double x_m, double y_m,
-                                 double length_m, double width_m)
-{
-    struct object *object = list_add(&scene->frame.objects, &scene->arena);
-    *object = (struct object){
-        .id = id, .class = id, .x_m = x_m, .y_m = y_m, .length_m = length_m, .width_m = width_m};
+    struct object *object = add_object(scene, id, x_m, y_m);
+    object->length_m = length_m;
+    object->width_m = width_m;
     return object;
 }
 
-static struct reflector_set *add_set(struct scene *scene, const char *object, bool blocks)
-{
-    struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
-    *set = (struct reflector_set){.model = object, .blocks = blocks};
-    *list_add(&set->objects, &scene->arena) = object;
-    return set;
-}
-
 /* Adds a mirror on the right side of an object: of one that heads along +x it faces -y. */
-static void add_right_mirror(struct scene *scene, struct reflector_set *set, double reflection)
+static void add_right_mirror(struct reflector_set *set, double reflection)
 {
-    *list_add(&set->mirrors, &scene->arena) = (struct mirror_plane){
+    *list_add(&set->mirrors, check_arena()) = (struct mirror_plane){
         .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .reflection = reflection};
 }
 
@@ -79,23 +26,22 @@ static struct object *add_wall(struct scene *scene, const char *id, double from_
                                double y_m)
 {
     struct object *wall =
-        add_object(scene, id, (from_x_m + to_x_m) / 2, y_m + 0.25, to_x_m - from_x_m, 0.5);
-    add_right_mirror(scene, add_set(scene, id, true), 0.9);
+        add_box(scene, id, (from_x_m + to_x_m) / 2, y_m + 0.25, to_x_m - from_x_m, 0.5);
+    add_right_mirror(add_set(scene, id), 0.9);
     return wall;
 }
 
-static struct point_reflector *add_point(struct scene *scene, struct reflector_set *set)
+static struct point_reflector *add_pole(struct reflector_set *set)
 {
-    struct point_reflector *point = list_add(&set->points, &scene->arena);
-    *point = (struct point_reflector){
-        .name = "pole", .full_rad = PI, .zero_rad = PI, .shape = VISIBILITY_HARD, .ercs = 1};
-    return point;
+    struct point_reflector *pole = add_point(set);
+    pole->ercs = 1;
+    return pole;
 }
 
 static void add_standard_pole(struct scene *scene)
 {
-    add_object(scene, "o", 30, -2, 0.2, 0.2)->vx_mps = -5;
-    add_point(scene, add_set(scene, "o", true));
+    add_box(scene, "o", 30, -2, 0.2, 0.2)->vx_mps = -5;
+    add_pole(add_set(scene, "o"));
 }
 
 static struct look ghosts_at(struct scene *scene, double time_s)
@@ -108,7 +54,7 @@ static struct look ghosts_at(struct scene *scene, double time_s)
     if (look_begin(&look, frame, &scene->sensor, &scene->selection, time_s, &diag) != 0)
         fail_msg("%s", diag.text);
     ghost_echoes_add(&look);
-    sort_list(&frame->echoes, frame_order_echoes, &scene->arena);
+    sort_list(&frame->echoes, frame_order_echoes, check_arena());
     return look;
 }
 
@@ -132,8 +78,6 @@ static int paths_of(struct scene *scene)
         paths |= 1 << scene->frame.echoes.items[i].id.path;
     return paths;
 }
-
-#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, struct scene *scene, name)
 
 /* The case to check against of MODEL 14.1. */
 SCENE_TEST(a_pole_before_a_wall_has_the_ghosts_of_the_model)
@@ -199,15 +143,15 @@ SCENE_TEST(every_leg_must_be_free)
         clear_scene(scene);
         add_standard_pole(scene);
         add_wall(scene, "w", -10, 50, 4);
-        add_object(scene, "b", cases[i].x_m, cases[i].y_m, 0.4, 0.4);
-        add_set(scene, "b", true);
+        add_box(scene, "b", cases[i].x_m, cases[i].y_m, 0.4, 0.4);
+        add_set(scene, "b");
         if (paths_of(scene) != cases[i].paths)
             fail_msg("a blocker at (%g, %g) leaves %x", cases[i].x_m, cases[i].y_m,
                      paths_of(scene));
         scene->selection.allowed &= ~EFFECT_BIT(EFFECT_OCCLUSION);
         assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
         scene->frame.reflectors.items[2].blocks = false;
-        scene->selection.allowed = EVERYTHING;
+        scene->selection.allowed = everything.allowed;
         assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     }
 }
@@ -216,9 +160,9 @@ SCENE_TEST(every_leg_must_be_free)
 SCENE_TEST(an_object_hides_its_own_bounce_but_not_its_reflectors)
 {
     add_wall(scene, "w", -10, 50, 4);
-    struct object *box = add_object(scene, "o", 10, 0, 4, 4);
-    struct reflector_set *set = add_set(scene, "o", true);
-    struct point_reflector *point = add_point(scene, set);
+    struct object *box = add_box(scene, "o", 10, 0, 4, 4);
+    struct reflector_set *set = add_set(scene, "o");
+    struct point_reflector *point = add_pole(set);
     point->x = point->y = 0.5;
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     /* From here the leg to the bounce touches the box's near corner. A smaller box clears it. */
@@ -236,7 +180,7 @@ SCENE_TEST(an_object_hides_its_own_bounce_but_not_its_reflectors)
 SCENE_TEST(no_body_mirrors_itself_and_every_mirror_has_its_ghosts)
 {
     add_standard_pole(scene);
-    add_right_mirror(scene, &scene->frame.reflectors.items[0], 0.9);
+    add_right_mirror(&scene->frame.reflectors.items[0], 0.9);
     assert_int_equal(paths_of(scene), 0);
     add_wall(scene, "w", -10, 50, 4);
     add_wall(scene, "x", -10, 50, 4.6);
@@ -247,7 +191,7 @@ SCENE_TEST(no_body_mirrors_itself_and_every_mirror_has_its_ghosts)
     ghosts_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 6);
     /* Two mirrors of one body differ by their numbers. */
-    add_right_mirror(scene, inner, 0.3);
+    add_right_mirror(inner, 0.3);
     ghosts_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 9);
     assert_string_equal(scene->frame.echoes.items[0].id.mirror, "w");
@@ -263,8 +207,10 @@ SCENE_TEST(two_walls_in_line_are_one)
         clear_scene(scene);
         add_standard_pole(scene);
         add_wall(scene, "v", -12, 12, 4);
-        add_object(scene, "va", 12, 4.25, 0, 0.5);
-        add_right_mirror(scene, add_set(scene, "va", false), 0.9); /* without length */
+        add_box(scene, "va", 12, 4.25, 0, 0.5);
+        struct reflector_set *bare = add_set(scene, "va"); /* without length */
+        bare->blocks = false;
+        add_right_mirror(bare, 0.9);
         add_wall(scene, "w", 12, 36, 4);
         /* As the pole moves, its bounce crosses the joint. */
         scene->frame.objects.items[1].x_m = 30 + (double)step * 0x1p-48;
@@ -337,11 +283,8 @@ SCENE_TEST(limits_hold_for_the_ghost_and_its_last_leg)
             fail_msg("case %zu has the paths %x", i, paths_of(scene));
     }
     /* The antenna has no pattern behind the sensor. */
-    scene->sensor = (struct sensor){.name = "front",
-                                    .carrier_hz = 77e9,
-                                    .range_max_m = 100,
-                                    .field_of_view_rad = PI,
-                                    .bounces = 3};
+    scene->sensor.range_min_m = 0;
+    scene->sensor.field_of_view_rad = PI;
     scene->sensor.mount_yaw_rad = 100 * DEGREE;
     assert_int_equal(paths_of(scene), BOTH);
 }
@@ -351,9 +294,9 @@ SCENE_TEST(planes_have_a_ghost_at_the_foot_of_the_sensors_image)
     add_wall(scene, "w", -10, 50, 4);
     /* The image of the sensor is (0, 8). A side at (12, -8) that is turned to face it has its foot
      * there; a side that faces -x has none. */
-    struct object *box = add_object(scene, "o", 0, 0, 2, 2);
-    struct reflector_set *set = add_set(scene, "o", true);
-    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+    struct object *box = add_box(scene, "o", 0, 0, 2, 2);
+    struct reflector_set *set = add_set(scene, "o");
+    *list_add(&set->planes, check_arena()) = (struct plane_reflector){
         .name = "front", .from_x = 0.5, .from_y = -0.5, .to_x = 0.5, .to_y = 0.5, .ercs = 0.7};
     double turn_rad = atan2(16, -12);
     box->yaw_rad = turn_rad;
@@ -383,7 +326,7 @@ SCENE_TEST(planes_have_a_ghost_at_the_foot_of_the_sensors_image)
     assert_close(ghost->range_m, hypot(20, 2.5), 1e-12);
     scene->selection.allowed &= ~EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     assert_int_equal(paths_of(scene), 0);
-    scene->selection.allowed = EVERYTHING;
+    scene->selection.allowed = everything.allowed;
     scene->sensor.bounces = 2;
     assert_int_equal(paths_of(scene), 0);
     scene->sensor.bounces = 3;
@@ -399,7 +342,6 @@ SCENE_TEST(a_material_mirrors_by_angle_and_polarization)
     for (int upright = 0; upright < 2; upright++)
         for (enum material material = MATERIAL_CONCRETE; material <= MATERIAL_METAL; material++) {
             clear_scene(scene);
-            scene->sensor.carrier_hz = 77e9;
             scene->sensor.polarization =
                 upright == 1 ? POLARIZATION_VERTICAL : POLARIZATION_HORIZONTAL;
             add_standard_pole(scene);
@@ -438,16 +380,10 @@ SCENE_TEST(a_curved_mirror_spreads_the_wave_at_every_bounce)
 SCENE_TEST(posts_have_ghosts_by_their_names)
 {
     add_wall(scene, "w", -10, 50, 4);
-    add_object(scene, "r", 20, -3, 40, 0.2);
-    struct reflector_set *rail = add_set(scene, "r", false);
-    *list_add(&rail->rows, &scene->arena) = (struct post_row){.name = "post",
-                                                              .from_x = -0.5,
-                                                              .to_x = 0.5,
-                                                              .spacing_m = 10,
-                                                              .full_rad = PI,
-                                                              .zero_rad = PI,
-                                                              .shape = VISIBILITY_HARD,
-                                                              .ercs = 0.2};
+    add_box(scene, "r", 20, -3, 40, 0.2);
+    struct reflector_set *rail = add_set(scene, "r");
+    rail->blocks = false;
+    add_posts(rail, 10);
     scene->sensor.range_max_m = 30;
     ghosts_at(scene, 10);
     /* There are posts at x = 0, 10, 20 and 30. The last one is 30.15 m away and so out of range;
@@ -502,31 +438,28 @@ SCENE_TEST(rates_are_derivatives_of_ranges)
 }
 
 /* Boxes with poles at their corners and mirrors on their sides. */
-static void add_random_bodies(struct scene *scene, uint64_t *sample)
+static void add_mirroring_bodies(struct scene *scene, uint64_t *sample)
 {
     static const char *const ids[] = {"a", "b", "c", "d", "f", "g"};
     for (size_t i = 0; i < COUNT(ids); i++) {
-        struct object *box = add_object(
-            scene, ids[i], sample_between(sample, -10, 60), sample_between(sample, -15, 15),
-            sample_between(sample, 0.5, 20), sample_between(sample, 0.2, 3));
+        struct object *box =
+            add_box(scene, ids[i], sample_between(sample, -10, 60), sample_between(sample, -15, 15),
+                    sample_between(sample, 0.5, 20), sample_between(sample, 0.2, 3));
         box->yaw_rad = sample_between(sample, -4, 4);
-        struct reflector_set *set = add_set(scene, ids[i], i % 3 != 0);
-        struct point_reflector *point = add_point(scene, set);
+        struct reflector_set *set = add_set(scene, ids[i]);
+        set->blocks = i % 3 != 0;
+        struct point_reflector *point = add_pole(set);
         point->x = 0.5;
         point->y = 0.5;
-        add_right_mirror(scene, set, 0.5);
-        *list_add(&set->mirrors, &scene->arena) = (struct mirror_plane){
+        add_right_mirror(set, 0.5);
+        *list_add(&set->mirrors, check_arena()) = (struct mirror_plane){
             .from_x = 0.5, .from_y = 0.5, .to_x = -0.5, .to_y = 0.5, .reflection = 0.5};
-        *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        *list_add(&set->planes, check_arena()) = (struct plane_reflector){
             .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 1};
-        *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
-                                                                 .from_x = -0.9,
-                                                                 .to_x = 0.9,
-                                                                 .spacing_m = 4,
-                                                                 .full_rad = PI,
-                                                                 .zero_rad = PI,
-                                                                 .shape = VISIBILITY_HARD,
-                                                                 .ercs = 1};
+        struct post_row *row = add_posts(set, 4);
+        row->from_x = -0.9;
+        row->to_x = 0.9;
+        row->ercs = 1;
     }
 }
 
@@ -550,12 +483,12 @@ SCENE_TEST(auto_leaves_out_no_ghost)
     struct effect_log log = {0};
     for (int round = 0; round < 500; round++) {
         clear_scene(scene);
-        add_random_bodies(scene, &sample);
+        add_mirroring_bodies(scene, &sample);
         if (round % 2 == 1)
             limit_sensor(scene, &sample);
         ghosts_at(scene, 10);
         size_t count = scene->frame.echoes.count;
-        struct echo *all = arena_get(&scene->arena, (count + 1) * sizeof *all);
+        struct echo *all = arena_get(check_arena(), (count + 1) * sizeof *all);
         if (count > 0)
             memcpy(all, scene->frame.echoes.items, count * sizeof *all);
         scene->selection.automatic = true;
@@ -613,8 +546,8 @@ SCENE_TEST(auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view)
     struct effect_log log = {0};
     for (size_t i = 0; i < COUNT(cases); i++) {
         clear_scene(scene);
-        add_object(scene, "o", cases[i].x_m, cases[i].y_m, 0.2, 0.2);
-        add_point(scene, add_set(scene, "o", true));
+        add_box(scene, "o", cases[i].x_m, cases[i].y_m, 0.2, 0.2);
+        add_pole(add_set(scene, "o"));
         add_wall(scene, "w", cases[i].bounce_x_m - 1, cases[i].bounce_x_m + 1, cases[i].wall_y_m);
         scene->sensor.range_max_m = cases[i].range_m;
         scene->sensor.field_of_view_rad = 2 * cases[i].half_view_deg * DEGREE;
@@ -650,8 +583,8 @@ SCENE_TEST(margins_tell_how_near_a_ghost_is_to_vanishing)
         scene->frame.sections |= CARRY_MARGINS;
         add_standard_pole(scene);
         add_wall(scene, "w", -10, cases[i].end_x_m, 4);
-        add_object(scene, "b", cases[i].x_m, cases[i].y_m, 0, 0);
-        add_set(scene, "b", true);
+        add_box(scene, "b", cases[i].x_m, cases[i].y_m, 0, 0);
+        add_set(scene, "b");
         assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
         double one_way_m = ghost_of(scene, PATH_OBJECT_WALL)->margins.sight_m;
         assert_close(one_way_m, cases[i].one_way_m, 1e-12);
@@ -728,8 +661,8 @@ SCENE_TEST(heights_count_on_every_leg)
     wall->height_m = 0;
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     /* A low box hides nothing: the direct leg is at 2 m half way, the leg to the wall at 1.1 m. */
-    struct object *box = add_object(scene, "b", 15, -1, 0.4, 0.4);
-    add_set(scene, "b", true);
+    struct object *box = add_box(scene, "b", 15, -1, 0.4, 0.4);
+    add_set(scene, "b");
     box->height_m = 1.9;
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     box->height_m = 2.1;
@@ -759,12 +692,11 @@ SCENE_TEST(soft_shadows_count_once_for_every_leg)
         double ercs[2][2];
         for (int soft = 0; soft < 2; soft++) {
             clear_scene(scene);
-            scene->sensor.carrier_hz = 77e9;
             scene->sensor.diffraction = soft == 1;
             add_standard_pole(scene);
             add_wall(scene, "w", -10, 50, 4);
-            add_object(scene, "b", cases[i].x_m, cases[i].y_m, 0.3, 0.3);
-            add_set(scene, "b", soft == 1);
+            add_box(scene, "b", cases[i].x_m, cases[i].y_m, 0.3, 0.3);
+            add_set(scene, "b")->blocks = soft == 1;
             assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
             ercs[soft][0] = ghost_of(scene, PATH_OBJECT_WALL)->ercs;
             ercs[soft][1] = ghost_of(scene, PATH_WALL_OBJECT_WALL)->ercs;

@@ -7,8 +7,8 @@
 static void add_two_walls(struct scene *scene)
 {
     struct reflector_set *set = add_set(scene, "a");
-    *list_add(&set->objects, &scene->arena) = "b";
-    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+    *list_add(&set->objects, check_arena()) = "b";
+    *list_add(&set->planes, check_arena()) = (struct plane_reflector){
         .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
     add_object(scene, "a", 8, 21);
     add_object(scene, "b", 12, 21);
@@ -46,9 +46,9 @@ SCENE_TEST(the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farther
 SCENE_TEST(a_body_hides_nothing_of_a_wall_that_it_joins)
 {
     struct reflector_set *wall = add_set(scene, "wall"), *front = add_set(scene, "front");
-    *list_add(&wall->planes, &scene->arena) = (struct plane_reflector){
+    *list_add(&wall->planes, check_arena()) = (struct plane_reflector){
         .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
-    *list_add(&front->planes, &scene->arena) = (struct plane_reflector){
+    *list_add(&front->planes, check_arena()) = (struct plane_reflector){
         .name = "out", .from_x = 0.25, .from_y = 4 / 6.0, .to_x = 0.75, .to_y = 4 / 6.0, .ercs = 1};
     struct object *object = add_object(scene, "wall", 0, 10.5);
     object->length_m = 2;

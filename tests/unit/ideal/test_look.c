@@ -13,7 +13,7 @@ SCENE_TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego)
     scene->sensor.mount_x_m = 2;
     scene->sensor.mount_y_m = -1;
     scene->sensor.mount_yaw_rad = -PI / 2;
-    add_point(scene, add_set(scene, "a"));
+    add_point(add_set(scene, "a"));
     add_object(scene, "a", 111, 52);
     struct look look = look_at(scene, 10);
     /* Facing north: 2 m ahead is +y, 1 m to the right is +x; ω × (1, 2) = 0.5 (-2, 1). */
@@ -35,8 +35,8 @@ SCENE_TEST(a_late_measurement_shows_where_everything_was)
 {
     struct object *ego = scene->frame.objects.items;
     ego->vx_mps = 20;
-    add_point(scene, add_set(scene, "a"));
-    add_point(scene, add_set(scene, "b"))->x = 0.5;
+    add_point(add_set(scene, "a"));
+    add_point(add_set(scene, "b"))->x = 0.5;
     struct object *straight = add_object(scene, "a", 30, 0);
     straight->vx_mps = -5;
     /* On a circle about (40, 0) with radius 10: a quarter turn earlier it was at its bottom. */
@@ -78,7 +78,7 @@ SCENE_TEST(bodies_that_block_alike_stand_for_each_other)
     for (size_t i = 0; i < 10; i++)
         add_object(scene, ids[i], 30, 0);
     for (size_t i = 1; i < 9; i++)
-        *list_add(&set->objects, &scene->arena) = ids[i];
+        *list_add(&set->objects, check_arena()) = ids[i];
     scene->frame.objects.items[9].height_m = 9;
     add_set(scene, "other");
     struct look look = look_at(scene, 10);

@@ -35,7 +35,7 @@ static void add_roadside(struct scene *scene)
          .spread_db = 9},
     };
     for (size_t i = 0; i < COUNT(strips); i++)
-        *list_add(&scene->frame.roadside, &scene->arena) = strips[i];
+        *list_add(&scene->frame.roadside, check_arena()) = strips[i];
     scene->sensor.carrier_hz = 77e9;
     scene->sensor.threshold_db = 6;
     scene->sensor.calibration_ercs = 0.2;
@@ -55,7 +55,7 @@ static struct echo_span see_as(struct scene *scene, const struct selection *sele
         fail_msg("%s", diag.text);
     roadside_echoes_add(look);
     size_t count = scene->frame.echoes.count - before;
-    struct echo *copy = arena_get(&scene->arena, (count + 1) * sizeof *copy);
+    struct echo *copy = arena_get(check_arena(), (count + 1) * sizeof *copy);
     for (size_t i = 0; i < count; i++)
         copy[i] = scene->frame.echoes.items[before + i];
     return (struct echo_span){copy, count};
@@ -150,7 +150,7 @@ SCENE_TEST(a_strip_out_of_sight_changes_no_echo_of_another_strip)
     struct roadside_strip first = scene->frame.roadside.items[0], far = first;
     far.id = "far";
     far.from_y_m = far.to_y_m = 3000;
-    *list_add(&scene->frame.roadside, &scene->arena) = first;
+    *list_add(&scene->frame.roadside, check_arena()) = first;
     scene->frame.roadside.items[0] = far;
     struct echo_span beside = see_as(scene, &automatic, &look);
     assert_int_equal(alone.count, beside.count);

@@ -9,53 +9,54 @@ static struct contributor parts[] = {
     {.id = {.object = "b", .reflector = "r"}},
 };
 
+struct detection {
+    struct cell cell;
+    struct effect_measurement measurement;
+    struct detection_source source;
+    size_t first_part, part_count; /* of its label */
+};
+
 /* A detection of amplitude 40 at 20 m, 30 degrees to the left, over noise of 1. */
-static struct effect_measurement measurement_of(struct effect_bench *bench, const struct cell *cell)
+static struct detection detect(struct effect_bench *bench)
 {
     bench->sensor.pointer_sigma = 1;
     bench->sensor.prior = (struct suite_prior){.echoes = 10, .snr_db = 20};
-    return (struct effect_measurement){
-        .cell = cell, .range_m = 20, .azimuth_rad = PI / 6, .range_rate_mps = -4, .amplitude = 40};
+    return (struct detection){.measurement = {.range_m = 20,
+                                              .azimuth_rad = PI / 6,
+                                              .range_rate_mps = -4,
+                                              .amplitude = 40},
+                              .part_count = 1};
 }
 
-static struct target target_of(const struct effect_measurement *measurement, size_t begin,
-                               size_t count)
+static struct quality quality_of(struct effect_bench *bench, struct detection *detection)
 {
+    struct effect_measurement *measurement = &detection->measurement;
     struct target target = {.sensor = "radar",
                             .range_m = measurement->range_m,
                             .azimuth_rad = measurement->azimuth_rad,
                             .range_rate_mps = measurement->range_rate_mps};
-    target.contributors.items = parts + begin;
-    target.contributors.count = count;
-    return target;
-}
-
-static struct quality quality_of(struct effect_bench *bench, const struct detection_source *source,
-                                 const struct effect_measurement *measurement,
-                                 const struct target *target)
-{
+    target.contributors.items = parts + detection->first_part;
+    target.contributors.count = detection->part_count;
+    measurement->cell = &detection->cell;
     struct detection_source whole = detection_quality_source(
-        &bench->sensor, (struct cell_span){measurement->cell, 1}, source->scan);
-    whole.range_rate_interval_mps = source->range_rate_interval_mps;
-    return detection_quality_of(&whole, measurement, target, &bench->frame);
+        &bench->sensor, (struct cell_span){&detection->cell, 1}, detection->source.scan);
+    whole.range_rate_interval_mps = detection->source.range_rate_interval_mps;
+    return detection_quality_of(&whole, measurement, &target, &bench->frame);
 }
 
 /* The bench's amplitude is ERCS A_phi (10 m/R)^2, so 40 at 20 m is that of an ERCS of 160/A_phi.
  * At 30 degrees u is pi/4 and A_phi is si(u) cos 30 cos u, 0.551329 (MODEL 7.1). */
 EFFECT_TEST(strength_is_over_noise_and_over_a_reflector_of_ten_square_metres)
 {
-    struct cell cell = {0};
-    struct effect_measurement measurement = measurement_of(bench, &cell);
-    struct target target = target_of(&measurement, 0, 1);
-    struct detection_source source = {0};
-    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    struct detection detection = detect(bench);
+    struct quality quality = quality_of(bench, &detection);
     assert_close(quality.snr_db, 32.0412, 6e-4);
     assert_close(quality.rcs_dbsm, 10 + 20 * log10(160 / 0.5513288954), 6e-4);
-    cell.interference = 9;
-    quality = quality_of(bench, &source, &measurement, &target);
+    detection.cell.interference = 9;
+    quality = quality_of(bench, &detection);
     assert_close(quality.snr_db, 22.0412, 6e-4);
     bench->sensor.pointer_sigma = 0;
-    quality = quality_of(bench, &source, &measurement, &target);
+    quality = quality_of(bench, &detection);
     assert_int_equal(quality.present & QUALITY_NOISE, 0);
 }
 
@@ -73,11 +74,8 @@ EFFECT_TEST(places_are_in_four_frames_and_the_rate_is_less_the_sensors_own)
                                                     .length_m = 9};
     bench->frame.sensors.list.items[0] = (struct sensor_view){
         .name = "radar", .mount_x_m = 2, .mount_y_m = 1, .mount_yaw_rad = PI / 6, .measured = true};
-    struct cell cell = {0};
-    struct effect_measurement measurement = measurement_of(bench, &cell);
-    struct target target = target_of(&measurement, 0, 1);
-    struct detection_source source = {0};
-    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    struct detection detection = detect(bench);
+    struct quality quality = quality_of(bench, &detection);
     double root = sqrt(3);
     assert_close(quality.x_sensor_m, 10 * root, 5.1e-5);
     assert_close(quality.y_sensor_m, 10, 5.1e-5);
@@ -89,9 +87,9 @@ EFFECT_TEST(places_are_in_four_frames_and_the_rate_is_less_the_sensors_own)
     assert_close(quality.y_world_m, 50 + 12, 5.1e-5);
     /* The mount moves forward at 20 - 0.1 and to the left at 0.2 m/s. */
     assert_close(quality.range_rate_over_ground_mps, -4 + 19.9 / 2 + 0.2 * root / 2, 5.1e-5);
-    *list_add(&bench->frame.vehicles, &bench->arena) =
+    *list_add(&bench->frame.vehicles, check_arena()) =
         (struct class_document){.class = "car", .rear_axle_x_m = -1.5};
-    quality = quality_of(bench, &source, &measurement, &target);
+    quality = quality_of(bench, &detection);
     assert_close(quality.x_rear_axle_m, 13.5, 5.1e-5);
 }
 
@@ -101,11 +99,8 @@ EFFECT_TEST(places_are_those_of_the_instant_that_the_scan_shows)
     bench->frame.objects.items[0] =
         (struct object){.id = "ego", .class = "car", .yaw_rad = PI / 2, .vy_mps = 20};
     bench->frame.sensors.list.items[0].age_s = 0.5;
-    struct cell cell = {0};
-    struct effect_measurement measurement = measurement_of(bench, &cell);
-    struct target target = target_of(&measurement, 0, 1);
-    struct detection_source source = {0};
-    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    struct detection detection = detect(bench);
+    struct quality quality = quality_of(bench, &detection);
     assert_close(quality.x_world_m, -10, 5.1e-5);
     assert_close(quality.y_world_m, -10 + 10 * sqrt(3), 5.1e-5);
 }
@@ -113,22 +108,21 @@ EFFECT_TEST(places_are_those_of_the_instant_that_the_scan_shows)
 /* -60 m/s that reads -4 is off by -56 m/s, two intervals of 28; the strongest part decides. */
 EFFECT_TEST(the_label_tells_folds_and_merged_echoes)
 {
-    struct cell cell = {0};
-    struct effect_measurement measurement = measurement_of(bench, &cell);
-    struct detection_source source = {.range_rate_interval_mps = 28};
-    struct target target = target_of(&measurement, 0, 2);
-    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    struct detection detection = detect(bench);
+    detection.source.range_rate_interval_mps = 28;
+    detection.part_count = 2;
+    struct quality quality = quality_of(bench, &detection);
     assert_int_equal(quality.ambiguity_number, -2);
     assert_close(quality.range_rate_interval_mps, 28, 0);
     assert_true(!quality.merged_objects && !quality.merged_reflectors);
-    target = target_of(&measurement, 1, 2);
-    quality = quality_of(bench, &source, &measurement, &target);
+    detection.first_part = 1;
+    quality = quality_of(bench, &detection);
     assert_true(!quality.merged_objects && quality.merged_reflectors);
-    target = target_of(&measurement, 1, 3);
-    quality = quality_of(bench, &source, &measurement, &target);
+    detection.part_count = 3;
+    quality = quality_of(bench, &detection);
     assert_true(quality.merged_objects && quality.merged_reflectors);
-    source.range_rate_interval_mps = 0;
-    quality = quality_of(bench, &source, &measurement, &target);
+    detection.source.range_rate_interval_mps = 0;
+    quality = quality_of(bench, &detection);
     assert_int_equal(quality.present & QUALITY_FOLDS, 0);
 }
 
@@ -136,8 +130,9 @@ static struct effect_measurement estimated(struct effect_bench *bench,
                                            struct detection_source *source, double amplitude,
                                            uint64_t effects)
 {
-    struct cell cell = {0};
-    struct effect_measurement measurement = measurement_of(bench, &cell);
+    struct detection detection = detect(bench);
+    struct effect_measurement measurement = detection.measurement;
+    measurement.cell = &detection.cell;
     measurement.amplitude = amplitude;
     struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_NOISE);
     *source = (struct detection_source){
@@ -176,8 +171,9 @@ EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured)
 /* A real delta/sum of 0.1 is 0.1 · 100/sqrt(1.01/2) standard deviations from that of one echo. */
 EFFECT_TEST(an_azimuth_of_several_echoes_has_a_wider_deviation)
 {
-    struct cell cell = {0};
-    struct effect_measurement alone = measurement_of(bench, &cell), several;
+    struct detection detection = detect(bench);
+    struct effect_measurement alone = detection.measurement, several;
+    alone.cell = &detection.cell;
     alone.amplitude = 100;
     alone.pointers.sum = 100;
     several = alone;
@@ -230,15 +226,13 @@ EFFECT_TEST(rounding_adds_its_own_deviation)
 {
     struct sensor *sensor = &bench->sensor;
     sensor->range_step_m = 0.2;
-    struct cell cell = {0};
-    struct effect_measurement measurement = measurement_of(bench, &cell);
-    measurement.range_sigma_m = 0.1;
-    struct target target = target_of(&measurement, 0, 1);
+    struct detection detection = detect(bench);
+    detection.measurement.range_sigma_m = 0.1;
     struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
-    struct detection_source source = {.scan = &scan};
-    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    detection.source.scan = &scan;
+    struct quality quality = quality_of(bench, &detection);
     assert_near(quality.range_sd_m, sqrt(0.01 + 0.04 / 12), 1e-12);
-    source.scan = NULL;
-    quality = quality_of(bench, &source, &measurement, &target);
+    detection.source.scan = NULL;
+    quality = quality_of(bench, &detection);
     assert_near(quality.range_sd_m, 0.1, 1e-12);
 }

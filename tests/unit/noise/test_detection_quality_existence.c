@@ -3,17 +3,19 @@
 #include "noise/detection_quality.h"
 #include "sample.h"
 
+/* One echo of this mean power is expected, and 1/2 false alarm over noise of 1. */
+static struct existence expecting(double snr)
+{
+    return (struct existence){
+        .echoes = 1, .snr = snr, .false_alarms = 0.5, .search_noise = 1, .rise = 1};
+}
+
 /* By hand: with one echo of mean power 9 and 1/2 false alarm from 4 on, a power of 4 has the
  * densities exp(-0.4)/10 and 1/2, one of 14 has exp(-1.4)/10 and exp(-10)/2. */
 TEST(probabilities_are_those_of_bayes_rule)
 {
-    const struct existence existence = {.echoes = 1,
-                                        .snr = 9,
-                                        .false_alarms = 0.5,
-                                        .search_noise = 1,
-                                        .least_false_alarm = 4,
-                                        .least_echo = 4,
-                                        .rise = 1};
+    struct existence existence = expecting(9);
+    existence.least_false_alarm = existence.least_echo = 4;
     double echo = exp(-0.4) / 10;
     assert_near(detection_quality_existence(&existence, 4), echo / (echo + 0.5), 1e-14);
     echo = exp(-1.4) / 10;
@@ -22,13 +24,10 @@ TEST(probabilities_are_those_of_bayes_rule)
 
 TEST(powers_that_one_cause_alone_can_have_are_certain)
 {
-    struct existence existence = {.echoes = 1,
-                                  .snr = 9,
-                                  .false_alarms = 0.5,
-                                  .search_noise = 1,
-                                  .least_false_alarm = 4,
-                                  .least_echo = 8,
-                                  .rise = 2};
+    struct existence existence = expecting(9);
+    existence.least_false_alarm = 4;
+    existence.least_echo = 8;
+    existence.rise = 2;
     assert_close(detection_quality_existence(&existence, 3), 1, 0);
     assert_close(detection_quality_existence(&existence, 6), 0, 0);
     assert_true(detection_quality_existence(&existence, 8) > 0);
@@ -41,13 +40,7 @@ TEST(powers_that_one_cause_alone_can_have_are_certain)
  * noise, and no density underflows on the way. */
 TEST(densities_below_the_least_double_still_compare)
 {
-    const struct existence existence = {.echoes = 1,
-                                        .snr = 1e-3,
-                                        .false_alarms = 0.5,
-                                        .search_noise = 1,
-                                        .least_false_alarm = 0,
-                                        .least_echo = 0,
-                                        .rise = 1};
+    const struct existence existence = expecting(1e-3);
     double log_odds = log(0.5 * 1.001) - 2000 + 2000 / 1.001;
     assert_near(detection_quality_existence(&existence, 2000), 1 / (1 + exp(log_odds)), 1e-12);
 }
@@ -64,13 +57,11 @@ TEST(echoes_that_fail_the_first_threshold_are_taken_out_of_the_expected_ones)
                 {10, 3, 30, 16, 0.629640724351},
                 {100, 1, 64, 63.7, 0.483412128171}};
     for (size_t i = 0; i < COUNT(rows); i++) {
-        const struct existence existence = {.echoes = 2,
-                                            .snr = rows[i].snr,
-                                            .false_alarms = 0.5,
-                                            .search_noise = 1,
-                                            .least_false_alarm = rows[i].power - 1,
-                                            .first_threshold = rows[i].first,
-                                            .rise = rows[i].rise};
+        struct existence existence = expecting(rows[i].snr);
+        existence.echoes = 2;
+        existence.least_false_alarm = rows[i].power - 1;
+        existence.first_threshold = rows[i].first;
+        existence.rise = rows[i].rise;
         double mean = rows[i].rise + rows[i].snr;
         double echo = 2 * rows[i].share * exp(-rows[i].power / mean) / mean;
         double noise = 0.5 * exp(-1);
@@ -87,13 +78,10 @@ struct bin {
  * alarms above the threshold. */
 TEST(of_detections_with_a_probability_so_many_are_echoes)
 {
-    const struct existence existence = {.echoes = 3,
-                                        .snr = 30,
-                                        .false_alarms = 1,
-                                        .search_noise = 1,
-                                        .least_false_alarm = 6,
-                                        .least_echo = 6,
-                                        .rise = 1};
+    struct existence existence = expecting(30);
+    existence.echoes = 3;
+    existence.false_alarms = 1;
+    existence.least_false_alarm = existence.least_echo = 6;
     uint64_t sample = 7;
     struct bin bins[10] = {{0}};
     for (int i = 0; i < 400000; i++) {

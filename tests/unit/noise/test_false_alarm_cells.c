@@ -20,36 +20,30 @@ static const struct sensor radar = {
 
 static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
 
-struct bench {
-    struct arena arena;
-    struct frame frame;
-};
-
-static struct cell_span false_alarms_of(struct bench *bench, double mean, uint64_t number,
+static struct cell_span false_alarms_of(struct frame *frame, double mean, uint64_t number,
                                         bool measured)
 {
-    *bench = (struct bench){.frame = {.scene = "s",
-                                      .seed = 1,
-                                      .frame = (int64_t)number,
-                                      .time_s = 3,
-                                      .interval_s = 0.1,
-                                      .sections = CARRY_ACCOUNT}};
-    bench->frame.arena = &bench->arena;
-    *list_add(&bench->frame.sensors.list, &bench->arena) =
+    *frame = (struct frame){.scene = "s",
+                            .seed = 1,
+                            .frame = (int64_t)number,
+                            .time_s = 3,
+                            .interval_s = 0.1,
+                            .sections = CARRY_ACCOUNT,
+                            .arena = check_arena()};
+    *list_add(&frame->sensors.list, check_arena()) =
         (struct sensor_view){.name = "s", .measured = measured};
     struct sensor sensor = radar;
     sensor.false_alarms = mean;
-    struct effect_scan context =
-        effect_begin(&bench->frame, &sensor, &everything, EFFECT_HOME_NOISE);
-    return false_alarm_cells_of(&bench->frame, &context);
+    struct effect_scan context = effect_begin(frame, &sensor, &everything, EFFECT_HOME_NOISE);
+    return false_alarm_cells_of(frame, &context);
 }
 
 TEST(every_false_alarm_is_within_the_limits_of_its_sensor)
 {
     size_t seen = 0;
     for (uint64_t i = 0; i < 500; i++) {
-        struct bench bench;
-        struct cell_span alarms = false_alarms_of(&bench, 3, i, true);
+        struct frame frame;
+        struct cell_span alarms = false_alarms_of(&frame, 3, i, true);
         for (size_t j = 0; j < alarms.count; j++) {
             const struct cell *cell = &alarms.items[j];
             assert_true(cell->range_m > 5 && cell->range_m < 25 - 15 * fabs(cell->azimuth_rad));
@@ -67,12 +61,10 @@ TEST(every_false_alarm_is_within_the_limits_of_its_sensor)
             assert_close(label->weight, 1, 0);
             assert_close(label->time_s, 2.95, 1e-15);
         }
-        const struct frame *frame = &bench.frame;
-        assert_int_equal(frame->counts.count, alarms.count > 0);
+        assert_int_equal(frame.counts.count, alarms.count > 0);
         if (alarms.count > 0)
-            assert_int_equal(frame->counts.items[0].paths.items[0].echoes, alarms.count);
+            assert_int_equal(frame.counts.items[0].paths.items[0].echoes, alarms.count);
         seen += alarms.count;
-        arena_free(&bench.arena);
     }
     assert_true(seen > 1400 && seen < 1600);
 }
@@ -80,14 +72,12 @@ TEST(every_false_alarm_is_within_the_limits_of_its_sensor)
 TEST(a_larger_mean_adds_to_the_same_false_alarms)
 {
     for (uint64_t i = 0; i < 100; i++) {
-        struct bench bench, more;
-        struct cell_span few = false_alarms_of(&bench, 2, i, true);
+        struct frame frame, more;
+        struct cell_span few = false_alarms_of(&frame, 2, i, true);
         struct cell_span many = false_alarms_of(&more, 4, i, true);
         assert_true(few.count <= many.count);
         for (size_t j = 0; j < few.count; j++)
             assert_close(few.items[j].range_m, many.items[j].range_m, 0);
-        arena_free(&bench.arena);
-        arena_free(&more.arena);
     }
 }
 
@@ -98,10 +88,9 @@ TEST(without_a_mean_or_a_measurement_there_are_no_false_alarms)
         bool measured;
     } cases[] = {{50, false}, {0, true}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct bench bench;
-        assert_int_equal(false_alarms_of(&bench, cases[i].mean, 1, cases[i].measured).count, 0);
-        assert_int_equal(bench.frame.counts.count, 0);
-        arena_free(&bench.arena);
+        struct frame frame;
+        assert_int_equal(false_alarms_of(&frame, cases[i].mean, 1, cases[i].measured).count, 0);
+        assert_int_equal(frame.counts.count, 0);
     }
 }
 

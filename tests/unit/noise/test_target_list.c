@@ -6,7 +6,6 @@
 #include "sample.h"
 
 struct list {
-    struct arena arena;
     struct frame frame;
     struct sensor sensor;
     struct cell cells[8];
@@ -17,7 +16,7 @@ struct list {
 static void begin_list(struct list *list, enum list_order order)
 {
     *list = (struct list){.sensor = {.name = "s", .list_order = order}};
-    list->frame.arena = &list->arena;
+    list->frame.arena = check_arena();
     list->frame.sections = CARRY_ACCOUNT;
 }
 
@@ -25,7 +24,7 @@ static void add_measurement(struct list *list, const char *object, double range_
 {
     struct cell *cell = &list->cells[list->count];
     *cell = (struct cell){.sensor = "s", .range_m = range_m, .sum_re = amplitude};
-    *list_add(&cell->members, &list->arena) = (struct contributor){
+    *list_add(&cell->members, check_arena()) = (struct contributor){
         .id.object = object, .id.reflector = "r", .range_m = range_m, .weight = 1};
     list->measurements[list->count++] = effect_measurement_of(NULL, cell);
 }
@@ -83,7 +82,6 @@ TEST(targets_come_strongest_or_nearest_first)
             assert_true(silent || frame_loss_of(group->reason) == LOSS_LIST_LIMIT);
             assert_int_equal(group->echoes.count, silent ? 1 : beyond);
         }
-        arena_free(&list.arena);
     }
 }
 
@@ -101,7 +99,6 @@ TEST(the_order_of_the_measurements_does_not_matter)
             list.measurements[i - 1] = kept;
         }
         assert_listed(&list, 3, round % 2 ? "cad" : "dfb");
-        arena_free(&list.arena);
     }
 }
 
@@ -136,7 +133,6 @@ TEST(a_target_has_its_measurement_and_the_label_of_its_cell)
     assert_close(target->cell_amplitude, 9, 0);
     assert_close(target->cell_sum, 5, 0);
     assert_int_equal(list.frame.lost.count, 0);
-    arena_free(&list.arena);
 }
 
 /* The list has amplitudes 5, 5, 3, 3, 2 or ranges 10, 10, 10, 20, 30 m in its order. */
@@ -183,7 +179,6 @@ TEST(a_limit_gives_margins_to_both_sides_of_the_cut)
                                  1e-13);
             }
         }
-        arena_free(&list.arena);
     }
 }
 
@@ -193,7 +188,6 @@ TEST(an_amplitude_that_is_no_number_makes_no_target)
     begin_list(&list, LIST_STRONGEST);
     add_measurement(&list, "a", 10, (double)NAN);
     assert_listed(&list, 0, "");
-    arena_free(&list.arena);
 }
 
 /* The target of a sensor with steps that lists this measurement alone. */
@@ -214,9 +208,7 @@ static struct target round_target(struct list *list, const struct effect_measure
     const struct detection_source source = {.sensor = &list->sensor, .scan = &scan};
     target_list_make(&list->frame, "noise", &source, list->measurements, 1);
     assert_int_equal(list->frame.targets.count, 1);
-    struct target target = list->frame.targets.items[0];
-    arena_free(&list->arena);
-    return target;
+    return list->frame.targets.items[0];
 }
 
 TEST(a_listed_target_is_rounded_and_its_label_is_not)

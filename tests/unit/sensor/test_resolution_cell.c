@@ -133,21 +133,26 @@ TEST(a_single_echo_of_an_array_has_one_cell_with_and_without_superposition)
     }
 }
 
+/* An echo that is received with this amplitude. */
+static struct received_echo received_of(const char *object, double azimuth_rad, double amplitude,
+                                        double phase_rad)
+{
+    return (struct received_echo){
+        .echo = {.id.object = object, .id.reflector = "r", .azimuth_rad = azimuth_rad},
+        .strength = amplitude,
+        .amplitude = amplitude,
+        .phase_rad = phase_rad};
+}
+
 /* Equations (4) and (5): amplitudes 6 and 2, so weights 3/4 and 1/4. */
 TEST(two_echoes_are_weighted_by_amplitude)
 {
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
-    struct received_echo echoes[] = {
-        {.echo = {.id.object = "a", .id.reflector = "r", .range_m = 10, .range_rate_mps = -1},
-         .range_m = 10,
-         .range_rate_mps = -1,
-         .strength = 6,
-         .amplitude = 6},
-        {.echo = {.id.object = "b", .id.reflector = "r", .range_m = 10.2, .range_rate_mps = 1},
-         .range_m = 10.2,
-         .range_rate_mps = 1,
-         .strength = 2,
-         .amplitude = 2}};
+    struct received_echo echoes[] = {received_of("a", 0, 6, 0), received_of("b", 0, 2, 0)};
+    echoes[0].range_m = 10;
+    echoes[0].range_rate_mps = -1;
+    echoes[1].range_m = 10.2;
+    echoes[1].range_rate_mps = 1;
     struct cell cell;
     assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
     assert_string_equal(cell.sensor, "s");
@@ -174,13 +179,10 @@ TEST(pointers_add_up_as_in_equation_8)
     double part = sin(PI / 4) / (PI / 4) * cos(PI / 6) * sqrt(0.5);
     for (int element = 0; element < 2; element++) {
         struct sensor sensor = paper_sensor(element ? PHASE_ELEMENT : PHASE_CENTRE);
-        struct received_echo echoes[] = {
-            {.echo = {.id.object = "a", .id.reflector = "r", .azimuth_rad = PI / 6},
-             .strength = 3,
-             .amplitude = 3 * part},
-            {.echo = {.id.object = "b", .id.reflector = "r", .azimuth_rad = -PI / 6},
-             .strength = 1,
-             .amplitude = part}};
+        struct received_echo echoes[] = {received_of("a", PI / 6, 3, 0),
+                                         received_of("b", -PI / 6, 1, 0)};
+        echoes[0].amplitude *= part;
+        echoes[1].amplitude *= part;
         struct cell cell;
         assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
         /* With phases from the first element each pointer turns by e^{ju} = (1 +- j) sqrt(1/2). */
@@ -198,12 +200,7 @@ TEST(pointers_add_up_as_in_equation_8)
 TEST(phases_turn_the_pointers)
 {
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
-    struct received_echo echoes[] = {
-        {.echo = {.id.object = "a", .id.reflector = "r"}, .strength = 4, .amplitude = 4},
-        {.echo = {.id.object = "b", .id.reflector = "r"},
-         .strength = 3,
-         .amplitude = 3,
-         .phase_rad = PI / 2}};
+    struct received_echo echoes[] = {received_of("a", 0, 4, 0), received_of("b", 0, 3, PI / 2)};
     struct cell cell;
     assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
     assert_close(cell.sum_re, 4, 1e-15);
@@ -239,12 +236,10 @@ TEST(a_coherent_pair_is_read_at_its_coherent_position)
             sensor.angle_estimator = rule % 2 ? MONOPULSE_MAGNITUDE : MONOPULSE_RATIO;
             double rho = cases[i].rho;
             struct received_echo echoes[] = {
-                {.echo = {.azimuth_rad = half_rad}, .range_m = 11, .strength = 1, .amplitude = 1},
-                {.echo = {.azimuth_rad = -half_rad},
-                 .range_m = 9,
-                 .strength = rho,
-                 .amplitude = rho,
-                 .phase_rad = -cases[i].psi_deg * PI / 180}};
+                received_of("a", half_rad, 1, 0),
+                received_of("b", -half_rad, rho, -cases[i].psi_deg * PI / 180)};
+            echoes[0].range_m = 11;
+            echoes[1].range_m = 9;
             struct cell cell;
             assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
             double expected = rule % 2 ? cases[i].magnitude : cases[i].ratio;
@@ -264,11 +259,8 @@ TEST(a_coherent_pair_is_at_its_stronger_echo_on_average)
     double sum = 0;
     for (int i = 0; i < PHASES; i++) {
         struct received_echo echoes[] = {
-            {.echo = {.azimuth_rad = half_rad}, .strength = 1, .amplitude = 1},
-            {.echo = {.azimuth_rad = -half_rad},
-             .strength = 0.9,
-             .amplitude = 0.9,
-             .phase_rad = 2 * PI * (i + 0.5) / PHASES}};
+            received_of("a", half_rad, 1, 0),
+            received_of("b", -half_rad, 0.9, 2 * PI * (i + 0.5) / PHASES)};
         struct cell cell;
         assert_true(resolution_cell_of(&sensor, echoes, 2, true, check_arena(), &cell));
         sum += cell.azimuth_rad / half_rad;

@@ -1,58 +1,17 @@
-#include "check.h"
+#include "support/effect_bench.h"
 
-#include "base/units.h"
 #include "sensor/scan.h"
 
-#define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
-
-/* A radar with cells of 1 m by 1 m/s, which receives an echo on boresight at 10 m with its ERCS as
- * amplitude. */
-struct bench {
-    struct arena arena;
-    struct frame frame;
-    struct sensor sensor;
-    struct selection selection;
-    struct effect_log log;
-};
-
-static int make_bench(void **state)
-{
-    struct bench *bench = check_make(state, sizeof *bench);
-    bench->frame = (struct frame){.scene = "s", .ego = "ego", .arena = &bench->arena};
-    bench->sensor = (struct sensor){.name = "radar",
-                                    .carrier_hz = 76.5e9,
-                                    .field_of_view_rad = PI,
-                                    .calibration_ercs = 1,
-                                    .calibration_range_m = 10,
-                                    .exponent = 2,
-                                    .range_floor_m = 0.5,
-                                    .cell_range_m = 1,
-                                    .cell_range_rate_mps = 1,
-                                    .cell_extent = CELL_WIDTH};
-    suite_derive(&bench->sensor);
-    bench->selection = (struct selection){.allowed = EVERYTHING, .log = &bench->log};
-    return 0;
-}
-
-static int remove_bench(void **state)
-{
-    struct bench *bench = *state;
-    arena_free(&bench->arena);
-    free(bench);
-    return 0;
-}
-
 /* Adds an echo of this amplitude at any range. */
-static void add_echo(struct bench *bench, const char *sensor, const char *object, double range_m,
-                     double range_rate_mps, double amplitude)
+static void add_echo(struct effect_bench *bench, const char *sensor, const char *object,
+                     double range_m, double range_rate_mps, double amplitude)
 {
-    *list_add(&bench->frame.echoes, &bench->arena) =
-        (struct echo){.sensor = sensor,
-                      .id.object = object,
-                      .id.reflector = "r",
-                      .range_m = range_m,
-                      .range_rate_mps = range_rate_mps,
-                      .ercs = amplitude * range_m * range_m / 100};
+    struct echo *echo = list_add(&bench->frame.echoes, check_arena());
+    *echo = effect_bench_echo(range_m);
+    echo->sensor = sensor;
+    echo->id.object = object;
+    echo->range_rate_mps = range_rate_mps;
+    echo->ercs = amplitude * range_m * range_m / 100;
 }
 
 static void check_cell(const struct scan *scan, size_t number, const char *names)
@@ -64,17 +23,22 @@ static void check_cell(const struct scan *scan, size_t number, const char *names
         assert_int_equal(members[i].echo.id.object[0], names[i]);
 }
 
-static struct scan scan_of(struct bench *bench)
+static struct scan scan_as(struct effect_bench *bench, uint64_t effects, bool automatic)
 {
+    const struct selection selection = {
+        .allowed = effects, .automatic = automatic, .log = &bench->log};
     struct effect_scan context =
-        effect_begin(&bench->frame, &bench->sensor, &bench->selection, EFFECT_HOME_SENSOR);
-    bench->log.simulated = bench->log.left_out = 0;
-    return scan_make(&context, &bench->selection);
+        effect_begin(&bench->frame, &bench->sensor, &selection, EFFECT_HOME_SENSOR);
+    bench->log = (struct effect_log){0};
+    return scan_make(&context, &selection);
 }
 
-#define SCAN_TEST(name) TEST_WITH(make_bench, remove_bench, struct bench *bench, name)
+static struct scan scan_of(struct effect_bench *bench)
+{
+    return scan_as(bench, EVERY_EFFECT, false);
+}
 
-SCAN_TEST(cells_are_numbered_by_their_leaders_strongest_first)
+EFFECT_TEST(cells_are_numbered_by_their_leaders_strongest_first)
 {
     add_echo(bench, "another", "z", 20, 0, 99);
     add_echo(bench, "radar", "a", 20.4, 0, 1);
@@ -93,7 +57,7 @@ SCAN_TEST(cells_are_numbered_by_their_leaders_strongest_first)
 }
 
 /* Echoes b and d have no cross section. */
-SCAN_TEST(echoes_without_amplitude_are_silent_and_in_no_cell)
+EFFECT_TEST(echoes_without_amplitude_are_silent_and_in_no_cell)
 {
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 20, 0, 0);
@@ -108,7 +72,7 @@ SCAN_TEST(echoes_without_amplitude_are_silent_and_in_no_cell)
     assert_string_equal(scan.silent[1].echo.id.object, "d");
 }
 
-SCAN_TEST(where_all_echoes_are_silent_there_is_no_cell)
+EFFECT_TEST(where_all_echoes_are_silent_there_is_no_cell)
 {
     add_echo(bench, "radar", "a", 20, 0, 0);
     struct scan scan = scan_of(bench);
@@ -116,7 +80,7 @@ SCAN_TEST(where_all_echoes_are_silent_there_is_no_cell)
     assert_int_equal(scan.silent_count, 1);
 }
 
-SCAN_TEST(silent_echoes_are_lost_with_their_margins)
+EFFECT_TEST(silent_echoes_are_lost_with_their_margins)
 {
     bench->frame.sections = CARRY_ACCOUNT;
     add_echo(bench, "radar", "a", 20, 0, 1);
@@ -135,36 +99,34 @@ SCAN_TEST(silent_echoes_are_lost_with_their_margins)
     assert_close(group->echoes.items[0].margins.sight_m, 0.25, 0);
 }
 
-SCAN_TEST(a_scan_of_nothing_has_no_cells)
+EFFECT_TEST(a_scan_of_nothing_has_no_cells)
 {
     struct scan scan = scan_of(bench);
     assert_int_equal(scan.cells, 0);
     assert_int_equal(scan.silent_count, 0);
 }
 
-SCAN_TEST(auto_leaves_out_merging_where_no_echoes_are_close)
+EFFECT_TEST(auto_leaves_out_merging_where_no_echoes_are_close)
 {
-    bench->selection.automatic = true;
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 20.6, 0, 2);
-    struct scan scan = scan_of(bench);
+    struct scan scan = scan_as(bench, EVERY_EFFECT, true);
     assert_int_equal(scan.cells, 2);
     check_cell(&scan, 0, "b");
     check_cell(&scan, 1, "a");
     assert_true(bench->log.left_out == EFFECT_BIT(EFFECT_MERGING));
     assert_true(bench->log.simulated == 0);
     add_echo(bench, "radar", "c", 20.3, 0, 0.5);
-    scan = scan_of(bench);
+    scan = scan_as(bench, EVERY_EFFECT, true);
     assert_int_equal(scan.cells, 2);
     check_cell(&scan, 0, "bc");
     assert_true(bench->log.simulated == EFFECT_BIT(EFFECT_MERGING));
-    bench->selection.allowed = EVERYTHING & ~EFFECT_BIT(EFFECT_MERGING);
-    scan = scan_of(bench);
+    scan = scan_as(bench, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_MERGING), true);
     assert_int_equal(scan.cells, 3);
 }
 
 /* Ranges fold at 15 m: a and b share a cell, unless folding is switched off. */
-SCAN_TEST(a_scan_has_only_the_effects_of_its_selection)
+EFFECT_TEST(a_scan_has_only_the_effects_of_its_selection)
 {
     bench->sensor.unambiguous_range_m = 15;
     add_echo(bench, "radar", "a", 20, 0, 1);
@@ -172,14 +134,13 @@ SCAN_TEST(a_scan_has_only_the_effects_of_its_selection)
     struct scan scan = scan_of(bench);
     assert_int_equal(scan.cells, 1);
     check_cell(&scan, 0, "ba");
-    bench->selection.allowed = EVERYTHING & ~EFFECT_BIT(EFFECT_AMBIGUITY);
-    scan = scan_of(bench);
+    scan = scan_as(bench, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_AMBIGUITY), false);
     assert_int_equal(scan.cells, 2);
 }
 
 /* A window with cells of 1 m by 1 m/s resolves 1.7748 of them. b is so far from a as to have half
  * of its amplitude there; c is as far from a as the window resolves. */
-SCAN_TEST(echoes_of_a_window_part_by_phase_and_count_by_their_response)
+EFFECT_TEST(echoes_of_a_window_part_by_phase_and_count_by_their_response)
 {
     double resolution = point_response_resolution(POINT_RESPONSE_HANN);
     bench->sensor.waveform = (struct waveform){.samples = 128, .repetitions = 64};
@@ -203,8 +164,7 @@ SCAN_TEST(echoes_of_a_window_part_by_phase_and_count_by_their_response)
     }
     assert_in_range(apart, 10, 30);
     bench->frame.echoes.items[1].range_rate_mps = resolution;
-    bench->selection.allowed = EVERYTHING & ~EFFECT_BIT(EFFECT_COHERENCE);
-    struct scan scan = scan_of(bench);
+    struct scan scan = scan_as(bench, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_COHERENCE), false);
     check_cell(&scan, 0, "ab");
     assert_near(scan.by_cell[1].amplitude, 2.0, 1e-9);
 }

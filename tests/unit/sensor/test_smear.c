@@ -25,7 +25,6 @@ static struct sensor test_sensor(void)
 
 /* Echoes on boresight, placed in bins. */
 struct scene {
-    struct arena arena;
     struct sensor sensor;
     struct received_echo echoes[MOST];
     size_t count;
@@ -35,24 +34,16 @@ struct scene {
 
 static const char *const names[MOST] = {"a", "b", "c", "d", "e", "f", "g", "h"};
 
-static int make_scene(void **state)
+static struct scene *make_scene(void)
 {
-    struct scene *scene = check_make(state, sizeof *scene);
-    scene->sensor = test_sensor();
-    return 0;
-}
-
-static int remove_scene(void **state)
-{
-    struct scene *scene = *state;
-    arena_free(&scene->arena);
-    free(scene);
-    return 0;
+    static struct scene scene;
+    scene = (struct scene){.sensor = test_sensor()};
+    return &scene;
 }
 
 static void start(struct scene *scene)
 {
-    arena_clear(&scene->arena);
+    arena_clear(check_arena());
     scene->count = 0;
 }
 
@@ -76,10 +67,10 @@ static struct received_echo *add(struct scene *scene, double range_bins, double 
 static size_t cells_of(struct scene *scene)
 {
     sort_items(scene->echoes, scene->count, sizeof *scene->echoes, resolution_cell_compare,
-               &scene->arena);
-    scene->smear = smear_make(&scene->sensor, scene->echoes, scene->count, &scene->arena);
+               check_arena());
+    scene->smear = smear_make(&scene->sensor, scene->echoes, scene->count, check_arena());
     for (size_t i = 0; i < scene->smear.cells; i++)
-        assert_true(smear_cell(&scene->smear, i, &scene->arena, &scene->cells[i]));
+        assert_true(smear_cell(&scene->smear, i, check_arena(), &scene->cells[i]));
     return scene->smear.cells;
 }
 
@@ -99,7 +90,7 @@ static void assert_same_cell(const struct cell *cell, const struct cell *expecte
     assert_true(cell->effects == expected->effects);
 }
 
-#define SCENE_TEST(name) TEST_WITH(make_scene, remove_scene, struct scene *scene, name)
+#define SCENE_TEST(name) TEST_FROM(make_scene, struct scene *scene, name)
 
 SCENE_TEST(a_single_echo_has_the_cell_of_glint_sensor)
 {
@@ -116,12 +107,12 @@ SCENE_TEST(a_single_echo_has_the_cell_of_glint_sensor)
                                   .effects = EFFECT_BIT(EFFECT_RAIN)};
         struct received_echo received =
             received_echo_in_free_space(&scene->sensor, &echo, sample_between(&sample, -7, 7));
-        struct smear smear = smear_make(&scene->sensor, &received, 1, &scene->arena);
+        struct smear smear = smear_make(&scene->sensor, &received, 1, check_arena());
         struct cell cell, expected;
         assert_int_equal(smear.cells, 1);
-        assert_true(smear_cell(&smear, 0, &scene->arena, &cell));
+        assert_true(smear_cell(&smear, 0, check_arena(), &cell));
         assert_true(
-            resolution_cell_of(&scene->sensor, &received, 1, true, &scene->arena, &expected));
+            resolution_cell_of(&scene->sensor, &received, 1, true, check_arena(), &expected));
         assert_same_cell(&cell, &expected);
     }
 }
@@ -135,7 +126,7 @@ SCENE_TEST(echoes_that_are_far_apart_do_not_touch)
     assert_int_equal(cells_of(scene), 3);
     for (size_t i = 0; i < 3; i++) {
         struct cell expected;
-        resolution_cell_of(&scene->sensor, &scene->echoes[i], 1, true, &scene->arena, &expected);
+        resolution_cell_of(&scene->sensor, &scene->echoes[i], 1, true, check_arena(), &expected);
         assert_same_cell(&scene->cells[i], &expected);
     }
 }
@@ -225,9 +216,9 @@ SCENE_TEST(echoes_that_cancel_have_no_amplitude)
     start(scene);
     add(scene, 20, 0, 1, 0);
     add(scene, 20, 0, 1, 0)->strength = -1;
-    scene->smear = smear_make(&scene->sensor, scene->echoes, 2, &scene->arena);
+    scene->smear = smear_make(&scene->sensor, scene->echoes, 2, check_arena());
     assert_int_equal(scene->smear.cells, 1);
-    assert_false(smear_cell(&scene->smear, 0, &scene->arena, scene->cells));
+    assert_false(smear_cell(&scene->smear, 0, check_arena(), scene->cells));
     assert_true(scene->cells[0].amplitude == 0);
     assert_int_equal(scene->cells[0].members.count, 2);
 }

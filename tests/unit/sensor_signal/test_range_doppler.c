@@ -11,7 +11,6 @@ struct sky {
     struct range_doppler spectrum;
     struct phasor samples[WIDTH * HEIGHT];
     double power[WIDTH * HEIGHT];
-    struct arena arena;
 };
 
 static void begin(struct sky *sky, enum point_response range_response,
@@ -49,7 +48,7 @@ static size_t search(struct sky *sky, const struct cfar *cfar, double threshold,
     for (size_t i = 0; i < WIDTH * HEIGHT; i++)
         sky->power[i] =
             sky->samples[i].re * sky->samples[i].re + sky->samples[i].im * sky->samples[i].im;
-    return range_doppler_peaks(&sky->spectrum, cfar, threshold, &sky->arena, peaks);
+    return range_doppler_peaks(&sky->spectrum, cfar, threshold, check_arena(), peaks);
 }
 
 /* An echo alone, with its side lobes, has one peak, of its place and amplitude. */
@@ -70,7 +69,6 @@ TEST(one_echo_is_one_peak_at_its_place)
             assert_close(peaks[0].range, 10 + part, within);
             assert_close(peaks[0].rate, -7 - part / 2, within);
             assert_near(peaks[0].amplitude, 1000., within);
-            arena_free(&sky.arena);
         }
 }
 
@@ -92,12 +90,10 @@ TEST(two_equal_echoes_are_one_peak_or_two_by_distance_and_phase)
             assert_close(peaks[0].range, 10, 1e-12);
             assert_close(20 * log10(peaks[0].amplitude / 100), gains[quarter], 0.006);
         }
-        arena_free(&sky.arena);
         begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
         add(&sky, 9, 3, 100, 0);
         add(&sky, 11, 3, 100, quarter * 3.14159265358979323846 / 2);
         assert_int_equal(search(&sky, &quiet, 4, &peaks), 2);
-        arena_free(&sky.arena);
     }
 }
 
@@ -121,7 +117,6 @@ TEST(a_close_pair_has_its_peak_at_the_published_place)
         assert_int_equal(search(&sky, &quiet, 2, &peaks), 1);
         assert_close((peaks[0].range - 10) / half, cases[i].g, 0.02 * cases[i].g);
         assert_close((peaks[0].rate - 3) / half, cases[i].g, 0.02 * cases[i].g);
-        arena_free(&sky.arena);
     }
 }
 
@@ -136,7 +131,6 @@ TEST(a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only)
     assert_int_equal(search(&sky, &quiet, 2, &peaks), 2);
     assert_close(peaks[1].range, 20, 0.01);
     assert_close(peaks[1].rate, 30, 0.01);
-    arena_free(&sky.arena);
 }
 
 /* Every range rate of a range has an amplitude of 2: a peak must exceed that by the CFAR factor. */
@@ -151,7 +145,6 @@ TEST(a_peak_must_exceed_the_rates_of_its_range)
             add(&sky, 5, rate, 2, rate);
         add(&sky, 5, 30, 10, 30);
         assert_int_equal(search(&sky, &cfar, 8, &peaks), factor == 1 ? 1 : 0);
-        arena_free(&sky.arena);
     }
 }
 
@@ -167,16 +160,14 @@ TEST(a_peak_is_that_of_its_strongest_beam)
         add(&sky, 5, 20, amplitudes[beam], 0);
         assert_int_equal(search(&sky, &quiet, 3, &peaks), 1);
         memcpy(power + beam * WIDTH * HEIGHT, sky.power, sizeof sky.power);
-        arena_free(&sky.arena);
     }
     begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
     memcpy(sky.power, power + WIDTH * HEIGHT, sizeof sky.power);
     sky.spectrum.beams = BEAMS;
     sky.spectrum.power = power;
-    assert_int_equal(range_doppler_peaks(&sky.spectrum, &quiet, 3, &sky.arena, &peaks), 1);
+    assert_int_equal(range_doppler_peaks(&sky.spectrum, &quiet, 3, check_arena(), &peaks), 1);
     assert_int_equal(peaks[0].beam, 1);
     assert_near(peaks[0].amplitude, 9., 1e-9);
-    arena_free(&sky.arena);
 }
 
 /* In its strongest beam the peak stands in a clutter of rates, in the other one alone. */
@@ -201,12 +192,9 @@ TEST(a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam)
             cluttered.power[i] = clear.power[i];
     cluttered.spectrum.beams = 2;
     cluttered.spectrum.power = power;
-    assert_int_equal(range_doppler_peaks(&cluttered.spectrum, &cfar, 8, &cluttered.arena, &peaks),
-                     1);
+    assert_int_equal(range_doppler_peaks(&cluttered.spectrum, &cfar, 8, check_arena(), &peaks), 1);
     assert_int_equal(peaks[0].beam, 1);
     assert_near(peaks[0].amplitude, 9., 0.01);
-    arena_free(&cluttered.arena);
-    arena_free(&clear.arena);
 }
 
 TEST(rings_close_at_both_ends)
@@ -221,5 +209,4 @@ TEST(rings_close_at_both_ends)
     assert_close(range_doppler_distance(31, 1, 32), -2, 0);
     struct range_doppler_peak there = range_doppler_at(&sky.spectrum, &quiet, 32.25, 32);
     assert_near(there.amplitude, 100 * point_response_value(POINT_RESPONSE_HANN, 0.25), 1e-12);
-    arena_free(&sky.arena);
 }
