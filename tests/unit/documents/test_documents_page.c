@@ -3,10 +3,10 @@
 
 #include "base/units.h"
 #include "documents/reflector_models.h"
-#include "radar/array.h"
 #include "radar/interferer.h"
 #include "radar/monopulse.h"
 #include "radar/radar_equation.h"
+#include "support/array_sensor.h"
 
 /* The cross section of 3GPP's vehicle in dBsm, seen level: the powers of its points add up. */
 static double vehicle_dbsm(double degrees)
@@ -57,15 +57,7 @@ TEST(dwells)
 /* The spacing, in wavelengths, of so many receivers whose beam is so wide. */
 static double spacing_of(size_t receivers, double beam_degrees)
 {
-    struct array_element sender = {0}, places[ARRAY_MOST_ELEMENTS];
-    for (size_t i = 0; i < receivers; i++)
-        places[i] = (struct array_element){(double)i};
-    struct array_layout layout = {.taper = TAPER_RECTANGULAR};
-    layout.transmit.items = &sender;
-    layout.transmit.count = 1;
-    layout.receive.items = places;
-    layout.receive.count = receivers;
-    struct array array = array_of(&layout);
+    struct array array = array_row(receivers, 1, TAPER_RECTANGULAR);
     return array_beam(&array) / sin(beam_degrees * DEGREE);
 }
 

@@ -1,20 +1,10 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "radar/antenna.h"
 #include "sample.h"
+#include "support/antennas.h"
 
 static const long double PI_LONG = 3.14159265358979323846264338327950288L;
-
-static const struct antenna CENTRE = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_CENTRE};
-static const struct antenna ELEMENT = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
-
-static const struct antenna_row SKEWED_ROWS[] = {
-    {-1.2, 0, -0.3}, {-0.5, 0.4, -0.5}, {0.1, 1, 0.1}, {0.6, 0.7, 0.6}, {1.3, 0.05, 0.4}};
-static const struct antenna SKEWED = {.pattern = ANTENNA_TABLE,
-                                      .phase = PHASE_CENTRE,
-                                      .rows = SKEWED_ROWS,
-                                      .row_count = COUNT(SKEWED_ROWS)};
 
 static const struct antenna_row EVEN_ROWS[] = {
     {-PI / 2, 0, -0.2}, {-0.7, 0.3, -0.6}, {0, 0.9, 0}, {0.7, 0.3, 0.6}, {PI / 2, 0, 0.2}};
@@ -53,16 +43,6 @@ static struct reference reference_at(double azimuth_rad)
         reference.cos_u = sinl(PI_LONG * half_chord * half_chord);
     reference.element = (u > 0 ? reference.sin_u / u : 1) * cosine;
     return reference;
-}
-
-/* The i-th of 100 000 azimuths in (0, 90 deg), dense near both ends. */
-static double dense_azimuth(int i)
-{
-    if (i < 40000)
-        return 1.5 * (i + 1) / 40001;
-    if (i < 70000)
-        return pow(10, -300.0 * (i - 40000) / 30000);
-    return PI / 2 - pow(10, -12.0 * (i - 70000) / 30000);
 }
 
 static double width_deg(double level)
@@ -117,7 +97,7 @@ TEST(delta_over_sum_is_minus_j_tan_u)
 TEST(pointers_keep_eight_ulp_up_to_the_side)
 {
     for (int i = 0; i < 100000; i++) {
-        double azimuth_rad = dense_azimuth(i);
+        double azimuth_rad = antennas_dense_azimuth(i, 300);
         struct reference exact = reference_at(azimuth_rad);
         long double sum = exact.element * exact.cos_u;
         long double delta = exact.element * exact.sin_u;
@@ -149,7 +129,7 @@ TEST(boresight_and_side_have_finite_pointers)
 TEST(mirrored_azimuths_give_mirrored_pointers)
 {
     for (int i = 0; i < 100000; i++) {
-        double azimuth_rad = dense_azimuth(i);
+        double azimuth_rad = antennas_dense_azimuth(i, 300);
         struct antenna_pointers left = antenna_pointers(&CENTRE, azimuth_rad);
         struct antenna_pointers right = antenna_pointers(&CENTRE, -azimuth_rad);
         assert_close(creal(right.sum), creal(left.sum), 0);
@@ -211,7 +191,7 @@ TEST(the_inverse_of_special_ratios_is_exact)
 TEST(a_single_echo_comes_back_at_its_azimuth)
 {
     for (int i = 0; i < 100000; i++) {
-        double azimuth_rad = dense_azimuth(i);
+        double azimuth_rad = antennas_dense_azimuth(i, 300);
         struct antenna_pointers pointers = antenna_pointers(&CENTRE, azimuth_rad);
         double back = antenna_azimuth_rad(&CENTRE, -cimag(pointers.delta), creal(pointers.sum));
         assert_close(back, azimuth_rad, fmin(1e-15, 1e-14 * azimuth_rad));

@@ -2,24 +2,14 @@
 
 #include "base/elementary.h"
 #include "base/random.h"
-#include "radar/array.h"
+#include "support/array_sensor.h"
 
 #define PI 3.14159265358979323846
 
-static struct array_element places[ARRAY_MOST_ELEMENTS];
-
-/* One transmitter and count receivers half a wavelength apart. */
+/* Half a wavelength apart. */
 static struct array row(size_t count, enum array_taper taper)
 {
-    struct array_layout layout = {.taper = taper};
-    static struct array_element transmitter = {0};
-    for (size_t n = 0; n < count; n++)
-        places[n].place = 0.5 * (double)n;
-    layout.transmit.items = &transmitter;
-    layout.transmit.count = 1;
-    layout.receive.items = places;
-    layout.receive.count = count;
-    return array_of(&layout);
+    return array_row(count, 0.5, taper);
 }
 
 TEST(one_echo_has_one_maximum_of_its_amplitude_at_its_sine)

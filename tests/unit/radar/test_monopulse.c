@@ -2,20 +2,15 @@
 
 #include "base/random.h"
 #include "base/units.h"
-#include "radar/antenna.h"
 #include "radar/monopulse.h"
+#include "support/antennas.h"
 
 #define DRAWS 40000
 
-static const struct antenna CENTRE = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_CENTRE};
-static const struct antenna ELEMENT = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
-
-static const struct antenna_row ROWS[] = {
-    {-1.2, 0, -0.3}, {-0.5, 0.4, -0.5}, {0.1, 1, 0.1}, {0.6, 0.7, 0.6}, {1.3, 0.05, 0.4}};
-static const struct antenna TABLE = {
-    .pattern = ANTENNA_TABLE, .phase = PHASE_CENTRE, .rows = ROWS, .row_count = COUNT(ROWS)};
-static const struct antenna TURNED_TABLE = {
-    .pattern = ANTENNA_TABLE, .phase = PHASE_ELEMENT, .rows = ROWS, .row_count = COUNT(ROWS)};
+static const struct antenna TURNED_TABLE = {.pattern = ANTENNA_TABLE,
+                                            .phase = PHASE_ELEMENT,
+                                            .rows = SKEWED_ROWS,
+                                            .row_count = COUNT(SKEWED_ROWS)};
 
 static const enum monopulse_estimator ESTIMATORS[] = {MONOPULSE_MAGNITUDE, MONOPULSE_RATIO};
 
@@ -46,15 +41,6 @@ static double _Complex phasor(double phase_rad)
     return cos(phase_rad) + sin(phase_rad) * (double _Complex)I;
 }
 
-static double dense_azimuth(int i)
-{
-    if (i < 40000)
-        return 1.5 * (i + 1) / 40001;
-    if (i < 70000)
-        return pow(10, -150.0 * (i - 40000) / 30000);
-    return PI / 2 - pow(10, -12.0 * (i - 70000) / 30000);
-}
-
 /* MODEL 7.2: ASR = tan((pi/2) |sin| - pi/4), and its inverse. */
 TEST(the_sensing_ratio_and_its_inverse_are_closed_forms)
 {
@@ -73,7 +59,8 @@ TEST(a_single_echo_is_seen_where_it_is)
     const struct antenna *antennas[] = {&CENTRE, &ELEMENT};
     for (int i = 0; i < 100000; i++)
         for (size_t k = 0; k < 8; k++) {
-            double azimuth_rad = k < 4 ? dense_azimuth(i) : -dense_azimuth(i);
+            double azimuth_rad =
+                k < 4 ? antennas_dense_azimuth(i, 150) : -antennas_dense_azimuth(i, 150);
             const struct antenna *antenna = antennas[k % 2];
             struct monopulse_angle angle = monopulse_angle(antenna, ESTIMATORS[k / 2 % 2],
                                                            antenna_pointers(antenna, azimuth_rad));
@@ -106,7 +93,7 @@ TEST(the_common_phase_and_size_of_the_pointers_do_not_matter)
 
 TEST(a_single_echo_is_seen_where_it_is_through_a_table)
 {
-    const struct antenna *antennas[] = {&TABLE, &TURNED_TABLE};
+    const struct antenna *antennas[] = {&SKEWED, &TURNED_TABLE};
     for (int i = 1; i < 10000; i++)
         for (size_t k = 0; k < 4; k++) {
             double azimuth_rad = -1.2 + 2.5 * i / 10000;
@@ -374,13 +361,13 @@ TEST(the_predicted_spread_is_that_of_noise)
     for (address.frame = 0; address.frame < DRAWS; address.frame++) {
         double draw[4], noise = 0.85 / sqrt(2 * 10000.0); /* the sum is 0.85 at 0.35 rad */
         random_gaussian(&address, RANDOM_POINTERS, 0, draw);
-        struct antenna_pointers pointers = antenna_pointers(&TABLE, 0.35);
+        struct antenna_pointers pointers = antenna_pointers(&SKEWED, 0.35);
         pointers.sum += noise * (draw[0] + draw[1] * (double _Complex)I);
         pointers.delta += noise * (draw[2] + draw[3] * (double _Complex)I);
-        double error_rad = monopulse_angle(&TABLE, MONOPULSE_RATIO, pointers).azimuth_rad - 0.35;
+        double error_rad = monopulse_angle(&SKEWED, MONOPULSE_RATIO, pointers).azimuth_rad - 0.35;
         squares += error_rad * error_rad / DRAWS;
     }
-    assert_near(monopulse_sigma_rad(&TABLE, MONOPULSE_RATIO, 0.35, 10000), sqrt(squares), 0.015);
+    assert_near(monopulse_sigma_rad(&SKEWED, MONOPULSE_RATIO, 0.35, 10000), sqrt(squares), 0.015);
 }
 
 /* Equal echoes at both sides, one ahead of the other by theta, have delta/sum = -tan u
@@ -408,7 +395,7 @@ TEST(noise_makes_a_quadrature_beyond_3_with_its_probability)
     for (address.frame = 0; address.frame < DRAWS; address.frame++) {
         double draw[4], noise = 0.85 / sqrt(2 * 100.0);
         random_gaussian(&address, RANDOM_POINTERS, 0, draw);
-        struct antenna_pointers pointers = antenna_pointers(&TABLE, 0.35);
+        struct antenna_pointers pointers = antenna_pointers(&SKEWED, 0.35);
         pointers.sum += noise * (draw[0] + draw[1] * (double _Complex)I);
         pointers.delta += noise * (draw[2] + draw[3] * (double _Complex)I);
         beyond += fabs(monopulse_quadrature(pointers, sqrt(2) * noise)) > 3;

@@ -2,7 +2,6 @@
 #include "support/printed.h"
 
 #include "base/units.h"
-#include "radar/array.h"
 #include "radar/detection.h"
 #include "radar/folding.h"
 #include "radar/interferer.h"
@@ -11,6 +10,7 @@
 #include "radar/monopulse.h"
 #include "radar/point_response.h"
 #include "radar/radar_equation.h"
+#include "support/array_sensor.h"
 
 static const struct antenna dipoles = {.pattern = ANTENNA_DIPOLE_PAIR};
 
@@ -182,30 +182,16 @@ TEST(conditioning)
             sigma_degrees(MONOPULSE_RATIO, 20, 1e3), sigma_degrees(MONOPULSE_RATIO, 40, 1e3));
 }
 
-/* A transmitter and at most 16 receivers half a wavelength apart. */
-static struct array row_of(size_t count, enum array_taper taper)
-{
-    struct array_element sender = {0}, receivers[16];
-    for (size_t i = 0; i < count; i++)
-        receivers[i].place = 0.5 * (double)i;
-    struct array_layout layout = {.taper = taper};
-    layout.transmit.items = &sender;
-    layout.transmit.count = 1;
-    layout.receive.items = receivers;
-    layout.receive.count = count;
-    return array_of(&layout);
-}
-
 static double beam_degrees(size_t count)
 {
-    struct array array = row_of(count, TAPER_RECTANGULAR);
+    struct array array = array_row(count, 0.5, TAPER_RECTANGULAR);
     return 2 * asin(array_beam(&array) / 2) / DEGREE;
 }
 
 /* Values of eight elements are times N d. */
 TEST(arrays)
 {
-    struct array plain = row_of(8, TAPER_RECTANGULAR), hann = row_of(8, TAPER_HANN);
+    struct array plain = array_row(8, 0.5, TAPER_RECTANGULAR), hann = array_row(8, 0.5, TAPER_HANN);
     struct phasor pair[8];
     struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
     PRINTED("7.5", "#/(N d sqrt SNR) without a taper", 4 * array_sigma(&plain, 1));

@@ -4,8 +4,6 @@
 #include "sensor_signal/detections.h"
 #include "support/array_sensor.h"
 
-static struct arena arena;
-
 /* A radar of cells of 2 m and 0.25 m/s that sees 100 m and 90 degrees. */
 static struct sensor radar(enum point_response window, size_t elements)
 {
@@ -30,7 +28,7 @@ static struct sensor radar(enum point_response window, size_t elements)
 static struct effect_measurement accuracy_of(const struct sensor *sensor, double azimuth_rad,
                                              double found, double in_beam)
 {
-    struct signal_cube signal = signal_cube_of(sensor, &arena);
+    struct signal_cube signal = signal_cube_of(sensor, check_arena());
     struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
     struct array_maximum maxima[ARRAY_MOST_ELEMENTS] = {{0}};
     array_receive(&sensor->beams, sin(azimuth_rad), (struct phasor){sqrt(in_beam), 0}, samples);
@@ -42,15 +40,6 @@ static struct effect_measurement accuracy_of(const struct sensor *sensor, double
     detections_estimate(&signal, sqrt(found + 1), 1, &measurement);
     return measurement;
 }
-
-static int release(void **state)
-{
-    (void)state;
-    arena_free(&arena);
-    return 0;
-}
-
-FIXTURE(NULL, release);
 
 /* The Cramer-Rao bound of a frequency in white noise, sqrt(6)/(2 pi sqrt(snr)) bins, and with a
  * steep slope nothing of the range rate's. With Hann's window 1.58 sqrt(2/3) times that. */
@@ -93,7 +82,7 @@ TEST(the_azimuth_is_that_of_elements_or_of_sum_and_delta)
 TEST(an_azimuth_of_several_echoes_has_a_wider_deviation)
 {
     struct sensor sensor = radar(POINT_RESPONSE_HANN, 0);
-    struct signal_cube signal = signal_cube_of(&sensor, &arena);
+    struct signal_cube signal = signal_cube_of(&sensor, check_arena());
     struct effect_measurement alone = {.amplitude = 10, .pointers = {10, 0}}, several = alone;
     several.pointers.delta = 3;
     detections_estimate(&signal, 10, 1, &alone);
@@ -115,8 +104,8 @@ TEST(an_echo_below_the_noise_is_anywhere)
 TEST(bins_are_ranges_times_rates_times_beams)
 {
     struct sensor sensor = radar(POINT_RESPONSE_HANN, 0), array = radar(POINT_RESPONSE_HANN, 8);
-    struct signal_cube signal = signal_cube_of(&sensor, &arena);
+    struct signal_cube signal = signal_cube_of(&sensor, check_arena());
     assert_close(detections_noise_bins(&signal), 50 * 32, 1e-9);
-    signal = signal_cube_of(&array, &arena);
+    signal = signal_cube_of(&array, check_arena());
     assert_close(detections_noise_bins(&signal), 50 * 32 * 8, 1e-9);
 }
