@@ -1,7 +1,7 @@
-/* Numbers as text beside std::to_chars and std::from_chars, of which a standard demands the same:
- * the shortest decimal that reads back, the nearest of several, and the nearest double. Minus zero,
- * which they write as "-0", is left out, and all where make finds no C++ compiler. CASES is how
- * many doubles are written, in place of 10^6. */
+/* Numbers as text beside std::to_chars, of which a standard demands the same: the shortest decimal
+ * that reads back, and the nearest of several. Minus zero, which it writes as "-0", is left out,
+ * and all where make finds no C++ compiler. CASES is how many doubles are written, in place of
+ * 10^6. */
 #include "check.h"
 
 #include "base/number.h"
@@ -10,7 +10,6 @@
 
 /* The oracle is linked only if it could be compiled. */
 char *digits_write(double value, char *at) __attribute__((weak));
-const char *digits_read(const char *at, const char *end, double *value) __attribute__((weak));
 
 enum { TEXT_SIZE = 256 };
 
@@ -23,21 +22,6 @@ static void compare_written(double value)
     *digits_write(value, theirs) = '\0';
     if (strcmp(ours, theirs) != 0)
         fail_msg("%.17g is %s, expected %s", value, ours, theirs);
-}
-
-static void compare_read(const char *text)
-{
-    const char *end = text + strlen(text);
-    double ours = 0, theirs = 0;
-    bool read = number_read(text, end, &ours);
-    /* from_chars leaves the value alone if it is too large or too small. */
-    theirs = strtod(text, NULL);
-    if (read != isfinite(theirs))
-        fail_msg("%s was %s", text, read ? "read" : "refused");
-    if (read && sample_to_bits(ours) != sample_to_bits(theirs))
-        fail_msg("%s became %.17g, expected %.17g", text, ours, theirs);
-    if (read && isnormal(ours) && (digits_read(text, end, &theirs) != end || theirs != ours))
-        fail_msg("%s became %.17g, expected %.17g", text, ours, theirs);
 }
 
 /* The double of these bits, its neighbours and their negatives. */
@@ -102,35 +86,4 @@ TEST(doubles_of_every_kind_are_written_alike)
     uint64_t random = 1;
     for (int64_t i = 0; i < count; i++)
         compare_written(number_of_kind(&random, (int)(i % 8)));
-}
-
-/* Appends so many digits; returns where they end. */
-static char *put_digits(char *at, uint64_t *random, uint64_t count)
-{
-    for (; count > 0; count--)
-        *at++ = (char)('0' + sample_bits(random) % 10);
-    return at;
-}
-
-TEST(decimals_of_every_length_are_read_alike)
-{
-    if (digits_write == NULL)
-        skip_because("there is no C++ compiler");
-    const int64_t count = (int64_t)check_cases(1e6) / 8;
-    uint64_t random = 2;
-    for (int64_t i = 0; i < count; i++) {
-        char text[TEXT_SIZE], *at = text;
-        const uint64_t longest = i % 5 == 0 ? 60 : 20;
-        *at = '-';
-        at = put_digits(at + i % 2, &random, 1 + sample_bits(&random) % longest);
-        *at = '.';
-        if (i % 3 != 0)
-            at = put_digits(at + 1, &random, 1 + sample_bits(&random) % longest);
-        *at = '\0';
-        const int range = i % 7 == 0 ? 340 : 30;
-        if (i % 4 != 0)
-            snprintf(at, 8, "%c%lld", i % 8 == 1 ? 'E' : 'e',
-                     (long long)sample_integer(&random, range));
-        compare_read(text);
-    }
 }

@@ -55,60 +55,6 @@ TEST(the_same_address_draws_the_same)
     assert_memory_equal(first, again, 2 * sizeof *first);
 }
 
-static void assert_all_differ(const double first[4], const double second[4])
-{
-    for (int i = 0; i < 4; i++)
-        assert_true(fabs(first[i] - second[i]) > 0);
-}
-
-TEST(every_bit_of_the_address_counts)
-{
-    double reference[4];
-    random_uniform(&ADDRESS, RANDOM_POINTERS, 0, reference);
-    for (size_t member = 0; member < 5; member++)
-        for (int bit = 0; bit < 64; bit++) {
-            uint64_t words[5] = {ADDRESS.seed, ADDRESS.scene, ADDRESS.frame, ADDRESS.sensor,
-                                 ADDRESS.item};
-            words[member] ^= UINT64_C(1) << bit;
-            struct random_address changed = {words[0], words[1], words[2], words[3], words[4]};
-            double uniform[4];
-            random_uniform(&changed, RANDOM_POINTERS, 0, uniform);
-            assert_all_differ(reference, uniform);
-        }
-}
-
-TEST(purposes_and_indices_draw_different_numbers)
-{
-    static const enum random_purpose purposes[] = {
-        RANDOM_POINTERS, RANDOM_RANGE_RATE, RANDOM_AZIMUTH, RANDOM_TRAFFIC,
-        RANDOM_OWN,      RANDOM_OWN + 1,    INT32_MAX};
-    enum { PURPOSES = sizeof purposes / sizeof *purposes, ALL = 3 * PURPOSES };
-    double drawn[ALL][4];
-    for (uint32_t i = 0; i < ALL; i++)
-        random_uniform(&ADDRESS, purposes[i % PURPOSES], i / PURPOSES, drawn[i]);
-    for (size_t i = 0; i < ALL; i++)
-        for (size_t k = 0; k < i; k++)
-            assert_all_differ(drawn[i], drawn[k]);
-}
-
-/* With 99 degrees of freedom 173 is exceeded by chance once in 100 000. */
-TEST(uniform_draws_fill_the_open_interval_evenly)
-{
-    double hits[100] = {0};
-    for (uint32_t i = 0; i < DRAWS; i++) {
-        double uniform[4];
-        random_uniform(&ADDRESS, RANDOM_TRAFFIC, i, uniform);
-        for (int k = 0; k < 4; k++) {
-            assert_true(uniform[k] > 0 && uniform[k] < 1);
-            hits[(int)(100 * uniform[k])]++;
-        }
-    }
-    double chi_squared = 0;
-    for (int i = 0; i < 100; i++)
-        chi_squared += (hits[i] - DRAWS / 25.0) * (hits[i] - DRAWS / 25.0) / (DRAWS / 25.0);
-    assert_true(chi_squared > 45 && chi_squared < 173);
-}
-
 /* Tolerances are five standard errors over a million draws. */
 TEST(gaussian_draws_have_gaussian_moments)
 {
@@ -157,27 +103,6 @@ TEST(the_four_gaussians_of_a_block_are_uncorrelated)
     for (int k = 0; k < 4; k++)
         for (int n = 0; n < k; n++)
             assert_close(product[k][n], 0, 5 / sqrt(DRAWS));
-}
-
-/* The first Gaussian draw of 10 000 addresses that differ by one in one member. By chance the
- * correlation is about 0.01. */
-TEST(neighbouring_addresses_are_uncorrelated)
-{
-    for (size_t member = 0; member < 5; member++) {
-        double correlation = 0;
-        double previous = 0;
-        for (uint64_t i = 0; i <= 10000; i++) {
-            uint64_t words[5] = {9, 9, 9, 9, 9};
-            words[member] = i;
-            struct random_address address = {words[0], words[1], words[2], words[3], words[4]};
-            double gaussian[4];
-            random_gaussian(&address, RANDOM_POINTERS, 0, gaussian);
-            if (i > 0)
-                correlation += gaussian[0] * previous / 10000;
-            previous = gaussian[0];
-        }
-        assert_close(correlation, 0, 0.045);
-    }
 }
 
 /* The density at x times the error of x is the error of the probability. */

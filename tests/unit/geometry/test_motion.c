@@ -173,26 +173,6 @@ TEST(the_path_length_counts_reversing_forward)
                      cases[i].length_m, 1e-13 * (1 + cases[i].length_m));
 }
 
-/* Straight lines: the length is the way to the turning point and from there, whatever the turn. */
-TEST(the_path_length_is_the_sum_of_its_two_ways)
-{
-    uint64_t sample = 6;
-    for (int i = 0; i < 100000; i++) {
-        double speed_mps = sample_between(&sample, -50, 50);
-        double acceleration_mps2 = sample_between(&sample, -10, 10);
-        double duration_s = sample_between(&sample, 0, 10);
-        double rest_s = fmin(fmax(-speed_mps / acceleration_mps2, 0), duration_s);
-        struct vec2 start = {0, 0};
-        double turn_m =
-            motion_drive(start, 0, speed_mps, acceleration_mps2, 0, rest_s).position_m.x;
-        double end_m =
-            motion_drive(start, 0, speed_mps, acceleration_mps2, 0, duration_s).position_m.x;
-        double length_m = motion_drive_length_m(speed_mps, acceleration_mps2, duration_s);
-        assert_close(length_m, fabs(turn_m) + fabs(end_m - turn_m), 1e-11);
-        assert_true(length_m >= 0);
-    }
-}
-
 TEST(a_material_point_moves_with_its_body)
 {
     struct motion body = {{10, 20}, {3, 4}, 0.5, 2};
@@ -202,22 +182,6 @@ TEST(a_material_point_moves_with_its_body)
     assert_true(ahead.x == 3 && ahead.y == 8);
     struct vec2 left = motion_velocity_at(&body, (struct vec2){10, 21});
     assert_true(left.x == 1 && left.y == 4);
-}
-
-/* The velocity of a point fixed to the body against the place of that point a little earlier and
- * later. */
-TEST(a_material_points_velocity_is_the_rate_of_its_place)
-{
-    const struct motion body = {{10, 20}, {3, 4}, 0.5, 2};
-    const struct vec2 own_m = {1.5, -0.7};
-    struct vec2 places[3];
-    for (int k = 0; k < 3; k++) {
-        struct motion moved = motion_after(body, (k - 1) * 1e-4);
-        places[k] = vec2_add(moved.position_m, vec2_turn(own_m, vec2_heading(moved.yaw_rad)));
-    }
-    struct vec2 velocity_mps = motion_velocity_at(&body, places[1]);
-    assert_close(velocity_mps.x, (places[2].x - places[0].x) / 2e-4, 1e-7);
-    assert_close(velocity_mps.y, (places[2].y - places[0].y) / 2e-4, 1e-7);
 }
 
 TEST(a_mirrored_drive_ends_mirrored_to_the_last_bit)

@@ -101,30 +101,6 @@ TEST(a_cell_does_not_grow_along_a_chain)
     assert_memory_equal(cell, expected, sizeof cell);
 }
 
-/* The definition, read from the answer: no earlier leader reaches an echo, its own does. */
-TEST(every_echo_lies_in_the_first_cell_that_reaches_it)
-{
-    for (uint64_t scene = 0; scene < 5000; scene++) {
-        struct resolution_echo echoes[ECHO_MAX];
-        size_t cell[ECHO_MAX];
-        size_t leader[ECHO_MAX];
-        size_t count = draw_echoes(scene, echoes);
-        size_t cells = cluster(echoes, count, 0.15, 0.25, cell);
-        size_t opened = 0;
-        for (size_t i = 0; i < count; i++) {
-            size_t first = 0;
-            while (first < opened &&
-                   !(fabs(echoes[i].range_m - echoes[leader[first]].range_m) <= 0.15 &&
-                     fabs(echoes[i].range_rate_mps - echoes[leader[first]].range_rate_mps) <= 0.25))
-                first++;
-            if (first == opened)
-                leader[opened++] = i;
-            assert_int_equal(cell[i], first);
-        }
-        assert_int_equal(cells, opened);
-    }
-}
-
 /* On a grid of half cells, so wide that many scenes have no pair. */
 TEST(echoes_are_close_exactly_if_a_pair_is)
 {
@@ -292,44 +268,6 @@ TEST(a_coherent_crowd_clusters_as_if_every_pair_were_asked)
     }
 }
 
-TEST(sorted_echoes_cluster_alike_in_every_input_order)
-{
-    for (uint64_t scene = 0; scene < 5000; scene++) {
-        struct resolution_echo echoes[ECHO_MAX];
-        struct resolution_echo shuffled[ECHO_MAX];
-        size_t cell[ECHO_MAX];
-        size_t again[ECHO_MAX];
-        size_t count = draw_echoes(scene, echoes);
-        size_t cells = cluster(echoes, count, 0.15, 0.25, cell);
-        for (uint32_t i = 0; i < count; i++) {
-            size_t place = (size_t)(draw(scene, 100 + i) * (i + 1));
-            shuffled[i] = shuffled[place];
-            shuffled[place] = echoes[i];
-        }
-        qsort(shuffled, count, sizeof *shuffled, compare_echoes);
-        assert_int_equal(cluster(shuffled, count, 0.15, 0.25, again), cells);
-        assert_memory_equal(again, cell, count * sizeof *cell);
-    }
-}
-
-TEST(three_equal_echoes_make_two_cells)
-{
-    static const double ranges_m[6][3] = {{10.00, 10.14, 10.28}, {10.00, 10.28, 10.14},
-                                          {10.14, 10.00, 10.28}, {10.14, 10.28, 10.00},
-                                          {10.28, 10.00, 10.14}, {10.28, 10.14, 10.00}};
-    for (size_t i = 0; i < 6; i++) {
-        struct resolution_echo echoes[3];
-        size_t cell[3];
-        for (size_t k = 0; k < 3; k++)
-            echoes[k] = (struct resolution_echo){ranges_m[i][k], 0, 1, 0, 0};
-        qsort(echoes, 3, sizeof *echoes, compare_echoes);
-        assert_int_equal(cluster(echoes, 3, 0.15, 0.25, cell), 2);
-        assert_int_equal(cell[0], 0);
-        assert_int_equal(cell[1], 0);
-        assert_int_equal(cell[2], 1);
-    }
-}
-
 /* Hard case 15. */
 TEST(the_mean_of_equal_values_is_that_value)
 {
@@ -378,9 +316,4 @@ TEST(weights_may_be_huge_or_tiny)
     for (size_t i = 0; i < COUNT(cases); i++)
         assert_near(resolution_mean((double[]){10, 11, 12}, cases[i].weights, 3), cases[i].mean,
                     1e-15);
-}
-
-TEST(the_mean_of_one_is_itself)
-{
-    assert_close(resolution_mean((double[]){-0.1}, (double[]){3e-300}, 1), -0.1, 0);
 }
