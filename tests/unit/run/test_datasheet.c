@@ -190,13 +190,19 @@ TEST(a_walk_that_is_compensated_is_no_doubt)
     assert_null(check_of(&sensor, "walk"));
 }
 
+static struct datasheet sheet_of(struct sensor *sensor)
+{
+    struct datasheet sheet;
+    suite_derive(sensor);
+    datasheet_of(sensor, &sheet);
+    return sheet;
+}
+
 /* MODEL 4.1: ranges go with the root of an ERCS, which is 1 at 10 dBsm. */
 TEST(echoes_are_detected_where_they_meet_the_threshold)
 {
     struct sensor sensor = quiet_sensor();
-    struct datasheet sheet;
-    suite_derive(&sensor);
-    datasheet_of(&sensor, &sheet);
+    struct datasheet sheet = sheet_of(&sensor);
     static const double boresight_m[] = {28.117066, 50, 88.913970};
     for (int k = 0; k < DATASHEET_ECHOES; k++) {
         assert_close(sheet.echo_dbsm[k], 10 * k, 0);
@@ -215,11 +221,9 @@ TEST(echoes_are_detected_where_they_meet_the_threshold)
 TEST(ranges_end_at_the_sensors_own)
 {
     struct sensor sensor = quiet_sensor();
-    struct datasheet sheet;
     sensor.range_max_m = 60;
     sensor.range_min_m = 30;
-    suite_derive(&sensor);
-    datasheet_of(&sensor, &sheet);
+    struct datasheet sheet = sheet_of(&sensor);
     assert_close(sheet.range_m[0][0][0], 0, 0);
     assert_close(sheet.range_m[0][1][0], 50, 1e-9);
     assert_close(sheet.range_m[0][2][0], 60, 0);
@@ -237,10 +241,8 @@ TEST(ranges_end_at_the_sensors_own)
 TEST(fluctuation_costs_range)
 {
     struct sensor sensor = quiet_sensor();
-    struct datasheet sheet;
     sensor.fluctuation = FLUCTUATION_SWERLING_1;
-    suite_derive(&sensor);
-    datasheet_of(&sensor, &sheet);
+    struct datasheet sheet = sheet_of(&sensor);
     assert_close(sheet.chance[0], exp(-1), 1e-6);
     assert_near(sheet.range_m[0][1][1], 50 * pow(-log(0.9), 0.25), 1e-5);
 }
@@ -249,15 +251,13 @@ TEST(fluctuation_costs_range)
 TEST(levels_cost_range)
 {
     struct sensor sensor = quiet_sensor();
-    struct datasheet sheet;
     sensor.level_constant_db = 3;
     sensor.level_slow_db = 2;
     sensor.level_fast_db = 6;
     for (int keeps = LEVEL_KEEPS_MEAN; keeps <= LEVEL_KEEPS_MEDIAN; keeps++) {
         double mean_db = keeps == LEVEL_KEEPS_MEAN ? -log(10) / 20 * 49 : 0;
         sensor.level_keeps = (enum level_keeps)keeps;
-        suite_derive(&sensor);
-        datasheet_of(&sensor, &sheet);
+        struct datasheet sheet = sheet_of(&sensor);
         assert_close(sheet.chance[0], erfc(-mean_db / 7 / sqrt(2)) / 2, 1e-6);
         assert_near(sheet.range_m[0][1][1], 50 * pow(10, (mean_db - 1.2815516 * 7) / 40), 1e-5);
     }
@@ -266,14 +266,12 @@ TEST(levels_cost_range)
 TEST(accuracy_follows_law_noise_and_steps)
 {
     struct sensor sensor = quiet_sensor();
-    struct datasheet sheet;
     sensor.pointer_sigma = units_amplitude_from_db(6 - 10);
     sensor.sigma_law = SIGMA_BY_SNR;
     sensor.window_factor = 0.5;
     sensor.range_step_m = 0.12;
     sensor.azimuth_floor_rad = 0.01;
-    suite_derive(&sensor);
-    datasheet_of(&sensor, &sheet);
+    struct datasheet sheet = sheet_of(&sensor);
     for (int i = 0; i < DATASHEET_LEVELS; i++) {
         double snr = pow(10, 1 + i);
         assert_close(sheet.accuracy[i].snr_db, 10 * (1 + i), 1e-9);
@@ -288,22 +286,27 @@ TEST(accuracy_follows_law_noise_and_steps)
         }
     }
     sensor.sigma_law = SIGMA_BY_AMPLITUDE;
-    suite_derive(&sensor);
-    datasheet_of(&sensor, &sheet);
+    sheet = sheet_of(&sensor);
     assert_near(sheet.accuracy[2].range_rate_sigma_mps, 0.001, 1e-9);
+}
+
+static const char *written(const struct suite *suite)
+{
+    struct text *text = check_text();
+    datasheet_add(suite, text);
+    text_add(text, "", 1);
+    return text->bytes;
 }
 
 TEST(without_noise_rows_of_accuracy_say_how_strong_an_echo_is)
 {
     struct sensor sensor = quiet_sensor();
     struct suite suite = {.sensors = {&sensor, 1, 1}};
-    struct text *text = check_text();
     suite_derive(&sensor);
-    datasheet_add(&suite, text);
-    text_add(text, "", 1);
-    assert_non_null(strstr(text->bytes, "\n  threshold +  0 dB           0.1         0.01"));
-    assert_non_null(strstr(text->bytes, "\n  threshold + 20 dB           0.1         0.01"));
-    assert_null(strstr(text->bytes, "inf"));
+    const char *text = written(&suite);
+    assert_non_null(strstr(text, "\n  threshold +  0 dB           0.1         0.01"));
+    assert_non_null(strstr(text, "\n  threshold + 20 dB           0.1         0.01"));
+    assert_null(strstr(text, "inf"));
 }
 
 TEST(a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions)
@@ -312,19 +315,15 @@ TEST(a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions)
     struct range_limit limits[] = {{0, 50}, {40 * DEGREE, 32}};
     const char *sentences[] = {"The list is the nearest.", "Noise is white."};
     struct suite suite = {.sensors = {&sensor, 1, 1}, .assumed = {sentences, 2, 2}};
-    struct text *text = check_text();
     sensor.range_limits.items = limits;
     sensor.range_limits.count = 2;
     sensor.unambiguous_rate_mps = 80;
     sensor.unambiguous_middle_mps = 25;
     suite_derive(&sensor);
-    datasheet_add(&suite, text);
-    text_add(text, "", 1);
-    assert_non_null(
-        strstr(text->bytes, "\n  range limits       50 m at 0 degrees, 32 m at 40 degrees\n"));
-    assert_non_null(strstr(text->bytes, ", from -55 to 105 m/s\n"));
-    assert_non_null(
-        strstr(text->bytes, "\n\nassumed\n  The list is the nearest.\n  Noise is white.\n"));
+    const char *text = written(&suite);
+    assert_non_null(strstr(text, "\n  range limits       50 m at 0 degrees, 32 m at 40 degrees\n"));
+    assert_non_null(strstr(text, ", from -55 to 105 m/s\n"));
+    assert_non_null(strstr(text, "\n\nassumed\n  The list is the nearest.\n  Noise is white.\n"));
 }
 
 TEST(levels_stand_for_fluctuation)
@@ -354,21 +353,18 @@ TEST(sensors_that_differ_in_their_mount_share_a_sheet)
 {
     struct sensor sensors[3] = {quiet_sensor(), quiet_sensor(), quiet_sensor()};
     struct suite suite = {.sensors = {sensors, 3, 3}};
-    struct text *text = check_text();
     sensors[1].name = "left";
     sensors[1].mount_yaw_rad = 1;
     sensors[2].name = "far";
     sensors[2].range_max_m = 200;
     for (int i = 0; i < 3; i++)
         suite_derive(&sensors[i]);
-    datasheet_add(&suite, text);
-    text_add(text, "", 1);
+    const char *text = written(&suite);
     int sheets = 0;
-    for (const char *at = text->bytes; (at = strstr(at, "carrier")) != NULL; at++)
+    for (const char *at = text; (at = strstr(at, "carrier")) != NULL; at++)
         sheets++;
     assert_int_equal(sheets, 2);
-    assert_memory_equal(text->bytes, "front: ", 7);
-    assert_non_null(
-        strstr(text->bytes, "\nleft: at x 0 m, y 0 m, looking to 57.3 degrees\n  carrier"));
-    assert_non_null(strstr(text->bytes, "\n\nfar: "));
+    assert_memory_equal(text, "front: ", 7);
+    assert_non_null(strstr(text, "\nleft: at x 0 m, y 0 m, looking to 57.3 degrees\n  carrier"));
+    assert_non_null(strstr(text, "\n\nfar: "));
 }

@@ -152,6 +152,7 @@ TEST(help_and_version_need_nothing_else)
     assert_true(result.common.version);
 }
 
+/* Of tools also options that would do nothing. */
 TEST(wrong_command_lines_are_refused)
 {
     static const struct {
@@ -182,7 +183,16 @@ TEST(wrong_command_lines_are_refused)
         {&filter, "--radius-m 101", "--radius-m: 101 is outside [-5, 100] m"},
         {&filter, "--mode up", "--mode: \"up\" is unknown; expected one of slow, fast"},
         {&filter, "--seed -1",
-         "--seed: \"-1\" is no seed; expected decimal digits up to 18446744073709551615"}};
+         "--seed: \"-1\" is no seed; expected decimal digits up to 18446744073709551615"},
+        {&maker, "", "missing DIR: the place; see --help"},
+        {&maker, "a b", "one argument too many: b"},
+        {&maker, "a -o x", "unknown option -o; see --help"},
+        {&maker, "a --seed 1", "unknown option --seed; see --help"},
+        {&maker, "a --complete", "unknown option --complete; see --help"},
+        {&tables, "a -o x", "unknown option -o; see --help"},
+        {&tables, "a --sections all", "unknown option --sections; see --help"},
+        {&reader, "--where x --sections all", "unknown option --sections; see --help"},
+    };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct result result;
         assert_int_equal(read_line(cases[i].stage, cases[i].line, &result), -1);
@@ -217,27 +227,6 @@ TEST(only_what_writes_frames_or_draws_takes_a_seed)
                                 : read_line(&sink, "--where x --seed 3", &result),
                          -1);
         assert_string_equal(result.diag.text, "unknown option --seed; see --help");
-    }
-}
-
-TEST(a_tool_refuses_options_that_would_do_nothing)
-{
-    static const struct {
-        const struct stage *tool;
-        const char *line, *message;
-    } cases[] = {{&maker, "", "missing DIR: the place; see --help"},
-                 {&maker, "a b", "one argument too many: b"},
-                 {&maker, "a -o x", "unknown option -o; see --help"},
-                 {&maker, "a --seed 1", "unknown option --seed; see --help"},
-                 {&maker, "a --complete", "unknown option --complete; see --help"},
-                 {&tables, "a -o x", "unknown option -o; see --help"},
-                 {&tables, "a --sections all", "unknown option --sections; see --help"},
-                 {&reader, "--where x --sections all", "unknown option --sections; see --help"}};
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        struct result result;
-        assert_int_equal(read_line(cases[i].tool, cases[i].line, &result), -1);
-        assert_string_equal(result.diag.text, cases[i].message);
-        assert_int_equal(result.diag.code, DIAG_USAGE);
     }
 }
 

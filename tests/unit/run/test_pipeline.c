@@ -94,82 +94,19 @@ static void add_question(const char *words, struct text *script, struct text *ex
 
 TEST(bash_sees_the_same_words)
 {
-    static const char *const words[] = {"a b c",
-                                        "'a b' \"c d\"",
-                                        "a'b'\"c\"d",
-                                        "''",
-                                        "\"\"",
-                                        "'' \"\" ''\"\"",
-                                        "a\\ b",
-                                        "\\a\\b\\\\",
-                                        "\\'\\\"",
-                                        "'\\a\\\\'",
-                                        "\"\\a \\\\ \\\" \\` \\$ \\' \\n\"",
-                                        "'\"' \"'\"",
-                                        "a#b",
-                                        "a #b",
-                                        "''#b",
-                                        "a\\#b",
-                                        "\\#b",
-                                        "'#'b",
-                                        "a \\\n b",
-                                        "a\\\nb",
-                                        "\\\n#b",
-                                        "a\\\n#b",
-                                        "'a\nb'",
-                                        "\"a\nb\"",
-                                        "\"a\\\nb\"",
-                                        "'a\\\nb'",
-                                        "a=b",
-                                        "--x=y z",
-                                        "-- -x",
-                                        "%s %d",
-                                        "a\\|b",
-                                        "'|' \"|\"",
-                                        "\\~",
-                                        "a~b",
-                                        "~\\\n",
-                                        "'~'",
-                                        "\\*",
-                                        "'*?['",
-                                        "a]b",
-                                        "a,b",
-                                        "a^b",
-                                        "a%b @c +d",
-                                        "a:b",
-                                        "\xc3\xa9 \xe2\x82\xac",
-                                        "'\xc3\xa9'",
-                                        "a\\\tb",
-                                        "a\tb",
-                                        "a\vb a\fb",
-                                        "a\rb",
-                                        "\\\\",
-                                        "a\\",
-                                        "\"a\"\\\n\"b\"",
-                                        "\\\n",
-                                        "\\\n\\\na",
-                                        "a\\\n\n",
-                                        "\\ ",
-                                        "' '",
-                                        "-x1 -y=-2.5e3",
-                                        "\"\\\\\"\\\\'\\\\'",
-                                        "a\xc2\xa0-",
-                                        "\"!\"",
-                                        "'!'",
-                                        "\\!",
-                                        "\"\\!\"",
-                                        "\"*\"",
-                                        "\"~\"",
-                                        "a\\=b",
-                                        "\\{a,b\\}",
-                                        "'{a,b}'",
-                                        "\"{a,b}\"",
-                                        "/a/~ ./~",
-                                        "--file=~/x",
-                                        "a'#'b#c"};
+    /* parted by semicolons */
+    static const char words[] =
+        "a b c;'a b' \"c d\";a'b'\"c\"d;'';\"\";'' \"\" ''\"\";a\\ b;\\a\\b\\\\;\\'\\\";"
+        "'\\a\\\\';\"\\a \\\\ \\\" \\` \\$ \\' \\n\";'\"' \"'\";a#b;a #b;''#b;a\\#b;\\#b;"
+        "'#'b;a \\\n b;a\\\nb;\\\n#b;a\\\n#b;'a\nb';\"a\nb\";\"a\\\nb\";'a\\\nb';a=b;--x=y z;"
+        "-- -x;%s %d;a\\|b;'|' \"|\";\\~;a~b;~\\\n;'~';\\*;'*?[';a]b;a,b;a^b;a%b @c +d;a:b;"
+        "\xc3\xa9 \xe2\x82\xac;'\xc3\xa9';a\\\tb;a\tb;a\vb a\fb;a\rb;\\\\;a\\;\"a\"\\\n\"b\";"
+        "\\\n;\\\n\\\na;a\\\n\n;\\ ;' ';-x1 -y=-2.5e3;\"\\\\\"\\\\'\\\\';a\xc2\xa0-;\"!\";"
+        "'!';\\!;\"\\!\";\"*\";\"~\";a\\=b;\\{a,b\\};'{a,b}';\"{a,b}\";/a/~ ./~;--file=~/x;"
+        "a'#'b#c;";
     struct text *script = check_text(), *expected = check_text();
-    for (size_t i = 0; i < COUNT(words); i++)
-        add_question(words[i], script, expected);
+    for (const char *at = words; *at != '\0'; at += strcspn(at, ";") + 1)
+        add_question(arena_text(check_arena(), at, strcspn(at, ";")), script, expected);
     struct text *answer = asked_of_bash(script);
     text_add(answer, "", 1);
     text_add(expected, "", 1);

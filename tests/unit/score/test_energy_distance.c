@@ -156,17 +156,21 @@ TEST(twice_the_same_target_is_twice_as_far_from_none)
     assert_near(distance_of(twice, 2, twice, 1), sqrt(3), 1e-15);
 }
 
+static void draw_targets(uint64_t *sample, double bound, struct embedded_target *targets,
+                         size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < EMBEDDED_AXES; k++)
+            targets[i].axis[k] = sample_between(sample, -bound, bound);
+}
+
 TEST(the_order_of_targets_changes_no_bit)
 {
     uint64_t sample = 5;
     for (int round = 0; round < 100; round++) {
         struct embedded_target one[9], turned[9], other[7];
-        for (int i = 0; i < 9; i++)
-            for (int k = 0; k < EMBEDDED_AXES; k++)
-                one[i].axis[k] = sample_between(&sample, -5, 5);
-        for (int i = 0; i < 7; i++)
-            for (int k = 0; k < EMBEDDED_AXES; k++)
-                other[i].axis[k] = sample_between(&sample, -5, 5);
+        draw_targets(&sample, 5, one, 9);
+        draw_targets(&sample, 5, other, 7);
         for (int i = 0; i < 9; i++)
             turned[(4 * i + round) % 9] = one[i];
         assert_close(distance_of(turned, 9, other, 7), distance_of(one, 9, other, 7), 0);
@@ -179,9 +183,7 @@ TEST(the_distance_of_lists_is_a_metric)
     uint64_t sample = 6;
     for (int round = 0; round < 300; round++) {
         struct embedded_target all[9];
-        for (int i = 0; i < 9; i++)
-            for (int k = 0; k < EMBEDDED_AXES; k++)
-                all[i].axis[k] = sample_between(&sample, -3, 3);
+        draw_targets(&sample, 3, all, 9);
         double ab = distance_of(all, 3, all + 3, 2), bc = distance_of(all + 3, 2, all + 5, 4);
         assert_true(distance_of(all, 3, all + 5, 4) <= ab + bc);
     }

@@ -15,6 +15,13 @@ static void write_line(FILE *file, int scene, int frame)
         scene, frame, scene, frame);
 }
 
+static struct reference_stream *open_reference(const struct scratch *scratch, bool some,
+                                               struct diag *diag)
+{
+    return reference_stream_open(scratch->path, &track_list_record, some, (struct input_pause){0},
+                                 diag);
+}
+
 /* Looks for a frame: 1 if its own line is found, else the result of the stream. */
 static int ask(struct reference_stream *reference, int scene, int64_t number, struct diag *diag)
 {
@@ -60,8 +67,7 @@ TEST_OF(scratch, frames_meet_in_every_interleaving)
             write_line(file, order[i], next[order[i]]++);
         fclose(file);
         struct diag diag = {0};
-        struct reference_stream *reference = reference_stream_open(
-            scratch->path, &track_list_record, false, (struct input_pause){0}, &diag);
+        struct reference_stream *reference = open_reference(scratch, false, &diag);
         interleave(&sample, order);
         memset(next, 0, sizeof next);
         for (int i = 0; i < SCENES * FRAMES; i++)
@@ -89,8 +95,7 @@ TEST_OF(scratch, frames_meet_where_either_stream_lacks_some)
                 write_line(file, order[i], next[order[i]]);
         fclose(file);
         struct diag diag = {0};
-        struct reference_stream *reference = reference_stream_open(
-            scratch->path, &track_list_record, true, (struct input_pause){0}, &diag);
+        struct reference_stream *reference = open_reference(scratch, true, &diag);
         interleave(&sample, order);
         memset(next, 0, sizeof next);
         for (int i = 0; i < SCENES * FRAMES; i++, next[order[i - 1]]++)
@@ -109,8 +114,7 @@ TEST_OF(scratch, a_frame_without_a_line_is_refused)
     write_line(file, 0, 2);
     fclose(file);
     struct diag diag = {0};
-    struct reference_stream *reference = reference_stream_open(
-        scratch->path, &track_list_record, false, (struct input_pause){0}, &diag);
+    struct reference_stream *reference = open_reference(scratch, false, &diag);
     assert_int_equal(ask(reference, 0, 0, &diag), 1);
     assert_int_equal(ask(reference, 0, 1, &diag), -1);
     assert_int_equal(diag.code, DIAG_DATA);
@@ -125,8 +129,7 @@ TEST_OF(scratch, a_line_without_a_frame_is_refused_with_its_place)
         write_line(file, scene, 3);
     fclose(file);
     struct diag diag = {0};
-    struct reference_stream *reference = reference_stream_open(
-        scratch->path, &track_list_record, false, (struct input_pause){0}, &diag);
+    struct reference_stream *reference = open_reference(scratch, false, &diag);
     assert_int_equal(ask(reference, 3, 3, &diag), 1);
     assert_int_equal(ask(reference, 0, 3, &diag), 1);
     assert_int_equal(reference_stream_finish(reference, &diag), -1);
@@ -138,8 +141,7 @@ TEST_OF(scratch, a_file_that_is_not_there_is_refused)
 {
     struct diag diag = {0};
     unlink(scratch->path);
-    assert_null(reference_stream_open(scratch->path, &track_list_record, false,
-                                      (struct input_pause){0}, &diag));
+    assert_null(open_reference(scratch, false, &diag));
     assert_int_equal(diag.code, DIAG_NO_INPUT);
     reference_stream_close(NULL);
 }

@@ -234,8 +234,7 @@ TEST_OF(bench, frames_do_not_depend_on_how_time_was_cut)
     begin_well(bench, CROWDED, 30, NULL, 5);
     const struct frame *frame = frame_at(bench, 47.3);
     size_t count = frame->objects.count;
-    struct object *kept = calloc(count, sizeof *kept);
-    assert_non_null(kept);
+    struct object *kept = arena_get(check_arena(), count * sizeof *kept);
     memcpy(kept, frame->objects.items, count * sizeof *kept);
     begin_well(bench, CROWDED, 30, NULL, 5);
     for (int i = 0; i < 473; i++)
@@ -246,7 +245,6 @@ TEST_OF(bench, frames_do_not_depend_on_how_time_was_cut)
         assert_close(frame->objects.items[i].x_m, kept[i].x_m, 0);
         assert_close(frame->objects.items[i].vy_mps, kept[i].vy_mps, 0);
     }
-    free(kept);
 }
 
 /* Behind a truck that nobody can overtake all end at its speed and the gap of that speed. */
@@ -377,8 +375,7 @@ TEST_OF(bench, a_mirrored_road_has_mirrored_traffic)
     begin_well(bench, CROWDED, 60, NULL, 2);
     const struct frame *frame = frame_at(bench, 31.4);
     size_t count = frame->objects.count;
-    struct object *kept = calloc(count, sizeof *kept);
-    assert_non_null(kept);
+    struct object *kept = arena_get(check_arena(), count * sizeof *kept);
     memcpy(kept, frame->objects.items, count * sizeof *kept);
     arena_clear(&bench->arena);
     memset(&bench->road, 0, sizeof bench->road);
@@ -405,7 +402,6 @@ TEST_OF(bench, a_mirrored_road_has_mirrored_traffic)
         assert_close(object->vy_mps, -kept[i].vy_mps, 1e-14);
         assert_close(object->yaw_rate_radps, -kept[i].yaw_rate_radps, 1e-15);
     }
-    free(kept);
 }
 
 TEST_OF(bench, what_cannot_be_driven_is_refused)

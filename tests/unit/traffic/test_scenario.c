@@ -355,21 +355,6 @@ TEST(a_shifted_scenario_moves_like_a_local_one)
         }
 }
 
-/* No error accumulates over 1e6 frames. */
-TEST(a_million_frames_do_not_drift)
-{
-    double rate_hz = 17, speed_mps = 33.3;
-    struct segment ahead = {.duration_s = 1e6};
-    struct actor actor = driver(&ahead, 1);
-    actor.speed_mps = speed_mps;
-    actor.x_m = -123.4;
-    for (int i = 0; i <= 1000000; i++) {
-        double x_m = motion_at(&actor, i / rate_hz).position_m.x;
-        double exact_m = (double)(-123.4L + (long double)speed_mps * i / 17);
-        assert_close(x_m, exact_m, 1e-9);
-    }
-}
-
 TEST(frames_are_counted_despite_rounding)
 {
     static const struct {
