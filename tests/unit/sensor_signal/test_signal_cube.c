@@ -1,8 +1,8 @@
 #include "check.h"
 
 #include "sensor/scan.h"
-#include "sensor_signal/signal_cube.h"
 #include "support/array_sensor.h"
+#include "support/signal_transform.h"
 
 #define PI 3.14159265358979323846
 
@@ -78,18 +78,6 @@ static struct phasor bin(const struct bench *bench, const struct phasor *samples
             sum.re += sample.re * c - sample.im * s;
             sum.im += sample.re * s + sample.im * c;
         }
-    return sum;
-}
-
-/* Point k of a transform of twice as many points. */
-static struct phasor sum_of(const struct phasor *samples, size_t count, size_t k)
-{
-    struct phasor sum = {0, 0};
-    for (size_t n = 0; n < count; n++) {
-        double angle = PI * (double)(k * n) / (double)count;
-        sum.re += samples[n].re * cos(angle) - samples[n].im * sin(angle);
-        sum.im += samples[n].re * sin(angle) + samples[n].im * cos(angle);
-    }
     return sum;
 }
 
@@ -263,12 +251,7 @@ static void transform(const struct signal_cube *signal, const struct signal_inpu
     struct phasor at[REPETITIONS];
     for (size_t m = 0; m < REPETITIONS; m++) {
         signal_cube_receive(signal, input, 0, m);
-        for (size_t channel = 0; channel < signal->channels; channel++) {
-            struct phasor *row = signal->rows + channel * signal->row_cells, samples[SAMPLES];
-            memcpy(samples, row, sizeof samples);
-            for (size_t k = 0; k < signal->row_cells; k++)
-                row[k] = sum_of(samples, SAMPLES, k);
-        }
+        signal_transform_rows(signal);
         signal_cube_store(signal, 0, m);
     }
     for (size_t channel = 0; channel < signal->channels; channel++)
@@ -277,7 +260,7 @@ static void transform(const struct signal_cube *signal, const struct signal_inpu
             for (size_t m = 0; m < REPETITIONS; m++)
                 at[m] = cells[m * kept];
             for (size_t l = 0; l < rows; l++)
-                cells[l * kept] = sum_of(at, REPETITIONS, l);
+                cells[l * kept] = signal_transform_sum(at, REPETITIONS, l);
         }
 }
 

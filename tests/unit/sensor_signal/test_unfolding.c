@@ -3,6 +3,7 @@
 #include "sensor/received_echo.h"
 #include "sensor_signal/unfolding.h"
 #include "support/array_sensor.h"
+#include "support/signal_transform.h"
 
 #define PI 3.14159265358979323846
 
@@ -34,25 +35,6 @@ static void begin(struct bench *bench, int64_t stagger, size_t elements)
     bench->signal = signal_cube_of(&bench->sensor, bench->arena);
 }
 
-/* One repetition's rows by the sum that defines their transform. */
-static void transform_rows(const struct signal_cube *signal)
-{
-    for (size_t channel = 0; channel < signal->channels; channel++) {
-        struct phasor *row = signal->rows + channel * signal->row_cells;
-        struct phasor samples[SAMPLES];
-        for (size_t n = 0; n < SAMPLES; n++)
-            samples[n] = row[n];
-        for (size_t k = 0; k < signal->row_cells; k++) {
-            row[k] = (struct phasor){0, 0};
-            for (size_t n = 0; n < SAMPLES; n++) {
-                double angle = 2 * PI * (double)(k * n) / (2 * SAMPLES);
-                row[k].re += samples[n].re * cos(angle) - samples[n].im * sin(angle);
-                row[k].im += samples[n].re * sin(angle) + samples[n].im * cos(angle);
-            }
-        }
-    }
-}
-
 static struct received_echo echo_at(double range_m, double rate_mps, double azimuth_rad,
                                     double amplitude)
 {
@@ -70,7 +52,7 @@ static void receive(struct bench *bench, const struct received_echo *echoes, siz
     struct signal_input input = signal_cube_sources(&bench->signal, echoes, count, bench->arena);
     for (size_t m = 0; m < REPETITIONS && bench->signal.second != NULL; m++) {
         signal_cube_receive(&bench->signal, &input, 1, m);
-        transform_rows(&bench->signal);
+        signal_transform_rows(&bench->signal);
         signal_cube_store(&bench->signal, 1, m);
     }
 }
