@@ -74,18 +74,6 @@ TEST(points_are_drawn_evenly)
     }
 }
 
-TEST(points_move_between_the_contact_point_and_the_top)
-{
-    uint64_t sample = 8;
-    for (int i = 0; i < 100000; i++) {
-        double hub = sample_between(&sample, -50, 50), rolling = sample_between(&sample, -50, 50);
-        double uniform[2] = {sample_between(&sample, 0, 1), sample_between(&sample, 0, 1)};
-        double rate =
-            micro_doppler_wheel_rate_mps(hub, rolling, micro_doppler_wheel_point(uniform));
-        assert_true(fabs(rate - hub) <= fabs(rolling) * (1 + 1e-15) + 1e-14);
-    }
-}
-
 TEST(one_and_a_half_points_show_on_average)
 {
     double sum = 0, none = 0;

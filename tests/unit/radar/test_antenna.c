@@ -188,16 +188,6 @@ TEST(the_inverse_of_special_ratios_is_exact)
     assert_near(antenna_azimuth_rad(&CENTRE, -1e-300, 1e-300), -PI / 6, 3e-16);
 }
 
-TEST(a_single_echo_comes_back_at_its_azimuth)
-{
-    for (int i = 0; i < 100000; i++) {
-        double azimuth_rad = antennas_dense_azimuth(i, 300);
-        struct antenna_pointers pointers = antenna_pointers(&CENTRE, azimuth_rad);
-        double back = antenna_azimuth_rad(&CENTRE, -cimag(pointers.delta), creal(pointers.sum));
-        assert_close(back, azimuth_rad, fmin(1e-15, 1e-14 * azimuth_rad));
-    }
-}
-
 TEST(a_table_is_linear_between_its_rows)
 {
     for (size_t i = 0; i < COUNT(SKEWED_ROWS); i++) {
