@@ -15,11 +15,11 @@ static void write_line(FILE *file, int scene, int frame)
         scene, frame, scene, frame);
 }
 
-static struct reference_stream *open_reference(const struct scratch *scratch, bool some,
+static struct reference_stream *open_reference(const struct scratch *scratch, bool partial,
                                                struct diag *diag)
 {
-    return reference_stream_open(scratch->path, &track_list_record, some, (struct input_pause){0},
-                                 diag);
+    return reference_stream_open(scratch->path, &track_list_record, partial,
+                                 (struct input_pause){0}, diag);
 }
 
 /* Looks for a frame: 1 if its own line is found, else the result of the stream. */
