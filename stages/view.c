@@ -24,7 +24,7 @@ static int open_beside(const char *path, const struct record *record,
 
 #define PICTURES                                                                                   \
     "the button \"Save map as SVG\" of the page saves a frame as it is shown, and "                \
-    "scripts/figures --frame N draws frame N of a stream"
+    "scripts/figures --frame N of the source tree draws frame N of a stream"
 
 /* Refuses an output that shows no page. */
 static int check_output(struct runner *runner)
