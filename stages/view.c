@@ -121,6 +121,8 @@ static const struct field view_fields[] = {
     {0},
 };
 
+static const struct field_gone gone_options[] = {{"svg", PICTURES}, {NULL, NULL}};
+
 const struct stage stage_view = {
     .name = "view",
     .summary = "Write an HTML page that plays the stream.",
@@ -132,8 +134,10 @@ const struct stage stage_view = {
         "the targets of another stream of the same scenes, paired with those of this one as "
         "glint-score pairs them. With --tracks it shows a tracker's tracks, paired with the "
         "objects in view. The output is written at the end of the stream.",
-    .options = STAGE_OPTIONS(struct view, view_fields),
-    .former_options = (const char *const[]){"svg", PICTURES, NULL},
+    .options = &(const struct record){.name = "options",
+                                      .size = sizeof(struct view),
+                                      .fields = view_fields,
+                                      .gone = gone_options},
     .sink = true,
     .start = view_start,
     .step = view_step,

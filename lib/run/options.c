@@ -173,24 +173,13 @@ static void offer_options(const struct field *fields, const struct stage *stage,
     }
 }
 
-/* What to do instead of an option of an earlier version; NULL if the stage had none of this name.
- */
-static const char *instead_of(const struct stage *stage, const char *name, size_t length)
-{
-    const char *const *former = stage->former_options;
-    for (; former != NULL && *former != NULL; former += 2)
-        if (strlen(*former) == length && strncmp(*former, name, length) == 0)
-            return former[1];
-    return NULL;
-}
-
 static int unknown_option(const struct command_line *line, const char *word)
 {
     const char *name = word + strspn(word, "-");
     size_t length = strcspn(name, "=");
-    const char *instead = instead_of(line->stage, name, length);
-    if (instead != NULL)
-        return diag_fail(line->diag, DIAG_USAGE, "%s is gone: %s", word, instead);
+    const struct field_gone *gone = field_find_gone(line->stage->options, name, length);
+    if (gone != NULL)
+        return diag_fail(line->diag, DIAG_USAGE, "%s is gone: %s", word, gone->instead);
     struct suggestion meant = suggestion_begin(name, length);
     offer_options(named_options(line->stage), line->stage, &meant);
     offer_options(common_fields, line->stage, &meant);

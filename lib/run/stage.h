@@ -31,11 +31,9 @@ struct stage {
     const char *name;    /* "sensor-perfect": the executable is glint-sensor-perfect */
     const char *summary; /* one sentence */
     const char *details; /* more paragraphs for --help, or NULL */
-    /* The state, of which members are the stage's options: --radius-m sets radius_m. */
+    /* The state, of which members are the stage's options: --radius-m sets radius_m. Its gone
+     * members are options of earlier versions. */
     const struct record *options;
-    /* Options of earlier versions, each followed by what to do instead, and NULL at the end; NULL:
-     * none. */
-    const char *const *former_options;
     /* The first argument, as --help calls it; it sets the first option. NULL: there is none. */
     const char *operand;
     bool sink;

@@ -402,9 +402,8 @@ int field_refuse(const struct field *field, const char *found, struct diag *diag
     return diag_fail(diag, DIAG_DATA, "%s: %s; expected %s", field->name, found, expected);
 }
 
-/* The record's former member of that name, or NULL. */
-static const struct field_gone *find_gone(const struct record *record, const char *name,
-                                          size_t length)
+const struct field_gone *field_find_gone(const struct record *record, const char *name,
+                                         size_t length)
 {
     const struct field_gone *gone = record->gone;
     if (gone == NULL)
@@ -417,7 +416,7 @@ static const struct field_gone *find_gone(const struct record *record, const cha
 
 int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag)
 {
-    const struct field_gone *gone = find_gone(record, name, length);
+    const struct field_gone *gone = field_find_gone(record, name, length);
     if (gone != NULL)
         return diag_fail(diag, DIAG_DATA, "%s: %s", gone->name, gone->instead);
     char known[1536] = "";

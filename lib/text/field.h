@@ -152,6 +152,10 @@ const char *field_unit(const char *name);
 /* The record's member of that name, or NULL. */
 const struct field *field_find(const struct record *record, const char *name, size_t length);
 
+/* The record's former member of that name, or NULL. */
+const struct field_gone *field_find_gone(const struct record *record, const char *name,
+                                         size_t length);
+
 /* Sets every member to its value when absent. */
 void field_clear(const struct record *record, void *base);
 
