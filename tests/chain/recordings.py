@@ -371,6 +371,16 @@ def places_turn_with_their_box():
     check(abs(nearest_m - 19) < 1e-12, f"nearest point of a box across: {nearest_m}")
 
 
+def the_densest_window_is_that_of_all_windows():
+    """Beside all windows that begin at a value, of which the lowest of several counts; of numbers with and without repetition."""
+    generator = random.Random(4)
+    for trial in range(300):
+        values = sorted(round(generator.gauss(0, 2), 1 + trial % 2 * 8) for _ in range(generator.randrange(40)))
+        windows = [[one for one in values if 0 <= one - begin <= 0.4] for begin in values]
+        found, expected = statics.densest(reversed(values), 0.4), max(windows, key=len, default=[])
+        check(found == expected, f"densest window of {values}: {found}, expected {expected}")
+
+
 def what_stands_tells_the_speed(scans):
     speeds = statics.ego_speeds(RADAR, scans)
     check(max(abs(one - EGO_MPS) for one in speeds) < 0.1, f"speeds of the ego: {min(speeds)} to {max(speeds)}")
@@ -460,6 +470,7 @@ def main():
     energy_scores_follow_their_closed_form()
     intervals_of_20_blocks_hold_the_expected_ratio()
     places_turn_with_their_box()
+    the_densest_window_is_that_of_all_windows()
     noise_of_azimuths_is_parted_from_its_floor()
     cells_are_found_beside_wrong_pairs()
     a_roadside_is_found_again()

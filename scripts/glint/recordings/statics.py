@@ -1,5 +1,7 @@
 """Detections of what stands: the ego's speed, the way between two scans, and what is seen again."""
+import bisect
 import math
+import operator
 import statistics
 
 AGREE_MPS = 0.3  # width of the window of speeds that agree
@@ -9,9 +11,20 @@ GATE_M, GATE_RAD = 0.4, math.radians(1)  # seen again within
 
 
 def densest(values, width):
-    """The values in the window of this width that holds most of them."""
-    values = sorted(values)
-    return max(([one for one in values[i:] if one - begin <= width] for i, begin in enumerate(values)), key=len, default=[])
+    """The values in the window of this width that holds most of them; in the lowest one of several."""
+    values, end, most = sorted(values), 0, []
+    for begin, least in enumerate(values):
+        while end < len(values) and values[end] - least <= width:
+            end += 1
+        if end - begin > len(most):
+            most = values[begin:end]
+    return most
+
+
+def window(rows, value, least, most):
+    """The rows whose first figure lies least to most beyond a value; rows are in order of that figure."""
+    begin = bisect.bisect_left(rows, least, key=lambda row: row[0] - value)
+    return rows[begin:bisect.bisect_right(rows, most, begin, key=lambda row: row[0] - value)]
 
 
 def ego_speed(radar, scan):
@@ -41,11 +54,11 @@ def standing(radar, detections, speed_mps):
 
 def pairs(before, after, driven_m):
     """Statics with the nearest of a later scan in a double gate: (error of range, of azimuth, both detections)."""
-    found, places = [], [(math.hypot(x, y), math.atan2(y, x), one) for x, y, one in after]
+    found, places = [], sorted(((math.hypot(x, y), math.atan2(y, x), one) for x, y, one in after), key=operator.itemgetter(0))
     for x, y, one in before:
         range_m, angle = math.hypot(x - driven_m, y), math.atan2(y, x - driven_m)
-        near = [(there_m - range_m, off_rad, one, other) for there_m, azimuth, other in places if abs(there_m - range_m) <= 2 * GATE_M
-                and abs(off_rad := math.remainder(azimuth - angle, math.tau)) <= 2 * GATE_RAD]
+        near = [(there_m - range_m, off_rad, one, other) for there_m, azimuth, other in window(places, range_m, -2 * GATE_M, 2 * GATE_M)
+                if abs(off_rad := math.remainder(azimuth - angle, math.tau)) <= 2 * GATE_RAD]
         if near:
             found.append(min(near, key=lambda pair: math.hypot(pair[0] / GATE_M, pair[1] / GATE_RAD)))
     return found
@@ -53,8 +66,9 @@ def pairs(before, after, driven_m):
 
 def driven_m(before, after, expected_m):
     """The way between two scans on which most statics agree, at 0.6 to 1.8 times the expected one, and how many do."""
-    ways = [x - u for x, y, one in before for u, v, _ in after
-            if abs(y - v) <= 2 * GATE_RAD * one.range_m and 0.6 * expected_m <= x - u <= 1.8 * expected_m]
+    places = sorted(after, key=operator.itemgetter(0))
+    ways = [x - u for x, y, one in before for u, v, _ in window(places, x, -1.8 * expected_m, -0.6 * expected_m)
+            if abs(y - v) <= 2 * GATE_RAD * one.range_m]
     same = densest(ways, GATE_M)
     return statistics.median(same or [expected_m]), len(same)
 
