@@ -1,38 +1,10 @@
-/* Scenarios of data/scenarios/: objects and how each one moves.
- *
- * An object with segments drives them one after another from its start pose, each with constant
- * acceleration and turn rate. After the last segment, or without any, it keeps speed and heading.
- * An object with waypoints follows a smooth curve through them (cubic Hermite, velocities at the
- * waypoints by finite differences, zero next to two equal places) and points along its velocity;
- * before the first and after the last waypoint it stands. Poses are exact functions of time, so no
- * error accumulates. */
+/* Scenarios of data/scenarios/: objects, roads, conditions. */
 #pragma once
 
 #include "base/random.h"
 #include "frame/frame.h"
-#include "geometry/motion.h"
+#include "traffic/actor.h"
 #include "traffic/road.h"
-
-struct segment {
-    double duration_s;
-    double acceleration_mps2;
-    double yaw_rate_radps;
-};
-
-struct waypoint {
-    double time_s;
-    double x_m, y_m;
-};
-
-struct actor {
-    const char *id;
-    const char *class;
-    double length_m, width_m, height_m;
-    double x_m, y_m, yaw_rad;
-    double speed_mps;
-    LIST_OF(struct segment) segments;
-    LIST_OF(struct waypoint) waypoints;
-};
 
 struct scenario {
     const char *origin;
@@ -51,16 +23,11 @@ struct scenario {
 extern const struct record scenario_record;
 
 /* Refuses an unknown ego or interferer, an id of two objects or roads, a name that cannot be a
- * class, segments or a start together with waypoints, and waypoints whose times do not ascend. */
+ * class, and what actor_check refuses. */
 int scenario_check(struct scenario *scenario, struct diag *diag);
 
 /* Moves every place by -origin_m, before anything is computed: large coordinates cost precision. */
 void scenario_shift(struct scenario *scenario, struct vec2 origin_m);
-
-/* The actor at time_s >= 0, its yaw in (-pi, pi], and the length of its path since time 0. A
- * standing object with waypoints points along its next motion, else its last one, else along
- * yaw_rad. */
-struct motion scenario_motion(const struct actor *actor, double time_s, double *travelled_m);
 
 /* The number of frames, and the time i / rate_hz of frame i, from 0. But for rounding the last
  * frame is not after duration_s. */

@@ -85,6 +85,28 @@ def ids(_, folder, size):
     return "glint-traffic " + write(folder, f"ids-{size}.json", json.dumps(scene))
 
 
+def scene(folder, name, size, **way):
+    """An object with so many parts of its way, and a frame for each."""
+    there = {"id": "a", "class": "car", **way}
+    document = {"origin": "For the bench.", "ego": "a", "rate_hz": 1, "duration_s": size, "objects": [there]}
+    return "glint-traffic " + write(folder, f"{name}-{size}.json", json.dumps(document))
+
+
+def waypoints(_, folder, size):
+    """Waypoints, a frame each."""
+    return scene(folder, "waypoints", size, waypoints=[{"time_s": i, "x_m": 9 * i, "y_m": i % 2} for i in range(size)])
+
+
+def stops(_, folder, size):
+    """Waypoints of one that stands, a frame each."""
+    return scene(folder, "stops", size, waypoints=[{"time_s": i, "x_m": 9, "y_m": 0} for i in range(size)])
+
+
+def segments(_, folder, size):
+    """Segments, a frame each."""
+    return scene(folder, "segments", size, segments=[{"duration_s": 1, "yaw_rate_radps": i % 3 - 1} for i in range(size)])
+
+
 def columns(_, folder, size):
     """Columns of a table."""
     more = [f"column {i}" for i in range(size)]
@@ -149,8 +171,8 @@ def targets(glint, folder, size):
 
 # Each with the size that the bench times and the size from which the guard doubles twice.
 CASES = [(objects, 16000, 1000), (objects_in_full, 4000, 500), (speeds, 8000, 1000), (cells, 8000, 1000),
-         (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000), (users, 1000, 250),
-         (tag, 4000000, 1000000), (types, 40000, 2000), (ghosts, 2000, 500), (losses, 3000, 500),
+         (sensors, 10000, 100), (ids, 3000, 1000), (waypoints, 2000, 250), (stops, 2000, 250), (segments, 2000, 250),
+         (columns, 3000, 3000), (users, 1000, 250), (tag, 4000000, 1000000), (types, 40000, 2000), (ghosts, 2000, 500), (losses, 3000, 500),
          (targets, 8000, 1000)]
 
 
