@@ -1,7 +1,7 @@
 /* An HTML page that plays the stream and shows which echoes made each target. */
+#include "documents/vehicle_set.h"
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
-#include "text/document.h"
 #include "view/view_page.h"
 
 struct view {
@@ -43,9 +43,8 @@ static int view_start(void *state, struct runner *runner)
 {
     struct view *view = state;
     view_data_begin(&view->data, runner_arena(runner));
-    view->data.models.folder = view->vehicles;
-    if (view->vehicles != NULL &&
-        document_check_folder("--vehicles", view->vehicles, runner_diag(runner)) != 0)
+    if (vehicle_set_folder("--vehicles", view->vehicles, &view->data.models.folder,
+                           runner_arena(runner), runner_diag(runner)) != 0)
         return -1;
     struct document_names known = {0}; /* refuses a GLINT_DATA where no class could be found */
     if (document_list("vehicles", ".json", &known, runner_arena(runner), runner_diag(runner)) != 0)
@@ -111,8 +110,9 @@ static const struct field view_fields[] = {
     {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53, "number of the frame at which the page opens"),
      .absent = -1},
     {OPTIONAL_NAME(struct view, only, "show only this scene"), .word = "SCENE"},
-    {OPTIONAL_NAME(struct view, vehicles, "the folder that was given to glint-extract, if any"),
-     .word = "DIR"},
+    {OPTIONAL_NAME(struct view, vehicles,
+                   "the vehicle documents that were given to glint-extract, if any"),
+     .word = "SET"},
     {OPTIONAL_NAME(struct view, truth,
                    "frames with the true targets, to show which are missed and which are false"),
      .word = "FILE"},

@@ -117,7 +117,7 @@ int vehicle_check_frame(const struct vehicle *vehicle, const struct frame *frame
             strcmp(used->digest, vehicle->digest) != 0)
             return diag_fail(diag, DIAG_CONFIG,
                              "vehicles[%zu].digest: the class \"%s\" was extracted from a document "
-                             "%s, the one found now is %s; name its folder with --vehicles",
+                             "%s, the one found now is %s; name its set with --vehicles",
                              i, used->class, used->digest, vehicle->digest);
     }
     return 0;

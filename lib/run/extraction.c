@@ -1,7 +1,7 @@
 #include "run/extraction.h"
 
+#include "documents/vehicle_set.h"
 #include "frame/frame_order.h"
-#include "text/document.h"
 
 static const struct field extraction_fields[] = {EXTRACTION_OPTIONS, {0}};
 
@@ -10,10 +10,9 @@ const struct record extraction_record = {
 
 int extraction_start(void *state, struct runner *runner)
 {
-    const struct extraction *extraction = state;
-    return extraction->vehicles == NULL
-               ? 0
-               : document_check_folder("--vehicles", extraction->vehicles, runner_diag(runner));
+    struct extraction *extraction = state;
+    return vehicle_set_folder("--vehicles", extraction->vehicles, &extraction->folder,
+                              runner_arena(runner), runner_diag(runner));
 }
 
 /* An object of size zero takes its class's default size. */
@@ -65,7 +64,7 @@ int extraction_step(const struct extraction *extraction, struct frame *frame, st
     struct object *const *object = frame_order_objects(frame);
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct vehicle *vehicle =
-            runner_vehicle(runner, extraction->vehicles, object[i]->class);
+            runner_vehicle(runner, extraction->folder, object[i]->class);
         if (vehicle == NULL)
             return diag_prefix(runner_diag(runner),
                                "objects[%zu].class: ", (size_t)(object[i] - frame->objects.items));

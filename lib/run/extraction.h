@@ -12,17 +12,20 @@ typedef void extraction_describe(const void *state, const struct vehicle *vehicl
 
 /* First member of the state of every stage that extracts, and its row in the table of options. */
 struct extraction {
-    const char *vehicles; /* a folder of documents, before all others; NULL: none */
+    const char *vehicles; /* a set of documents, by its word or path; NULL: the paper's */
+    const char *folder;   /* of the set, before all others; NULL: none */
 };
 #define EXTRACTION_OPTIONS                                                                         \
     {                                                                                              \
-        OPTIONAL_NAME(struct extraction, vehicles,                                                 \
-                      "folder of your own vehicle documents, before the shipped ones"),            \
-            .word = "DIR"                                                                          \
+        OPTIONAL_NAME(                                                                             \
+            struct extraction, vehicles,                                                           \
+            "set of vehicle documents, as detailed, or a path of your own folder; absent: paper"), \
+            .word = "SET"                                                                          \
     }
 extern const struct record extraction_record;
 
-/* Refuses a folder that is not there; state begins with a struct extraction. */
+/* Finds the folder of the set, and refuses one that is not there; state begins with a struct
+ * extraction. */
 int extraction_start(void *state, struct runner *runner);
 
 /* The whole step of a stage that extracts: completes the sizes of all objects, notes the documents

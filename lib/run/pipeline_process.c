@@ -7,11 +7,12 @@
 
 #include "base/suggestion.h"
 #include "documents/suite_file.h"
-#include "documents/vehicle.h"
+#include "documents/vehicle_set.h"
 #include "effects/effect.h"
 #include "run/chain.h"
 #include "run/datasheet.h"
 #include "run/pipeline.h"
+#include "text/data_folder.h"
 #include "text/document.h"
 #include "text/file_format.h"
 #include "text/input.h"
@@ -72,7 +73,7 @@ static int complain(const struct diag *diag)
 /* A path may lead to another program of that name; where the system does not tell ours, it does. */
 static bool is_own(const char *program, struct arena *arena)
 {
-    const char *slash = strrchr(program, '/'), *folder = document_own_folder(arena);
+    const char *slash = strrchr(program, '/'), *folder = data_folder_of_program(arena);
     if (slash == NULL)
         return true;
     if (*folder == '\0')
@@ -234,16 +235,29 @@ static void add_origin(const char *name, const char *path, struct text *text, st
     text_add_word(text, origin);
 }
 
+/* The sets of vehicles that have a document of the class beside the paper's. */
+static void add_sets(const char *class, struct text *text, struct arena *arena)
+{
+    struct diag diag = {0};
+    struct document_names sets;
+    if (vehicle_set_list(class, &sets, arena, &diag) != 0)
+        return;
+    for (size_t i = 0; i < sets.names.count; i++)
+        text_format(text, "%s%s", i == 0 ? "; also --vehicles " : ", ", sets.names.items[i]);
+}
+
 static void add_size(const char *name, const char *path, struct text *text, struct arena *arena)
 {
     (void)path;
     struct diag diag = {0};
     const struct vehicle *vehicle = vehicle_load(name, NULL, arena, &diag);
-    if (vehicle == NULL)
+    if (vehicle == NULL) {
         text_add_word(text, diag.text);
-    else
-        text_format(text, "%g m long, %g m wide, %g m high", vehicle->length_m, vehicle->width_m,
-                    vehicle->height_m);
+        return;
+    }
+    text_format(text, "%g m long, %g m wide, %g m high", vehicle->length_m, vehicle->width_m,
+                vehicle->height_m);
+    add_sets(name, text, arena);
 }
 
 /* The words of the comment at the head of a script, behind its first line, #!. */

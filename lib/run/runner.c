@@ -10,7 +10,7 @@
 #include "frame/frame_order.h"
 #include "run/suite_choice.h"
 #include "score/reference_stream.h"
-#include "text/document.h"
+#include "text/data_folder.h"
 #include "text/path.h"
 #include "text/record_write.h"
 
@@ -383,7 +383,7 @@ struct output *runner_output_beside(struct runner *runner, const char *path)
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name)
 {
     const char *path = arena_format(&runner->arena, "%s/%s", folder, name);
-    if (document_check_folder("DIR", folder, &runner->diag) == 0)
+    if (data_folder_check("DIR", folder, &runner->diag) == 0)
         return add_output(runner, path);
     runner->diag.code = DIAG_CANNOT_CREATE;
     return NULL;

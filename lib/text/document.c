@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <jansson.h>
@@ -12,6 +11,7 @@
 #include "base/hash.h"
 #include "base/sort.h"
 #include "base/suggestion.h"
+#include "text/data_folder.h"
 #include "text/file_format.h"
 #include "text/input.h"
 #include "text/path.h"
@@ -20,54 +20,6 @@
 void document_guard_memory(void)
 {
     json_set_alloc_funcs(memory_get, free);
-}
-
-const char *document_own_folder(struct arena *arena)
-{
-    enum { ROOM = 4096 };
-    char *path = arena_get(arena, ROOM);
-    if (path_of_program(path, ROOM) == 0)
-        return "";
-    char *slash = strrchr(path, '/');
-    slash[1] = '\0';
-    return path;
-}
-
-int document_check_folder(const char *named_by, const char *folder, struct diag *diag)
-{
-    struct stat status;
-    if (stat(folder, &status) == 0 && S_ISDIR(status.st_mode))
-        return 0;
-    return diag_fail(diag, DIAG_CONFIG, "%s: \"%s\" is no folder", named_by, folder);
-}
-
-/* Folders of documents of a kind, in the order of search; all end with a slash. */
-struct folders {
-    const char *paths[5];
-    size_t count;
-};
-
-/* own is the user's folder of this kind of documents, or NULL. */
-static int find_folders(const char *kind, const char *own, struct folders *folders,
-                        struct arena *arena, struct diag *diag)
-{
-    const char *given = getenv("GLINT_DATA"), *beside = document_own_folder(arena);
-    const char *checkout = strcmp(kind, "pipelines") == 0 ? "../../" : "../../data/";
-    *folders = (struct folders){0};
-    if (own != NULL)
-        folders->paths[folders->count++] = arena_format(arena, "%s/", own);
-    if (given != NULL && *given != '\0') {
-        if (document_check_folder("GLINT_DATA", given, diag) != 0)
-            return -1;
-        folders->paths[folders->count++] = arena_format(arena, "%s/%s/", given, kind);
-    }
-    if (*beside != '\0') {
-        folders->paths[folders->count++] =
-            arena_format(arena, "%s../share/glint/%s/", beside, kind);
-        folders->paths[folders->count++] = arena_format(arena, "%s%s%s/", beside, checkout, kind);
-    }
-    folders->paths[folders->count++] = arena_format(arena, "data/%s/", kind);
-    return 0;
 }
 
 static void list_folder(const char *folder, const char *ending, struct document_names *list,
@@ -90,7 +42,7 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-static void list_names(const struct folders *folders, const char *ending,
+static void list_names(const struct data_folders *folders, const char *ending,
                        struct document_names *list, struct arena *arena)
 {
     *list = (struct document_names){0};
@@ -107,8 +59,8 @@ static void list_names(const struct folders *folders, const char *ending,
 int document_list(const char *kind, const char *ending, struct document_names *list,
                   struct arena *arena, struct diag *diag)
 {
-    struct folders folders;
-    if (find_folders(kind, NULL, &folders, arena, diag) != 0)
+    struct data_folders folders;
+    if (data_folder_list(NULL, kind, &folders, arena, diag) != 0)
         return -1;
     list_names(&folders, ending, list, arena);
     return 0;
@@ -132,7 +84,7 @@ static void append(struct diag *diag, const char *separator, const char *text)
 
 /* Names a similar document, the folders searched, and the command that lists all documents. */
 static void refuse_name(const char *kind, const char *name, const char *ending,
-                        const struct folders *folders, struct arena *arena, struct diag *diag)
+                        const struct data_folders *folders, struct arena *arena, struct diag *diag)
 {
     struct document_names there;
     list_names(folders, ending, &there, arena);
@@ -150,10 +102,10 @@ static void refuse_name(const char *kind, const char *name, const char *ending,
 const char *document_find(const char *own, const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag)
 {
-    struct folders folders;
+    struct data_folders folders;
     if (document_is_path(name))
         return arena_text(arena, name, strlen(name));
-    if (find_folders(kind, own, &folders, arena, diag) != 0)
+    if (data_folder_list(own, kind, &folders, arena, diag) != 0)
         return NULL;
     for (size_t i = 0; i < folders.count; i++) {
         const char *path = arena_format(arena, "%s%s%s", folders.paths[i], name, ending);

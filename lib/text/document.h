@@ -1,9 +1,8 @@
 /* JSON documents for people: found, read, checked and drawn. jansson checks the syntax, and
  * record_read.h reads the values.
  *
- * A bare name (no slash, no dot) means <kind>/<name>.json in $GLINT_DATA, then in ../share/glint
- * and in ../../data beside the executable, then in ./data; anything else is a path. Every fault of
- * a document is DIAG_CONFIG, and so is a GLINT_DATA that is no folder. */
+ * A bare name (no slash, no dot) means <kind>/<name>.json in the data folders (data_folder.h);
+ * anything else is a path. Every fault of a document is DIAG_CONFIG. */
 #pragma once
 
 #include "base/random.h"
@@ -15,10 +14,6 @@ enum { DOCUMENT_SIZE = 64 * 1024 * 1024 };
 /* Gives jansson an allocator that ends the program rather than returning NULL. Called once, in
  * main. */
 void document_guard_memory(void);
-
-/* The folder of the running executable, with a slash at its end; "" if the system does not tell
- * it. */
-const char *document_own_folder(struct arena *arena);
 
 /* The path of a document by its name, in the arena; NULL after a message that lists the folders
  * searched and the names in them. own is a folder of the user that is searched first and holds
@@ -37,10 +32,6 @@ static inline bool document_is_path(const char *name)
 {
     return strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0;
 }
-
-/* Refuses a path that is no folder; the message names the option or variable that gives the path.
- */
-int document_check_folder(const char *named_by, const char *folder, struct diag *diag);
 
 /* True for a name without a slash, except "." and "..". */
 static inline bool document_is_plain(const char *name)

@@ -112,9 +112,9 @@ TEST(a_folder_that_is_not_there_is_refused_at_the_start)
 {
     struct runner runner;
     assert_int_equal(runner_prepare(&runner, stage_by_name("extract"), 2,
-                                    (const char *[]){"--vehicles", "nowhere"}),
+                                    (const char *[]){"--vehicles", "./nowhere"}),
                      0);
     assert_int_equal(extraction_start(runner.state, &runner), -1);
-    assert_string_equal(runner.diag.text, "--vehicles: \"nowhere\" is no folder");
+    assert_string_equal(runner.diag.text, "--vehicles: \"./nowhere\" is no folder");
     runner_free(&runner);
 }

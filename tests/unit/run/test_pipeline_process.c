@@ -137,7 +137,9 @@ TEST(an_effect_is_listed_by_its_name_and_with_the_others)
 
 TEST(documents_tell_what_they_are)
 {
-    expect_line("vehicles", "car                    4.5 m long, 1.8 m wide, 1.5 m high\n", true);
+    expect_line("vehicles", "car                    4.5 m long, 1.8 m wide, 1.5 m high; also ",
+                true);
+    expect_line("vehicles", "wall                   10 m long, 0.2 m wide, 2.5 m high\n", true);
     expect_line("scenarios", "cut-in                 ", true);
     const char *sensors = listed("sensors");
     assert_null(strstr(sensors, "Made for glint"));

@@ -1,0 +1,107 @@
+#include "documents/vehicle_set.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/sort.h"
+#include "base/suggestion.h"
+#include "text/data_folder.h"
+
+#define PAPER "paper"
+
+static bool is_folder(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+static bool is_listed(const struct document_names *sets, const char *word)
+{
+    for (size_t i = 0; i < sets->names.count; i++)
+        if (strcmp(sets->names.items[i], word) == 0)
+            return true;
+    return false;
+}
+
+/* Does the folder of data have the set, with a document of the class (NULL: of any)? */
+static bool has_set(const char *data, const char *word, const char *class, struct arena *arena)
+{
+    const char *folder = arena_format(arena, "%s%s/vehicles", data, word);
+    return class == NULL ? is_folder(folder)
+                         : access(arena_format(arena, "%s/%s.json", folder, class), F_OK) == 0;
+}
+
+/* Adds the sets of a folder of data that are not listed yet. */
+static void list_sets_in(const char *data, const char *class, struct document_names *sets,
+                         struct arena *arena)
+{
+    DIR *entries = opendir(data);
+    if (entries == NULL)
+        return;
+    for (struct dirent *entry; (entry = readdir(entries)) != NULL;) {
+        const char *word = entry->d_name;
+        if (!document_is_path(word) && !is_listed(sets, word) && has_set(data, word, class, arena))
+            *list_add(&sets->names, arena) = arena_text(arena, word, strlen(word));
+    }
+    closedir(entries);
+}
+
+static int compare_words(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+int vehicle_set_list(const char *class, struct document_names *sets, struct arena *arena,
+                     struct diag *diag)
+{
+    struct data_folders data;
+    if (data_folder_list(NULL, ".", &data, arena, diag) != 0)
+        return -1;
+    *sets = (struct document_names){0};
+    for (size_t i = 0; i < data.count; i++)
+        list_sets_in(data.paths[i], class, sets, arena);
+    sort_list(&sets->names, compare_words, arena);
+    return 0;
+}
+
+/* Names a similar set, all sets, and how a folder of that name is written. */
+static int refuse_word(const char *named_by, const char *word, struct arena *arena,
+                       struct diag *diag)
+{
+    struct document_names sets;
+    if (vehicle_set_list(NULL, &sets, arena, diag) != 0)
+        return -1;
+    struct suggestion meant = suggestion_begin(word, strlen(word));
+    suggestion_offer(&meant, PAPER);
+    const char *known = PAPER ", ";
+    for (size_t i = 0; i < sets.names.count; i++) {
+        suggestion_offer(&meant, sets.names.items[i]);
+        known = arena_format(arena, "%s%s, ", known, sets.names.items[i]);
+    }
+    return diag_fail(diag, DIAG_CONFIG,
+                     "%s: \"%s\" is no set of vehicles%s; expected %sor the path of a folder: ./%s",
+                     named_by, word, suggestion_question(&meant, ""), known, word);
+}
+
+int vehicle_set_folder(const char *named_by, const char *word, const char **folder,
+                       struct arena *arena, struct diag *diag)
+{
+    *folder = NULL;
+    if (word == NULL || strcmp(word, PAPER) == 0)
+        return 0;
+    if (document_is_path(word)) {
+        *folder = word;
+        return data_folder_check(named_by, word, diag);
+    }
+    struct data_folders places;
+    const char *kind = arena_format(arena, "%s/vehicles", word);
+    if (data_folder_list(NULL, kind, &places, arena, diag) != 0)
+        return -1;
+    for (size_t i = 0; i < places.count; i++) {
+        *folder = arena_text(arena, places.paths[i], strlen(places.paths[i]) - 1);
+        if (is_folder(*folder))
+            return 0;
+    }
+    return refuse_word(named_by, word, arena, diag);
+}
