@@ -15,7 +15,7 @@
 #include "base/arena.h"
 #include "radar/point_response.h"
 
-enum { ARRAY_MOST_ELEMENTS = 64, ARRAY_PADDING = 8 };
+enum { ARRAY_MOST_ELEMENTS = 256, ARRAY_PADDING = 8 };
 
 /* Weights of the elements. HANN is sin^2(pi (n + 1/2)/N). TAYLOR (nbar 4) and CHEBYSHEV have side
  * lobes of -30 dB. */

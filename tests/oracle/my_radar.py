@@ -173,7 +173,7 @@ def antennas(bench):
         hold(bench, f"deviation by elements at {degrees} degrees", value, expected, 0.06)
     hold(bench, "virtual elements", numbers(part, "array")[2], 8)
     hold(bench, "their steps", numbers(part, "array")[3], 0.5)
-    for view_deg, degrees in ((9, 1.6), (60, 3.2), (60, 14), (85, 10)):
+    for view_deg, degrees in ((9, 1.6), (60, 1.2), (60, 3.2), (60, 14), (85, 10)):
         part = printed(bench, PLAIN | {"view_half_width_deg": view_deg, "azimuth_resolution_deg": degrees})[0]["front"]
         hold(bench, "azimuth resolution", numbers(part, "cell")[2], degrees)
 
@@ -437,10 +437,10 @@ REFUSED = [
     ({"azimuth_accuracies": [{"azimuth_deg": 0, "accuracy_deg": 1}, {"azimuth_deg": 30, "accuracy_deg": 0.1}], "azimuth_resolution_deg": 14},
      "is finer than 0.192, what the elements have at 31.4 dB"),
     ({"azimuth_resolution_deg": 5, "receive_positions_wavelengths": [0, 0.5, 1, 1.5]}, "4 elements 0.5 wavelengths apart resolve 26.1 degrees, not azimuth_resolution_deg 5"),
-    ({"receive_positions_wavelengths": [0, 0.5, 1.5]}, "3 sums of transmit and receive positions, 0.5 to 1 wavelengths apart; expected 2 to 64 in even steps of at most 1"),
-    ({"receive_positions_wavelengths": [0, 1.5]}, "2 sums of transmit and receive positions, 1.5 to 1.5 wavelengths apart; expected 2 to 64 in even steps of at most 1"),
+    ({"receive_positions_wavelengths": [0, 0.5, 1.5]}, "3 sums of transmit and receive positions, 0.5 to 1 wavelengths apart; expected 2 to 256 in even steps of at most 1"),
+    ({"receive_positions_wavelengths": [0, 1.5]}, "2 sums of transmit and receive positions, 1.5 to 1.5 wavelengths apart; expected 2 to 256 in even steps of at most 1"),
     ({"transmit_positions_wavelengths": [0, 1.5]}, "0 sums of transmit and receive positions"),
-    ({"azimuth_resolution_deg": 0.5}, "azimuth_resolution_deg 0.5 takes more than 64 elements 1 wavelengths apart"),
+    ({"azimuth_resolution_deg": 0.15}, "azimuth_resolution_deg 0.15 takes more than 256 elements 1 wavelengths apart"),
     ({"receding_max_kmh": 100}, "receding_max_kmh and approaching_max_kmh belong together"),
     ({"speed_resolution": 1}, "speed_resolution: unknown figure; did you mean speed_resolution_"),
     ({"detection_probability": 0.4}, "detection_probability 0.4 is not reached; an echo at the threshold has 0.538"),

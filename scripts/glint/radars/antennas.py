@@ -10,6 +10,7 @@ from glint.radars.figures import DEGREE, Refused
 ROWS = 100  # on either side
 MOST = 8.0  # of asinh r: the delta channel is then 1,500 times as strong as the sum
 LEAST_DB = -80.0
+MOST_ELEMENTS = 256  # of an array of glint
 STATED = ("gains", "beam_two_way_full_width_deg", "azimuth_accuracy_deg", "azimuth_accuracies",
           "azimuth_resolution_deg", "receive_positions_wavelengths", "transmit_positions_wavelengths", "view_full_width_deg")
 
@@ -46,9 +47,9 @@ def array(scan, half_rad):
     transmit, receive = (figures.places(f"{way}_positions_wavelengths") or [one["place"] for one in scan.members.get("array", {}).get(way, [])]
                          for way in ("transmit", "receive"))
     if resolution_rad and "receive_positions_wavelengths" not in figures:
-        count = next((n for n in range(8, 65) if beam_sines(n) <= resolution_rad * most), None)
+        count = next((n for n in range(8, MOST_ELEMENTS + 1) if beam_sines(n) <= resolution_rad * most), None)
         if not count:
-            raise Refused(f"{scan.name}: {figures.told('azimuth_resolution_deg')} takes more than 64 elements {most:.4g} wavelengths apart, the "
+            raise Refused(f"{scan.name}: {figures.told('azimuth_resolution_deg')} takes more than {MOST_ELEMENTS} elements {most:.4g} wavelengths apart, the "
                           f"farthest in a view of {2 * half_rad / DEGREE:.4g} degrees")
         transmit, receive = [0], [n * beam_sines(count) / resolution_rad for n in range(count)]
         scan.assumed.append(f"{count} receivers {receive[1]:.4g} wavelengths apart have {figures.told('azimuth_resolution_deg')}")
@@ -56,9 +57,9 @@ def array(scan, half_rad):
     steps = [b - a for a, b in zip(virtual, virtual[1:])]
     if not virtual and not transmit:
         return None
-    if not 2 <= len(virtual) <= 64 or max(steps) > most * (1 + 1e-9) or max(steps) - min(steps) > 1e-6 or min(steps) <= 0:
+    if not 2 <= len(virtual) <= MOST_ELEMENTS or max(steps) > most * (1 + 1e-9) or max(steps) - min(steps) > 1e-6 or min(steps) <= 0:
         raise Refused(f"{scan.name}: {len(virtual)} sums of transmit and receive positions, {min(steps, default=0):g} to {max(steps, default=0):g} "
-                      f"wavelengths apart; expected 2 to 64 in even steps of at most {most:.4g}, beyond which two directions in a view of "
+                      f"wavelengths apart; expected 2 to {MOST_ELEMENTS} in even steps of at most {most:.4g}, beyond which two directions in a view of "
                       f"{2 * half_rad / DEGREE:.4g} degrees look alike")
     shown_rad = beam_sines(len(virtual)) / steps[0]
     if resolution_rad and not 0.7 < shown_rad / resolution_rad < 1.3:

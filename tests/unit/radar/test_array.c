@@ -15,7 +15,7 @@ static struct array row(size_t count, enum array_taper taper)
 TEST(one_echo_has_one_maximum_of_its_amplitude_at_its_sine)
 {
     for (int taper = TAPER_HANN; taper <= TAPER_CHEBYSHEV; taper++)
-        for (size_t count = 4; count <= 64; count += 15)
+        for (size_t count = 4; count <= ARRAY_MOST_ELEMENTS; count *= 4)
             for (double sine = -0.93; sine < 0.95; sine += 0.31) {
                 struct array array = row(count, (enum array_taper)taper);
                 struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
@@ -79,7 +79,7 @@ TEST(beams_have_the_published_widths_and_side_lobes)
  * 1974). */
 TEST(the_sine_of_one_echo_is_as_accurate_as_the_bound)
 {
-    for (size_t count = 2; count <= 64; count += 31) {
+    for (size_t count = 2; count <= ARRAY_MOST_ELEMENTS; count += 127) {
         struct array array = row(count, TAPER_RECTANGULAR);
         double n = (double)count, snr = 100;
         assert_near(array_sigma(&array, snr), sqrt(6 / (snr * (n * n - 1))) / (2 * PI * 0.5), 1e-9);
