@@ -16,12 +16,13 @@ static struct effect_measurement measure(const struct frame *frame, const struct
     random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, range_and_rate);
     random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, azimuth);
     struct effect_measurement measurement = effect_measurement_of(NULL, cell);
+    measurement.range_sigma_m =
+        suite_range_sigma_m(sensor, measurement.range_m, sensor->range_sigma_m);
     measurement.range_m =
-        elementary_max(measurement.range_m + sensor->range_sigma_m * range_and_rate[0], 0);
+        elementary_max(measurement.range_m + measurement.range_sigma_m * range_and_rate[0], 0);
     measurement.range_rate_mps += sensor->range_rate_sigma_mps * range_and_rate[1];
     measurement.azimuth_rad =
         units_wrap_rad(measurement.azimuth_rad + sensor->azimuth_sigma_rad * azimuth[0]);
-    measurement.range_sigma_m = sensor->range_sigma_m;
     measurement.range_rate_sigma_mps = sensor->range_rate_sigma_mps;
     measurement.azimuth_sigma_rad = sensor->azimuth_sigma_rad;
     return measurement;
@@ -45,10 +46,11 @@ const struct stage stage_noise_gauss = {
     .summary = "Add independent Gaussian noise to range, azimuth and range rate.",
     .details =
         "Stands in for glint-noise: every cell becomes a target; its range, azimuth and range\n"
-        "rate get noise of the sensor's range_sigma_m, azimuth_sigma_rad and\n"
-        "range_rate_sigma_mps, whatever its sigma_law. No threshold and no list limit is\n"
-        "applied, nothing is rounded or misaligned, and there are no false alarms. A cell of\n"
-        "zero amplitude is lost. A range below zero is reported as zero.",
+        "rate get noise of the sensor's range_sigma_m, or its range_sigma_share of the range\n"
+        "where that is larger, azimuth_sigma_rad and range_rate_sigma_mps, whatever its\n"
+        "sigma_law. No threshold and no list limit is applied, nothing is rounded or\n"
+        "misaligned, and there are no false alarms. A cell of zero amplitude is lost. A range\n"
+        "below zero is reported as zero.",
     .options = &suite_choice_record,
     .reads = PART_SENSORS | PART_CELLS,
     .writes = PART_TARGETS | PART_LOST | PART_VISIBILITY,

@@ -168,6 +168,7 @@ static const struct field sensor_fields[] = {
              "the paper's magnitude and sign, the real ratio, or the beams of an array")},
     {NEEDS(pointer_sigma, 0, 1e300, "RMS of the complex noise on each channel")},
     {NEEDS(range_sigma_m, 0, 1e3, "noise on range")},
+    {MAY_HAVE(range_sigma_share, 0, 1, "noise on range is at least this share of the range")},
     {NEEDS(range_rate_sigma_mps, 0, 1e3, "noise on range rate")},
     {NEEDS(azimuth_sigma_rad, 0, PI, "noise on azimuth, for glint-noise-gauss")},
     {MAY_HAVE(azimuth_floor_rad, 0, PI,
@@ -261,6 +262,11 @@ double suite_range_max_m(const struct sensor *sensor, double azimuth_rad)
     const struct range_limit *to = from + 1;
     double part = (aside_rad - from->azimuth_rad) / (to->azimuth_rad - from->azimuth_rad);
     return from->range_max_m + elementary_min(part, 1) * (to->range_max_m - from->range_max_m);
+}
+
+double suite_range_sigma_m(const struct sensor *sensor, double range_m, double sigma_m)
+{
+    return elementary_max(sigma_m, sensor->range_sigma_share * range_m);
 }
 
 double suite_azimuth_sigma_rad(const struct sensor *sensor, double azimuth_rad, double snr)

@@ -82,7 +82,8 @@ struct sensor {
     enum monopulse_estimator angle_estimator;
 
     double pointer_sigma;
-    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad, azimuth_floor_rad;
+    double range_sigma_m, range_sigma_share; /* the larger of the two holds */
+    double range_rate_sigma_mps, azimuth_sigma_rad, azimuth_floor_rad;
     enum sigma_law sigma_law;
     double window_factor;
     double misalignment_rad, radome_bias_rad, radome_period_rad, radome_phase_rad;
@@ -128,6 +129,10 @@ void suite_derive(struct sensor *sensor);
 /* The farthest range that the sensor measures at an azimuth: straight between its range_limits and
  * constant beyond them, at most range_max_m. */
 double suite_range_max_m(const struct sensor *sensor, double azimuth_rad);
+
+/* The standard deviation of a range whose other noise has sigma_m: at least range_sigma_share of
+ * the range. */
+double suite_range_sigma_m(const struct sensor *sensor, double range_m, double sigma_m);
 
 /* The standard deviation of the azimuth of a single echo, at the linear ratio of powers snr,
  * without the floor: by the elements of an array, or by the sum and delta channels. */

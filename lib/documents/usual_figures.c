@@ -37,6 +37,7 @@ static const struct row rows[] = {
     ROW(cell_range_rate_mps, " m/s", 0.005, 3),
     ROW(azimuth_cell_rad, " rad", 1e-3, 1.6),
     ROW(range_sigma_m, " m", 0, 3),
+    ROW(range_sigma_share, " of the range", 0, 0.05),
     ROW(range_rate_sigma_mps, " m/s", 0, 1),
     ROW(azimuth_sigma_rad, " rad", 0, 0.3),
     ROW(azimuth_floor_rad, " rad", 0, 0.3),

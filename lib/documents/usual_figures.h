@@ -14,7 +14,7 @@ struct usual_figure {
     double least, most;
 };
 
-enum { USUAL_FIGURES_MOST = 32 };
+enum { USUAL_FIGURES_MOST = 40 };
 
 /* Writes the figures of a sensor that are not usual, in the order of the document's members; absent
  * members and zeros are usual. Returns their number, at most USUAL_FIGURES_MOST. */

@@ -120,9 +120,9 @@ struct effect {
     enum effect_home home;
     bool of_paper; /* does the model of Buehren and Yang have it? (MODEL 11) */
 
-    /* The members, at most 3, that describe the effect. They do so for a scan if any bit of one is
+    /* The members, at most 4, that describe the effect. They do so for a scan if any bit of one is
      * set; with the hook `described` if that returns true. Ideal decides for its own effects. */
-    struct effect_member members[4];
+    struct effect_member members[5];
     bool (*described)(const struct effect_scan *scan);
     /* The purposes of its draws, at most 3: numbers of its own, or those of base/random.h. */
     enum random_purpose purposes[4];

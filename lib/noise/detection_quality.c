@@ -64,6 +64,7 @@ static void estimate_range(const struct detection_source *source,
         range_m = measurement_sigma_at(&sensor->range_error, strength);
         rate_mps = measurement_sigma_at(&sensor->range_rate_error, strength);
     }
+    range_m = suite_range_sigma_m(sensor, measurement->range_m, range_m);
     measurement->range_sigma_m = noisy ? range_m : 0;
     measurement->range_rate_sigma_mps = noisy ? rate_mps : 0;
 }

@@ -241,7 +241,8 @@ static void add_figures(const struct sensor *sensor, const struct datasheet *she
     add_missing(sensor, text);
 }
 
-static void add_accuracy(const struct datasheet *sheet, struct text *text)
+static void add_accuracy(const struct sensor *sensor, const struct datasheet *sheet,
+                         struct text *text)
 {
     struct text rows = {0};
     text_add_word(&rows, "accuracy, 1 sigma\trange, m\trate, m/s\tazimuth, degrees, at");
@@ -264,6 +265,10 @@ static void add_accuracy(const struct datasheet *sheet, struct text *text)
     text_add_word(&rows, "\n");
     text_add_word(text, "\n");
     text_table_write(&rows, (int[]){-17, 12, 11, 21, 5, 0}, "  ", text);
+    if (sensor->range_sigma_share > 0)
+        text_format(text, "  range: at least %.3g %% of the range, %.3g m at %.4g m\n",
+                    100 * sensor->range_sigma_share,
+                    sensor->range_sigma_share * sensor->range_max_m, sensor->range_max_m);
 }
 
 static void add_range(double range_m, double range_max_m, struct text *rows)
@@ -335,7 +340,7 @@ static struct text sheet_of(const struct sensor *sensor)
     struct datasheet sheet;
     datasheet_of(sensor, &sheet);
     add_figures(sensor, &sheet, &text);
-    add_accuracy(&sheet, &text);
+    add_accuracy(sensor, &sheet, &text);
     add_detection(sensor, &sheet, &text);
     add_checks(sensor, &text);
     add_unusual(sensor, &text);

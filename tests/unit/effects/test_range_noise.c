@@ -27,6 +27,22 @@ EFFECT_TEST(range_and_rate_get_the_noise_of_their_cell)
     }
 }
 
+EFFECT_TEST(the_larger_of_a_deviation_and_a_share_of_the_range_holds)
+{
+    struct cell cell = {.members = {&leader, 1, 1}};
+    bench->sensor.range_sigma_m = 0.3;
+    bench->sensor.range_sigma_share = 0.01;
+    struct random_address address = frame_draw_address_of(&bench->frame, "radar", leader.id);
+    double draw[2];
+    random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, draw);
+    for (cell.range_m = 10; cell.range_m < 100; cell.range_m += 10) {
+        double sigma_m = cell.range_m > 30 ? cell.range_m / 100 : 0.3;
+        struct effect_measurement read = measure_cell(bench, &cell);
+        assert_close(read.range_sigma_m, sigma_m, 1e-15);
+        assert_close(read.range_m, cell.range_m + sigma_m * draw[0], 1e-13);
+    }
+}
+
 EFFECT_TEST(no_range_is_below_0)
 {
     const struct cell cell = {.range_m = 0.1, .members = {&leader, 1, 1}};
