@@ -2,16 +2,28 @@
  */
 #include "run/extraction.h"
 
+static bool describe_body(const void *state, const struct vehicle *vehicle,
+                          const struct frame *frame, const struct object *object,
+                          struct reflector_set *set)
+{
+    (void)state;
+    struct surface surface =
+        reflector_models_surface(&reflector_models_usual_surface, &vehicle->surface);
+    return extraction_describe_surface(&surface, vehicle, frame, object, set);
+}
+
 static int extract_step(void *state, struct frame *frame, struct runner *runner)
 {
-    return extraction_step(state, frame, runner, NULL);
+    return extraction_step(state, frame, runner, NULL, describe_body);
 }
 
 const struct stage stage_extract = {
     .name = "extract",
     .summary = "Write the reflection centres of every object's class.",
-    .details = "The class of an object names a document in data/vehicles/. An object of size zero\n"
-               "takes the default size of its class. The ego does not reflect.",
+    .details =
+        "The class of an object names a document in data/vehicles/. An object of size zero\n"
+        "takes the default size of its class. The ego does not reflect. If the document has a\n"
+        "surface, every object has scatterers of its own along its outline.",
     .options = &extraction_record,
     .reads = PART_OBJECTS,
     .writes = PART_REFLECTORS | PART_VEHICLES,

@@ -12,7 +12,7 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 
 static int extract_3gpp_step(void *state, struct frame *frame, struct runner *runner)
 {
-    return extraction_step(state, frame, runner, describe);
+    return extraction_step(state, frame, runner, describe, NULL);
 }
 
 const struct stage stage_extract_3gpp = {

@@ -4,28 +4,56 @@
 
 struct extract_contour {
     struct extraction extraction; /* first: its options are the stage's */
-    double spacing_m;
+    struct surface surface;       /* in place of what documents state */
 };
+
+static struct surface surface_of(const struct extract_contour *extract,
+                                 const struct vehicle *vehicle)
+{
+    struct surface surface =
+        reflector_models_surface(&reflector_models_usual_surface, &vehicle->surface);
+    return reflector_models_surface(&surface, &extract->surface);
+}
 
 static void describe(const void *state, const struct vehicle *vehicle, struct reflector_set *set,
                      struct arena *arena)
 {
-    const struct extract_contour *extract = state;
+    struct surface surface = surface_of(state, vehicle);
+    struct vec2 size_m = {vehicle->length_m, vehicle->width_m};
     if (vehicle->contour.given != 0)
-        reflector_models_of_contour(&vehicle->contour, vehicle->length_m, vehicle->width_m,
-                                    extract->spacing_m, set, arena);
+        reflector_models_of_contour(&vehicle->contour, &surface, size_m, set, arena);
+}
+
+static bool describe_body(const void *state, const struct vehicle *vehicle,
+                          const struct frame *frame, const struct object *object,
+                          struct reflector_set *set)
+{
+    struct surface surface = surface_of(state, vehicle);
+    return extraction_describe_surface(&surface, vehicle, frame, object, set);
+}
+
+static int extract_contour_start(void *state, struct runner *runner)
+{
+    const struct extract_contour *extract = state;
+    const struct surface *surface = &extract->surface;
+    if ((surface->full_rad >= 0) != (surface->zero_rad >= 0))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--full-rad and --zero-rad: one is missing; expected both or none");
+    if (surface->zero_rad < surface->full_rad)
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--zero-rad: %g is less than --full-rad, %g rad", surface->zero_rad,
+                         surface->full_rad);
+    return extraction_start(state, runner);
 }
 
 static int extract_contour_step(void *state, struct frame *frame, struct runner *runner)
 {
-    return extraction_step(state, frame, runner, describe);
+    return extraction_step(state, frame, runner, describe, describe_body);
 }
 
 static const struct field extract_contour_options[] = {
     EXTRACTION_OPTIONS,
-    {OPTIONAL_REAL(struct extract_contour, spacing_m, 0.02, 100,
-                   "distance from one scatterer to the next, at most; absent: 0.1 m"),
-     .absent = 0.1},
+    {OPTIONAL_RECORD(struct extract_contour, surface, &surface_record, "of all contours")},
     {0},
 };
 
@@ -47,6 +75,6 @@ const struct stage stage_extract_contour = {
     .options = STAGE_OPTIONS(struct extract_contour, extract_contour_options),
     .reads = PART_OBJECTS,
     .writes = PART_REFLECTORS | PART_VEHICLES,
-    .start = extraction_start,
+    .start = extract_contour_start,
     .step = extract_contour_step,
 };

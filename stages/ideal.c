@@ -11,6 +11,7 @@ struct ideal {
     struct suite_choice choice; /* first: its options are ideal's */
     const struct suite *suite;
     struct sensors request; /* what every frame says of suite and effects */
+    bool doubts_cells;      /* has it been said that reflectors are made for finer cells? */
 };
 
 static int ideal_start(void *state, struct runner *runner)
@@ -100,6 +101,8 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
     const struct suite *suite = ideal->suite;
     struct selection selection;
     frame->sensors = ideal->request;
+    if (!ideal->doubts_cells)
+        ideal->doubts_cells = suite_choice_doubt_cells(runner, suite, frame);
     if (suite_choice_effects(&ideal->choice, frame, runner, &selection) != 0)
         return -1;
     for (size_t i = 0; i < suite->sensors.count; i++)

@@ -3,7 +3,9 @@
 #include <assert.h>
 
 #include "base/elementary.h"
+#include "base/hash.h"
 #include "base/units.h"
+#include "radar/level.h"
 #include "radar/radar_equation.h"
 
 #define DBSM(bit, member, help) FIELD_REAL_IN(struct contour, member, -60, 80, help), .group = (bit)
@@ -53,56 +55,213 @@ struct contour_view reflector_models_contour_view(double face_dbsm, double obliq
     return (struct contour_view){PI / 4 * (1 - 2 * turns) / (1 - turns), PI / 2};
 }
 
+#define STATED(member, least, most, help)                                                          \
+    OPTIONAL_REAL(struct surface, member, least, most, help), .absent = -1
+
+static const struct field surface_fields[] = {
+    {STATED(spacing_m, 0.02, 100,
+            "distance from one scatterer to the next, at most; absent: the class's, or 0.1 m")},
+    {STATED(facing_sigma_rad, 0, PI,
+            "standard deviation of a scatterer's facing around the face's normal; absent: the "
+            "class's, or 0")},
+    {STATED(full_rad, 0, PI,
+            "a scatterer is fully seen up to this angle off its facing; absent: the class's, or "
+            "that of its cross sections")},
+    {STATED(zero_rad, 0.01, PI, "and not from this angle on; absent: as full_rad")},
+    {STATED(
+        level_sigma_db, 0, 6,
+        "standard deviation of a scatterer's power around its mean; absent: the class's, or 0")},
+    {0},
+};
+
+const struct record surface_record = {
+    FIELD_TABLE(struct surface, surface_fields, "surface",
+                "How the scatterers of a contour are spaced and seen, and how they differ.")};
+
+const struct surface reflector_models_usual_surface = {
+    .spacing_m = 0.1, .full_rad = -1, .zero_rad = -1};
+
+int reflector_models_check_surface(const struct surface *surface, struct diag *diag)
+{
+    bool full = surface->full_rad >= 0, zero = surface->zero_rad >= 0;
+    if (full != zero)
+        return diag_fail(diag, DIAG_CONFIG, "%s: missing; expected full_rad and zero_rad, or none",
+                         full ? "zero_rad" : "full_rad");
+    if (surface->zero_rad < surface->full_rad)
+        return diag_fail(diag, DIAG_CONFIG, "zero_rad: %g is less than full_rad, %g rad",
+                         surface->zero_rad, surface->full_rad);
+    return 0;
+}
+
+struct surface reflector_models_surface(const struct surface *surface, const struct surface *over)
+{
+    struct surface result = *surface;
+    for (const struct field *field = surface_fields; field->name != NULL; field++) {
+        double stated = field_number(field, over);
+        if (stated >= 0)
+            FIELD_STORE(double, field, &result, stated);
+    }
+    return result;
+}
+
+bool reflector_models_differs(const struct surface *surface)
+{
+    return surface->facing_sigma_rad > 0 || surface->level_sigma_db > 0;
+}
+
 /* One face from corner to corner, in half lengths and half widths. */
 struct face {
     const char *name;
     double from_x, from_y, to_x, to_y;
     double facing_rad;
-    double length_m;
+    bool across; /* is it as long as the object is wide? */
     double dbsm;
 };
+
+enum { FACES = 4 };
+
+static void faces_of(const struct contour *contour, struct face faces[FACES])
+{
+    faces[0] = (struct face){"front", 0.5, -0.5, 0.5, 0.5, 0, true, contour->front_dbsm};
+    faces[1] = (struct face){"left", 0.5, 0.5, -0.5, 0.5, PI / 2, false, contour->side_dbsm};
+    faces[2] = (struct face){"rear", -0.5, 0.5, -0.5, -0.5, PI, true, contour->rear_dbsm};
+    faces[3] = (struct face){"right", -0.5, -0.5, 0.5, -0.5, -PI / 2, false, contour->side_dbsm};
+}
+
+static double length_of(const struct face *face, struct vec2 size_m)
+{
+    return face->across ? size_m.y : size_m.x;
+}
 
 /* A face that exceeds a whole number of pieces by less than this share of one, as rounding may, has
  * no further piece. */
 #define PIECE_SLACK 1e-9
 
-static struct post_row row_of(const struct face *face, double oblique_dbsm, double spacing_m)
+static double pieces_of(double length_m, double spacing_m)
 {
-    double pieces = elementary_max(1, ceil(face->length_m / spacing_m - PIECE_SLACK));
+    return elementary_max(1, ceil(length_m / spacing_m - PIECE_SLACK));
+}
+
+/* The power of a raised cosine, averaged over all aspects. */
+static double mean_power(struct contour_view view)
+{
+    return (view.full_rad + 3.0 / 8 * (view.zero_rad - view.full_rad)) / PI;
+}
+
+/* A scatterer of the face that has this share of its power. Whatever its view, it has the mean
+ * power over all aspects that the view of the cross sections gives. */
+static struct point_reflector scatterer_of(const struct contour *contour,
+                                           const struct surface *surface, const struct face *face,
+                                           double share)
+{
+    struct contour_view view = reflector_models_contour_view(face->dbsm, contour->oblique_dbsm);
+    double factor = 1;
+    if (surface->full_rad >= 0) {
+        struct contour_view own = {surface->full_rad, surface->zero_rad};
+        factor = sqrt(mean_power(view) / mean_power(own));
+        view = own;
+    }
+    return (struct point_reflector){
+        .name = face->name,
+        .z = 0.5,
+        .extent = 1,
+        .facing_rad = face->facing_rad,
+        .full_rad = view.full_rad,
+        .zero_rad = view.zero_rad,
+        .ercs = factor * radar_ercs(radar_cross_section_from_dbsm_m2(face->dbsm) * share),
+    };
+}
+
+static struct post_row row_of(const struct contour *contour, const struct surface *surface,
+                              const struct face *face, struct vec2 size_m)
+{
+    double length_m = length_of(face, size_m);
+    double pieces = pieces_of(length_m, surface->spacing_m);
     double half_piece = 0.5 / pieces;
     double along_x = face->to_x - face->from_x, along_y = face->to_y - face->from_y;
-    struct contour_view view = reflector_models_contour_view(face->dbsm, oblique_dbsm);
+    struct point_reflector post = scatterer_of(contour, surface, face, 1 / pieces);
     return (struct post_row){
         .name = face->name,
         .from_x = face->from_x + half_piece * along_x,
         .from_y = face->from_y + half_piece * along_y,
         .to_x = face->to_x - half_piece * along_x,
         .to_y = face->to_y - half_piece * along_y,
-        .z = 0.5,
-        .extent = 1,
-        .spacing_m = face->length_m / pieces,
-        .facing_rad = face->facing_rad,
-        .full_rad = view.full_rad,
-        .zero_rad = view.zero_rad,
-        .ercs = radar_ercs(radar_cross_section_from_dbsm_m2(face->dbsm) / pieces),
+        .z = post.z,
+        .extent = post.extent,
+        .spacing_m = length_m / pieces,
+        .facing_rad = post.facing_rad,
+        .full_rad = post.full_rad,
+        .zero_rad = post.zero_rad,
+        .ercs = post.ercs,
     };
 }
 
-void reflector_models_of_contour(const struct contour *contour, double length_m, double width_m,
-                                 double spacing_m, struct reflector_set *set, struct arena *arena)
+static void clear(struct reflector_set *set)
 {
-    assert(length_m >= 0.01 && width_m >= 0.01 && spacing_m >= 0.02);
-    const struct face faces[] = {
-        {"front", 0.5, -0.5, 0.5, 0.5, 0, width_m, contour->front_dbsm},
-        {"left", 0.5, 0.5, -0.5, 0.5, PI / 2, length_m, contour->side_dbsm},
-        {"rear", -0.5, 0.5, -0.5, -0.5, PI, width_m, contour->rear_dbsm},
-        {"right", -0.5, -0.5, 0.5, -0.5, -PI / 2, length_m, contour->side_dbsm},
-    };
-    set->points.count = set->planes.count = 0;
+    set->points.items = NULL;
+    set->points.count = set->points.room = 0;
     set->rows.items = NULL;
     set->rows.count = set->rows.room = 0;
-    for (size_t i = 0; i < sizeof faces / sizeof *faces; i++)
-        *list_add(&set->rows, arena) = row_of(&faces[i], contour->oblique_dbsm, spacing_m);
+    set->planes.count = 0;
+}
+
+void reflector_models_of_contour(const struct contour *contour, const struct surface *surface,
+                                 struct vec2 size_m, struct reflector_set *set, struct arena *arena)
+{
+    assert(size_m.x >= 0.01 && size_m.y >= 0.01 && surface->spacing_m >= 0.02);
+    struct face faces[FACES];
+    faces_of(contour, faces);
+    clear(set);
+    for (size_t i = 0; i < FACES; i++)
+        *list_add(&set->rows, arena) = row_of(contour, surface, &faces[i], size_m);
+}
+
+/* The face's scatterer, placed and drawn. */
+static struct point_reflector piece_of(const struct face *face, struct point_reflector scatterer,
+                                       const struct surface *surface, double place,
+                                       const double gaussian[2])
+{
+    double level_db = level_mean_db(surface->level_sigma_db);
+    scatterer.x = face->from_x + place * (face->to_x - face->from_x);
+    scatterer.y = face->from_y + place * (face->to_y - face->from_y);
+    scatterer.facing_rad =
+        remainder(scatterer.facing_rad + surface->facing_sigma_rad * gaussian[0], 2 * PI);
+    scatterer.ercs *= units_amplitude_from_db(level_db + surface->level_sigma_db * gaussian[1]);
+    return scatterer;
+}
+
+static void add_pieces(const struct face *face, struct point_reflector scatterer,
+                       const struct surface *surface, double pieces,
+                       const struct random_address *body, struct reflector_set *set,
+                       struct arena *arena)
+{
+    struct random_address address = *body;
+    address.item = hash_text(body->item, face->name);
+    for (uint32_t i = 0; i < (uint32_t)pieces; i++) {
+        double gaussian[2];
+        random_gaussian_pair(&address, RANDOM_SURFACE, i, gaussian);
+        struct point_reflector *point = list_add(&set->points, arena);
+        *point = piece_of(face, scatterer, surface, (i + 0.5) / pieces, gaussian);
+        point->name = reflectors_post_name(face->name, i, arena);
+    }
+}
+
+void reflector_models_of_surface(const struct contour *contour, const struct surface *surface,
+                                 struct vec2 usual_m, struct vec2 size_m,
+                                 const struct random_address *body, struct reflector_set *set,
+                                 struct arena *arena)
+{
+    assert(size_m.x >= 0.01 && size_m.y >= 0.01 && surface->spacing_m >= 0.02);
+    struct face faces[FACES];
+    faces_of(contour, faces);
+    clear(set);
+    for (size_t i = 0; i < FACES; i++) {
+        double length_m = length_of(&faces[i], size_m);
+        double pieces = pieces_of(length_m, surface->spacing_m);
+        double share = length_m / length_of(&faces[i], usual_m) / pieces;
+        add_pieces(&faces[i], scatterer_of(contour, surface, &faces[i], share), surface, pieces,
+                   body, set, arena);
+    }
 }
 
 #define DEGREE (PI / 180)

@@ -4,6 +4,7 @@
  * of 3GPP (MODEL 2.8). Each replaces the points, planes and rows of the reflector set. */
 #pragma once
 
+#include "base/random.h"
 #include "frame/reflectors.h"
 
 /* Mean cross sections over scans by aspect, left and right alike. Each of the four faces divides
@@ -34,11 +35,44 @@ struct contour_view {
 };
 struct contour_view reflector_models_contour_view(double face_dbsm, double oblique_dbsm);
 
-/* Replaces the set's points, planes and rows by four rows of posts, no farther apart than spacing_m
- * on an object of this size; mirrors and whether the object blocks stay. The sizes are at least
- * 0.01 m and the spacing 0.02 m. */
-void reflector_models_of_contour(const struct contour *contour, double length_m, double width_m,
-                                 double spacing_m, struct reflector_set *set, struct arena *arena);
+/* How the scatterers of a contour are spaced and seen, and how they differ from one another. A
+ * member below 0 is not stated. */
+struct surface {
+    double spacing_m;          /* from one scatterer to the next, at most */
+    double facing_sigma_rad;   /* of its facing around the face's normal */
+    double full_rad, zero_rad; /* its view, both or none; none: that of its face */
+    double level_sigma_db;     /* of its power around its mean */
+};
+
+extern const struct record surface_record;
+
+/* What holds where nothing is stated: scatterers 0.1 m apart, all alike, with the views of their
+ * faces. */
+extern const struct surface reflector_models_usual_surface;
+
+/* Refuses one of full_rad and zero_rad without the other, and a zero_rad that is less. */
+int reflector_models_check_surface(const struct surface *surface, struct diag *diag);
+
+/* The surface with the members of `over` in place of its own where they are stated. */
+struct surface reflector_models_surface(const struct surface *surface, const struct surface *over);
+
+/* Does every body have scatterers of its own? */
+bool reflector_models_differs(const struct surface *surface);
+
+/* Replaces the set's points, planes and rows by four rows of equal posts, no farther apart than the
+ * surface's spacing on an object of this size; mirrors and whether the object blocks stay. The
+ * sizes are at least 0.01 m and the spacing 0.02 m. */
+void reflector_models_of_contour(const struct contour *contour, const struct surface *surface,
+                                 struct vec2 size_m, struct reflector_set *set,
+                                 struct arena *arena);
+
+/* The same with points in place of the posts, each with a facing and a level of its own, which are
+ * drawn at the body's address. They are no farther apart than the spacing on a body of size_m. A
+ * metre of a face has the power that it has on an object of usual_m, the class's size. */
+void reflector_models_of_surface(const struct contour *contour, const struct surface *surface,
+                                 struct vec2 usual_m, struct vec2 size_m,
+                                 const struct random_address *body, struct reflector_set *set,
+                                 struct arena *arena);
 
 /* Sensing targets of 3GPP TR 38.901, 7.9.2 (MODEL 2.8). A vehicle has five scattering points, each
  * in the middle of a face, with a lobe and a floor that is seen from everywhere; a human has one.

@@ -19,6 +19,9 @@ static const struct field vehicle_fields[] = {
     {OPTIONAL_CHOICE(struct vehicle, sensing_target, reflector_models_3gpp_names,
                      "sensing target of 3GPP TR 38.901, for glint-extract-3gpp")},
     {OPTIONAL_RECORD(struct vehicle, contour, &contour_record, "for glint-extract-contour")},
+    {OPTIONAL_RECORD(struct vehicle, surface, &surface_record, "of the contour's scatterers")},
+    {OPTIONAL_REAL(struct vehicle, cell_max_m, 0.01, 100,
+                   "coarsest range cell that its reflectors are made for; absent: any")},
     {.name = "sources",
      .kind = FIELD_NOTES,
      .optional = true,
@@ -102,6 +105,10 @@ const struct vehicle *vehicle_load(const char *class, const char *folder, struct
     }
     if (reflector_models_check_contour(&vehicle->contour, diag) != 0) {
         diag_prefix(diag, "%s: contour.", path);
+        return NULL;
+    }
+    if (reflector_models_check_surface(&vehicle->surface, diag) != 0) {
+        diag_prefix(diag, "%s: surface.", path);
         return NULL;
     }
     vehicle->reflectors.document = &vehicle->reflectors;

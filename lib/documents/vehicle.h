@@ -14,7 +14,9 @@ struct vehicle {
     struct reflector_set reflectors;         /* belongs to no object yet */
     enum sensing_target_3gpp sensing_target; /* for glint-extract-3gpp */
     struct contour contour;                  /* for glint-extract-contour */
-    char digest[17];                         /* of the document */
+    struct surface surface;                  /* of that contour */
+    double cell_max_m; /* coarsest range cell that its reflectors are made for; 0: any */
+    char digest[17];   /* of the document */
 };
 
 extern const struct record vehicle_record;

@@ -70,6 +70,7 @@ struct class_document {
     const char *digest;   /* 16 hexadecimal digits */
     double rear_axle_x_m; /* from the centre of the box; 0: the document does not say */
     struct class_level level;
+    double cell_max_m; /* coarsest range cell that the reflectors are made for; 0: any */
 };
 
 /* The properties of a sensor that readers of targets need. */

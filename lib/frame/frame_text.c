@@ -85,6 +85,8 @@ static const struct field class_document_fields[] = {
                    "from the centre of the box; absent: 5/18 of the length behind it")},
     {OPTIONAL_RECORD(struct class_document, level, &class_level_record,
                      "how its bodies' levels vary, where not as the sensor has it")},
+    {OPTIONAL_REAL(struct class_document, cell_max_m, 0.01, 100,
+                   "coarsest range cell that its reflectors are made for; absent: any")},
     {0},
 };
 

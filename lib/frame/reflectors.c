@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/hash.h"
+#include "base/number.h"
 #include "base/units.h"
 
 static const char *const shapes[] = {
@@ -349,6 +350,17 @@ void reflectors_cut_posts(const struct post_row *row, double first_m, double end
         *first = low < (double)*end ? (int64_t)low : *end;
     if (high < (double)*end)
         *end = high > (double)*first ? (int64_t)high : *first;
+}
+
+const char *reflectors_post_name(const char *row, int64_t post, struct arena *arena)
+{
+    size_t length = strlen(row);
+    char *name = arena_get(arena, length + 1 + NUMBER_SIZE + 1);
+    memcpy(name, row, length);
+    name[length++] = '_';
+    length += number_write_whole((uint64_t)post, name + length);
+    name[length] = '\0';
+    return name;
 }
 
 struct vec2 reflectors_post_place(const struct box *box, const struct post_row *row, int64_t post)

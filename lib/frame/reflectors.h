@@ -156,5 +156,8 @@ void reflectors_posts_within(const struct box *box, const struct post_row *row, 
 void reflectors_cut_posts(const struct post_row *row, double first_m, double end_m, int64_t *first,
                           int64_t *end);
 
+/* The name of post number `post` >= 0 of a row: that of the row, "_" and the number. */
+const char *reflectors_post_name(const char *row, int64_t post, struct arena *arena);
+
 /* The place of a post in the world. */
 struct vec2 reflectors_post_place(const struct box *box, const struct post_row *row, int64_t post);

@@ -340,7 +340,7 @@ static void add_row(struct look *look, const struct look_body *body, const struc
     reflectors_posts_within(&body->box, row, look->pose.position_m, look->sensor->range_max_m,
                             &first, &end);
     for (int64_t number = first; number < end; number++) {
-        post.name = look_post_name(look, row, number);
+        post.name = reflectors_post_name(row->name, number, look->frame->arena);
         add_point(look, body, &post, facing, reflectors_post_place(&body->box, row, number));
     }
 }

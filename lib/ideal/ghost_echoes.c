@@ -353,7 +353,7 @@ static void add_row(struct look *look, const struct ghost_pair *pair, const stru
         if (!mirror_faces_bounce(look, pair->face, place, &bounce) ||
             !may_have_path(look, pair, &post, facing, place, bounce))
             continue;
-        post.name = look_post_name(look, row, number);
+        post.name = reflectors_post_name(row->name, number, look->frame->arena);
         add_point(look, pair, &post, facing, place, bounce);
     }
 }

@@ -4,7 +4,6 @@
 
 #include "base/elementary.h"
 #include "base/hash.h"
-#include "base/number.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
 #include "geometry/kinematics.h"
@@ -378,17 +377,6 @@ double look_visibility(const struct look *look, const struct look_body *body,
         vec2_length(vec2_sub(viewer, place)) + vec2_length(vec2_sub(look->pose.position_m, viewer));
     double rise_m = tilted ? look->height_m - look_reflector_height_m(look, body, point->z) : 0;
     return visible * reflectors_lobe(box, point, place, viewer, elementary_atan2(range_m, rise_m));
-}
-
-const char *look_post_name(const struct look *look, const struct post_row *row, int64_t post)
-{
-    size_t length = strlen(row->name);
-    char *name = arena_get(look->frame->arena, length + 1 + NUMBER_SIZE + 1);
-    memcpy(name, row->name, length);
-    name[length++] = '_';
-    length += number_write_whole((uint64_t)post, name + length);
-    name[length] = '\0';
-    return name;
 }
 
 struct point_reflector look_post(const struct post_row *row)

@@ -142,10 +142,8 @@ double look_visibility(const struct look *look, const struct look_body *body,
                        const struct point_reflector *point, struct vec2 facing, struct vec2 place,
                        struct vec2 viewer);
 
-/* A post of a row as a point, without its name; and the name of post number `post` >= 0, which is
- * that of the row, "_" and the number. */
+/* A post of a row as a point, without its name. */
 struct point_reflector look_post(const struct post_row *row);
-const char *look_post_name(const struct look *look, const struct post_row *row, int64_t post);
 
 /* EFFECT_BIT of latency if the ego or the body moved between the measurement and the frame's time,
  * else 0. */

@@ -1,5 +1,6 @@
 #include "run/extraction.h"
 
+#include "base/hash.h"
 #include "documents/vehicle_set.h"
 #include "frame/frame_order.h"
 
@@ -13,6 +14,21 @@ int extraction_start(void *state, struct runner *runner)
     struct extraction *extraction = state;
     return vehicle_set_folder("--vehicles", extraction->vehicles, &extraction->folder,
                               runner_arena(runner), runner_diag(runner));
+}
+
+bool extraction_describe_surface(const struct surface *surface, const struct vehicle *vehicle,
+                                 const struct frame *frame, const struct object *object,
+                                 struct reflector_set *set)
+{
+    if (vehicle->contour.given == 0 || !reflector_models_differs(surface))
+        return false;
+    struct random_address body = frame_draw_address_of_scene(frame);
+    body.item = hash_text(HASH_START, object->id);
+    struct vec2 usual_m = {vehicle->length_m, vehicle->width_m};
+    struct vec2 size_m = {object->length_m, object->width_m};
+    reflector_models_of_surface(&vehicle->contour, surface, usual_m, size_m, &body, set,
+                                frame->arena);
+    return true;
 }
 
 /* An object of size zero takes its class's default size. */
@@ -39,14 +55,29 @@ static int note_document(struct frame *frame, const struct vehicle *vehicle, str
         (struct class_document){.class = class,
                                 .digest = vehicle->digest,
                                 .rear_axle_x_m = vehicle->rear_axle_x_m,
-                                .level = vehicle->level};
+                                .level = vehicle->level,
+                                .cell_max_m = vehicle->cell_max_m};
     return 0;
 }
 
+/* A new set of this object alone, or NULL if those of its class share one. */
+static struct reflector_set *own_set(struct frame *frame, const struct object *object,
+                                     const struct vehicle *vehicle,
+                                     extraction_describe_body *describe_body,
+                                     const struct extraction *extraction)
+{
+    struct reflector_set own = vehicle->reflectors;
+    if (describe_body == NULL || !describe_body(extraction, vehicle, frame, object, &own))
+        return NULL;
+    struct reflector_set *set = list_add(&frame->reflectors, frame->arena);
+    *set = own;
+    return set;
+}
+
 /* The vehicle's set of reflectors in the frame, made for the first object of its class. */
-static struct reflector_set *set_of(struct frame *frame, const struct vehicle *vehicle,
-                                    extraction_describe *describe,
-                                    const struct extraction *extraction)
+static struct reflector_set *shared_set(struct frame *frame, const struct vehicle *vehicle,
+                                        extraction_describe *describe,
+                                        const struct extraction *extraction)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++)
         if (frame->reflectors.items[i].model == vehicle->reflectors.model)
@@ -59,7 +90,7 @@ static struct reflector_set *set_of(struct frame *frame, const struct vehicle *v
 }
 
 int extraction_step(const struct extraction *extraction, struct frame *frame, struct runner *runner,
-                    extraction_describe *describe)
+                    extraction_describe *describe, extraction_describe_body *describe_body)
 {
     struct object *const *object = frame_order_objects(frame);
     for (size_t i = 0; i < frame->objects.count; i++) {
@@ -73,7 +104,9 @@ int extraction_step(const struct extraction *extraction, struct frame *frame, st
         complete_size(object[i], vehicle);
         if (frame_same_name(object[i]->id, frame->ego))
             continue;
-        struct reflector_set *set = set_of(frame, vehicle, describe, extraction);
+        struct reflector_set *set = own_set(frame, object[i], vehicle, describe_body, extraction);
+        if (set == NULL)
+            set = shared_set(frame, vehicle, describe, extraction);
         *list_add(&set->objects, frame->arena) = object[i]->id;
     }
     return 0;

@@ -10,6 +10,11 @@
 typedef void extraction_describe(const void *state, const struct vehicle *vehicle,
                                  struct reflector_set *set, struct arena *arena);
 
+/* The same for one object alone. false, for all objects of the class: they share reflectors. */
+typedef bool extraction_describe_body(const void *state, const struct vehicle *vehicle,
+                                      const struct frame *frame, const struct object *object,
+                                      struct reflector_set *set);
+
 /* First member of the state of every stage that extracts, and its row in the table of options. */
 struct extraction {
     const char *vehicles; /* a set of documents, by its word or path; NULL: the paper's */
@@ -24,6 +29,12 @@ struct extraction {
     }
 extern const struct record extraction_record;
 
+/* Gives the object a set of its own if its class has a contour whose scatterers differ (MODEL 2.7).
+ * The surface has all members but the view. */
+bool extraction_describe_surface(const struct surface *surface, const struct vehicle *vehicle,
+                                 const struct frame *frame, const struct object *object,
+                                 struct reflector_set *set);
+
 /* Finds the folder of the set, and refuses one that is not there; state begins with a struct
  * extraction. */
 int extraction_start(void *state, struct runner *runner);
@@ -31,7 +42,8 @@ int extraction_start(void *state, struct runner *runner);
 /* The whole step of a stage that extracts: completes the sizes of all objects, notes the documents
  * of their classes in the frame, and lists every object but the ego in its class's set of
  * reflectors. The sets are those of the documents (describe NULL), or as describe, called with the
- * extraction, makes them. Sizes come from documents that were checked, so objects are not among
- * what the stage writes. 0, or -1 after a message. */
+ * extraction, makes them; an object may have a set of its own (describe_body, or NULL). Sizes come
+ * from documents that were checked, so objects are not among what the stage writes. 0, or -1 after
+ * a message. */
 int extraction_step(const struct extraction *extraction, struct frame *frame, struct runner *runner,
-                    extraction_describe *describe);
+                    extraction_describe *describe, extraction_describe_body *describe_body);

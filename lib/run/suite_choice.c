@@ -71,6 +71,45 @@ void suite_choice_doubt(struct runner *runner, const struct suite *suite)
     }
 }
 
+static bool reflects(const struct frame *frame, const char *class)
+{
+    for (size_t i = 0; i < frame->reflectors.count; i++)
+        if (frame_same_name(frame->reflectors.items[i].model, class))
+            return true;
+    return false;
+}
+
+/* A class of the frame's reflectors that is made for finer range cells, or NULL. */
+static const struct class_document *too_fine(const struct frame *frame, double cell_m)
+{
+    for (size_t i = 0; i < frame->vehicles.count; i++) {
+        const struct class_document *document = &frame->vehicles.items[i];
+        if (document->cell_max_m > 0 && cell_m > document->cell_max_m &&
+            reflects(frame, document->class))
+            return document;
+    }
+    return NULL;
+}
+
+bool suite_choice_doubt_cells(struct runner *runner, const struct suite *suite,
+                              const struct frame *frame)
+{
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        double cell_m = suite->sensors.items[i].bin_range_m;
+        const struct class_document *document = too_fine(frame, cell_m);
+        if (document == NULL)
+            continue;
+        add_notice(runner,
+                   arena_format(&runner->arena,
+                                "%s: sensors[%zu]: doubt: range cells of %g m; the "
+                                "reflectors of the class \"%s\" are made for cells of at "
+                                "most %g m",
+                                suite->given, i, cell_m, document->class, document->cell_max_m));
+        return true;
+    }
+    return false;
+}
+
 static bool is_suite_of(const struct suite *suite, const struct frame *frame)
 {
     return suite != NULL && strcmp(suite->name, frame->sensors.suite) == 0 &&

@@ -45,6 +45,11 @@ const struct suite *suite_choice_of_frame(struct runner *runner, const struct fr
  * For the programs that choose a suite. */
 void suite_choice_doubt(struct runner *runner, const struct suite *suite);
 
+/* Adds a notice if the frame has reflectors that are made for finer range cells than those of a
+ * sensor; false if it has none. */
+bool suite_choice_doubt_cells(struct runner *runner, const struct suite *suite,
+                              const struct frame *frame);
+
 /* Sets what ideal writes into every frame: name and digest of the suite, and the text of the
  * effects, which is the option's, or else the suite's, or else "auto". */
 int suite_choice_request(const struct suite_choice *choice, const struct suite *suite,

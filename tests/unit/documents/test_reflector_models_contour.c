@@ -14,6 +14,15 @@
 static const struct contour car = {15, 10.8, 13.6, 20.1, 7.1};
 static const struct contour bicycle = {15, -2, -2, 4, -2};
 
+/* Equal posts so far apart. */
+static void posts_on(const struct contour *contour, struct vec2 size_m, double spacing_m,
+                     struct reflector_set *set)
+{
+    struct surface surface = reflector_models_usual_surface;
+    surface.spacing_m = spacing_m;
+    reflector_models_of_contour(contour, &surface, size_m, set, check_arena());
+}
+
 /* The place of a sensor that sees the object's middle from this distance and aspect. */
 static struct vec2 sensor_at(double aspect_rad, double range_m)
 {
@@ -54,7 +63,7 @@ static double incoherent_dbsm(const struct contour *contour, struct box box, dou
     static struct post posts[2000];
     struct reflector_set set = {.model = "m"};
     double total_m2 = 0;
-    reflector_models_of_contour(contour, 4.6, 1.8, spacing_m, &set, check_arena());
+    posts_on(contour, (struct vec2){4.6, 1.8}, spacing_m, &set);
     size_t count = posts_of(&set, &box, sensor_at(aspect_rad, FAR_M), posts, COUNT(posts));
     for (size_t i = 0; i < count; i++)
         total_m2 += posts[i].amplitude * posts[i].amplitude;
@@ -106,7 +115,7 @@ TEST(rounding_of_a_length_makes_no_post)
     for (int i = -3; i <= 3; i++) {
         struct reflector_set set = {.model = "m"};
         double length_m = 4.8 * (1 + i * 2.220446049250313e-16);
-        reflector_models_of_contour(&car, length_m, 1.8, 0.1, &set, check_arena());
+        posts_on(&car, (struct vec2){length_m, 1.8}, 0.1, &set);
         for (size_t j = 0; j < set.rows.count; j++)
             assert_near(set.rows.items[j].spacing_m, 0.1, 1e-12);
     }
@@ -150,7 +159,7 @@ static double mean_over_incoherent_db(double spacing_m, bool rough)
     const struct vec2 sensor = sensor_at(PI / 4, 50);
     const int draws = rough ? 4000 : 1;
     double total = 0;
-    reflector_models_of_contour(&car, 4.6, 1.8, spacing_m, &set, check_arena());
+    posts_on(&car, (struct vec2){4.6, 1.8}, spacing_m, &set);
     for (int i = 0; i < draws; i++)
         total += coherent_over_incoherent(&set, sensor, rough, (uint64_t)i);
     return 10 * log10(total / draws);
@@ -176,13 +185,13 @@ TEST(rows_replace_the_reflectors_of_the_document)
     set.points.items = &corner;
     set.mirrors.items = &mirror;
     set.points.count = set.mirrors.count = 1;
-    reflector_models_of_contour(&bicycle, 0.01, 0.01, 0.02, &set, check_arena());
+    posts_on(&bicycle, (struct vec2){0.01, 0.01}, 0.02, &set);
     assert_int_equal(set.points.count, 0);
     assert_int_equal(set.rows.count, 4);
     assert_int_equal(set.mirrors.count, 1);
     assert_true(set.blocks);
     assert_int_equal(record_write_check(&reflector_set_record, &set, ~0U, &diag), 0);
-    reflector_models_of_contour(&car, 1e4, 0.021, 0.02, &set, check_arena());
+    posts_on(&car, (struct vec2){1e4, 0.021}, 0.02, &set);
     assert_int_equal(record_write_check(&reflector_set_record, &set, ~0U, &diag), 0);
 }
 

@@ -34,7 +34,7 @@ static int remove_bench(void **state)
 /* One step on the frame: its result. */
 static int step(struct bench *bench, extraction_describe *describe)
 {
-    return extraction_step(bench->runner.state, &bench->frame, &bench->runner, describe);
+    return extraction_step(bench->runner.state, &bench->frame, &bench->runner, describe, NULL);
 }
 
 static const struct vehicle *car_of(struct bench *bench)

@@ -190,7 +190,7 @@ static void describe_negative_ercs(const void *state, const struct vehicle *vehi
 
 static int extract_negative_ercs(void *state, struct frame *frame, struct runner *runner)
 {
-    return extraction_step(state, frame, runner, describe_negative_ercs);
+    return extraction_step(state, frame, runner, describe_negative_ercs, NULL);
 }
 
 /* A document's reflectors were checked when it was read; others in their place were not. */
