@@ -48,9 +48,11 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
     const struct two_ray_road road = {{constants[0], constants[1]}, constants[2]};
     const struct two_ray_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
                                       road_distance_m(sensor, echo)};
-    return effect_scale(reception,
-                        reflection_two_ray_factor(&road, sensor->polarization,
-                                                  units_wavelength_m(sensor->carrier_hz), &ends));
+    const struct two_ray_paths paths = reflection_two_ray_paths(&ends);
+    double wavelength_m = units_wavelength_m(sensor->carrier_hz);
+    double _Complex reflection =
+        reflection_road(&road, sensor->polarization, wavelength_m, paths.grazing_sine);
+    return effect_scale(reception, reflection_two_ray_factor(&paths, reflection, wavelength_m));
 }
 
 const struct effect effect_two_ray = {

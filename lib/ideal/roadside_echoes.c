@@ -5,9 +5,9 @@
 #include "ideal/line_of_sight.h"
 
 /* The least amplitude of an echo over the threshold, and the part of it where the road strengthens
- * echoes (14.10). */
+ * echoes, by a factor of 4/sqrt(6) at most (14.10). */
 #define FAINTEST 0.2
-#define MIRRORED 0.25
+#define MIRRORED 0.6
 
 /* A strip, as one sensor sees it. */
 struct roadside {

@@ -89,9 +89,10 @@ struct two_ray_paths reflection_two_ray_paths(const struct two_ray_ends *ends)
     double direct_m = elementary_hypot(ends->distance_m, sensor_m - reflector_m);
     double bounced_m = elementary_hypot(ends->distance_m, sensor_m + reflector_m);
     if (bounced_m == 0)
-        return (struct two_ray_paths){0, 0, 0, 1};
-    return (struct two_ray_paths){direct_m, bounced_m,
-                                  4 * sensor_m * reflector_m / (direct_m + bounced_m),
+        return (struct two_ray_paths){.grazing_sine = 1};
+    double per_height = 4 * sensor_m / (direct_m + bounced_m);
+    return (struct two_ray_paths){direct_m, bounced_m, per_height * reflector_m,
+                                  per_height * ends->extent_m,
                                   (sensor_m + reflector_m) / bounced_m};
 }
 
@@ -105,42 +106,31 @@ double _Complex reflection_road(const struct two_ray_road *road, enum polarizati
     return coherent * creal(fresnel) + coherent * cimag(fresnel) * (double _Complex)I;
 }
 
-/* R1/R2, the loss of the bounced wave against the direct one by spreading. */
-static double spreading(const struct two_ray_paths *paths)
+/* The bounced wave over the direct one, g (R1/R2) exp(-j 2 pi delta/lambda). */
+static struct complex_parts bounced_wave(const struct two_ray_paths *paths,
+                                         double _Complex reflection, double wavelength_m)
 {
-    return paths->bounced_m == 0 ? 1 : paths->direct_m / paths->bounced_m;
-}
-
-double reflection_two_ray_point_factor(const struct two_ray_paths *paths,
-                                       double _Complex reflection, double wavelength_m)
-{
+    double spreading = paths->bounced_m == 0 ? 1 : paths->direct_m / paths->bounced_m;
+    double re = spreading * creal(reflection), im = spreading * cimag(reflection);
     struct elementary_sincos turn = elementary_sincos_turns(-paths->difference_m / wavelength_m);
-    double re = creal(reflection) * turn.cos - cimag(reflection) * turn.sin;
-    double im = creal(reflection) * turn.sin + cimag(reflection) * turn.cos;
-    double sum_re = 1 + spreading(paths) * re, sum_im = spreading(paths) * im;
-    return sum_re * sum_re + sum_im * sum_im;
+    return (struct complex_parts){re * turn.cos - im * turn.sin, re * turn.sin + im * turn.cos};
 }
 
-double reflection_two_ray_mean_factor(double reflection)
+/* The mean of a turning pointer over so many turns, over its middle: sin(pi n)/(pi n). */
+static double mean_of_turns(double turns)
 {
-    double power = reflection * reflection;
-    return sqrt(1 + power * (4 + power));
+    return turns == 0 ? 1 : elementary_sincos_turns(0.5 * turns).sin / (PI * turns);
 }
 
-/* True if the reflector spans more than half a lobe, whose height is lambda R/(2 h_s). */
-static bool phases_average_out(const struct two_ray_ends *ends, double wavelength_m)
+double reflection_two_ray_factor(const struct two_ray_paths *paths, double _Complex reflection,
+                                 double wavelength_m)
 {
-    return 4 * ends->sensor_height_m * ends->extent_m > wavelength_m * ends->distance_m;
-}
-
-double reflection_two_ray_factor(const struct two_ray_road *road, enum polarization polarization,
-                                 double wavelength_m, const struct two_ray_ends *ends)
-{
-    struct two_ray_paths paths = reflection_two_ray_paths(ends);
-    double _Complex reflection =
-        reflection_road(road, polarization, wavelength_m, paths.grazing_sine);
-    if (phases_average_out(ends, wavelength_m))
-        return reflection_two_ray_mean_factor(
-            spreading(&paths) * elementary_hypot(creal(reflection), cimag(reflection)));
-    return reflection_two_ray_point_factor(&paths, reflection, wavelength_m);
+    struct complex_parts wave = bounced_wave(paths, reflection, wavelength_m);
+    double squared_re = wave.re * wave.re, squared_im = wave.im * wave.im;
+    double power = squared_re + squared_im;
+    double turns = paths->spread_m / wavelength_m;
+    double mean = 1 + power * (4 + power);
+    double once = 4 * (1 + power) * wave.re * mean_of_turns(turns);
+    double twice = 2 * (squared_re - squared_im) * mean_of_turns(2 * turns);
+    return sqrt(elementary_max(1 + (once + twice) / mean, 0));
 }

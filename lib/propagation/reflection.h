@@ -42,7 +42,8 @@ double reflection_divergence(double radius_1_m, double radius_2_m, double cosine
 /* ---- two-ray propagation over a reflecting road ----
  *
  * Each way, there and back, the wave goes straight and also by the road; the four paths interfere
- * in one range cell. The echo's amplitude is multiplied by F^2 of MODEL 14.10, its power by F^4. */
+ * in one range cell. The echo's amplitude is multiplied by the factor of MODEL 14.10, F^2 over its
+ * root mean square over phase: cross sections measured above roads have that mean already. */
 
 /* A road's surface. Dry asphalt has about 5 - j 0.25 and 1 mm, concrete 5.24 - j 0.42 at 24 GHz,
  * 5.24 - j 0.32 at 77 GHz, and 0.3 mm. */
@@ -62,6 +63,7 @@ struct two_ray_ends {
 struct two_ray_paths {
     double direct_m, bounced_m; /* R1, R2 */
     double difference_m;        /* delta, from 4 h_s h_r/(R1 + R2), which does not cancel */
+    double spread_m;            /* by how much delta differs over the reflector's extent */
     double grazing_sine;        /* sin psi; 1 if both ends are one point of the road */
 };
 
@@ -71,15 +73,7 @@ struct two_ray_paths reflection_two_ray_paths(const struct two_ray_ends *ends);
 double _Complex reflection_road(const struct two_ray_road *road, enum polarization polarization,
                                 double wavelength_m, double grazing_sine);
 
-/* F^2 of a point reflector, for any g. */
-double reflection_two_ray_point_factor(const struct two_ray_paths *paths,
-                                       double _Complex reflection, double wavelength_m);
-
-/* sqrt(<F^4>) = sqrt(1 + 4 G^2 + G^4) of a reflector so tall that phases average out. reflection is
- * G = |g| R1/R2. */
-double reflection_two_ray_mean_factor(double reflection);
-
-/* The factor on an echo's amplitude: the mean factor if the reflector's extent is more than half a
- * lobe, whose height at the reflector is lambda R/(2 h_s), else the point factor. */
-double reflection_two_ray_factor(const struct two_ray_road *road, enum polarization polarization,
-                                 double wavelength_m, const struct two_ray_ends *ends);
+/* The factor on an echo's amplitude, for |reflection| <= 1: the root of the mean of F^4 over the
+ * reflector's extent, over that over all phases. At most 4/sqrt(6), and 1 without a reflection. */
+double reflection_two_ray_factor(const struct two_ray_paths *paths, double _Complex reflection,
+                                 double wavelength_m);

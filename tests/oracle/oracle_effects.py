@@ -595,7 +595,7 @@ def road_of(scene, frame):
 
 
 def road_factor(scene, road, along, heights):
-    """The factor of the road: (F squared, is it doubtful whether the reflector is compact)."""
+    """The factor of the road: the root of the mean power over a reflector's extent, over that over all phases."""
     own, (high, extent) = scene.height, heights
     wavelength = LIGHT_MPS / scene.sensor["carrier_hz"]
     near_m, far_m = math.hypot(along, own - high), math.hypot(along, own + high)
@@ -603,12 +603,15 @@ def road_factor(scene, road, along, heights):
     bent = cmath.sqrt(road[0] - (along / far_m) ** 2)
     steep = sine * (1 if scene.sensor.get("polarization") == "horizontal" else road[0])
     g = (steep - bent) / (steep + bent) * math.exp(-8 * (math.pi * road[1] * sine / wavelength) ** 2) * near_m / far_m
-    half_lobe = wavelength * near_m / (4 * own)
-    if extent >= half_lobe:
-        value = math.sqrt(1 + 4 * abs(g) ** 2 + abs(g) ** 4)
-    else:
-        value = abs(1 + g * cmath.exp(-2j * math.pi * 4 * own * high / (near_m + far_m) / wavelength)) ** 2
-    return value, near(extent, half_lobe)
+    def swing(phase):  # its derivative is |1 + g exp(jx)|^4 without the mean
+        return 4 * abs(g) * (1 + abs(g) ** 2) * math.sin(phase) + abs(g) ** 2 * math.sin(2 * phase)
+
+    mean = 1 + 4 * abs(g) ** 2 + abs(g) ** 4
+    middle, half = (2 * math.pi * 4 * own * metres / (near_m + far_m) / wavelength for metres in (high, extent / 2))
+    if half == 0:
+        return abs(1 + g * cmath.exp(-1j * middle)) ** 2 / math.sqrt(mean)
+    middle -= cmath.phase(g)
+    return math.sqrt(max(1 + (swing(middle + half) - swing(middle - half)) / (2 * half) / mean, 0))
 
 
 # ---- rain, fog, ambiguity, interference (MODEL 14.15 to 14.17) ------------------------------------------
@@ -872,8 +875,7 @@ def scan(frame, vehicles, sensor, effects, rows=None):
     for echo in made.echoes.values():
         echo.road = 1.0
         if road and echo.heights:
-            echo.road, doubtful = road_factor(scene, road, echo.along, echo.heights)
-            made.doubtful_cells |= doubtful
+            echo.road = road_factor(scene, road, echo.along, echo.heights)
     rays = [Ray(sensor, antenna, echo, weather, effects) for echo in made.echoes.values()]
     made.no_amplitude = {ray.key for ray in rays if ray.amplitude == 0}
     made.doubtful_cells |= fold_doubtful(sensor, rays, effects)

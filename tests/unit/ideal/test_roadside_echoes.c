@@ -205,6 +205,32 @@ SCENE_TEST(a_higher_threshold_only_leaves_out_the_weakest)
     assert_near(strongest, faintest, 0.2);
 }
 
+/* MODEL 14.10: a perfect mirror raises the amplitude by 4/sqrt(6). Within a cell, what is strong
+ * enough varies by a fifth. */
+SCENE_TEST(what_a_road_may_raise_is_not_left_out)
+{
+    struct look look;
+    add_roadside(scene);
+    scene->sensor.mount_z_m = 0.5;
+    scene->frame.conditions.road = ROAD_CONCRETE;
+    struct echo_span all = see_as(scene, &automatic, &look);
+    double enough = 0.2 * 0.2 * pow(10, 9.0 / 20) / (4 / sqrt(6.0));
+    scene->sensor.calibration_ercs *= pow(10, 9.0 / 20);
+    suite_derive(&scene->sensor);
+    struct echo_span strong = see_as(scene, &automatic, &look);
+    int kept = 0;
+    for (size_t i = 0; i < all.count; i++) {
+        const struct echo *echo = &all.items[i];
+        double amplitude = echo->ercs * pow(60 / echo->range_m, 2) *
+                           antenna_gain(&scene->sensor.antenna, echo->azimuth_rad);
+        if (amplitude < 1.2 * enough)
+            continue;
+        assert_non_null(find(strong, echo));
+        kept += amplitude < 1.5 * enough;
+    }
+    assert_true(kept > 5);
+}
+
 SCENE_TEST(auto_makes_the_echoes_of_all)
 {
     uint64_t random = 5;

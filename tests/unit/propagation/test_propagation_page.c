@@ -5,20 +5,19 @@
 #include "propagation/attenuation.h"
 #include "propagation/reflection.h"
 
-/* F^4 in dB of a point at 0.6 m before a sensor at 0.5 m, for a constant g. */
+/* What the road adds to a point at 0.6 m before a sensor at 0.5 m, for a constant g. */
 static double two_ray_db(double g, double distance_m)
 {
     const struct two_ray_ends ends = {
         .sensor_height_m = 0.5, .reflector_height_m = 0.6, .distance_m = distance_m};
     struct two_ray_paths paths = reflection_two_ray_paths(&ends);
-    return units_amplitude_db(
-        reflection_two_ray_point_factor(&paths, g, units_wavelength_m(76.5e9)));
+    return units_amplitude_db(reflection_two_ray_factor(&paths, g, units_wavelength_m(76.5e9)));
 }
 
 TEST(the_road_as_a_mirror)
 {
     double null_m = 2 * 0.5 * 0.6 / units_wavelength_m(76.5e9);
-    PRINTED("14.10", "about 2 h_s h_r/(n λ): #, #, # m", null_m, null_m / 2, null_m / 3);
+    PRINTED("14.10", "about 2 h_s h_r/(m λ): #, #, # m", null_m, null_m / 2, null_m / 3);
     PRINTED("14.10", "g = -1 # # # #", two_ray_db(-1, 20), two_ray_db(-1, 50), two_ray_db(-1, 100),
             two_ray_db(-1, 200));
     PRINTED("14.10", "g = -0.7 # # # #", two_ray_db(-0.7, 20), two_ray_db(-0.7, 50),
