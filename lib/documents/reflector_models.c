@@ -81,14 +81,26 @@ const struct record surface_record = {
 const struct surface reflector_models_usual_surface = {
     .spacing_m = 0.1, .full_rad = -1, .zero_rad = -1};
 
-int reflector_models_check_surface(const struct surface *surface, struct diag *diag)
+static bool states_anything(const struct surface *surface)
 {
+    for (const struct field *field = surface_fields; field->name != NULL; field++)
+        if (field_number(field, surface) >= 0)
+            return true;
+    return false;
+}
+
+int reflector_models_check_surface(const struct surface *surface, const struct contour *contour,
+                                   struct diag *diag)
+{
+    if (contour->given == 0 && states_anything(surface))
+        return diag_fail(diag, DIAG_CONFIG, "surface: expected a contour, too");
     bool full = surface->full_rad >= 0, zero = surface->zero_rad >= 0;
     if (full != zero)
-        return diag_fail(diag, DIAG_CONFIG, "%s: missing; expected full_rad and zero_rad, or none",
+        return diag_fail(diag, DIAG_CONFIG,
+                         "surface.%s: missing; expected full_rad and zero_rad, or none",
                          full ? "zero_rad" : "full_rad");
     if (surface->zero_rad < surface->full_rad)
-        return diag_fail(diag, DIAG_CONFIG, "zero_rad: %g is less than full_rad, %g rad",
+        return diag_fail(diag, DIAG_CONFIG, "surface.zero_rad: %g is less than full_rad, %g rad",
                          surface->zero_rad, surface->full_rad);
     return 0;
 }

@@ -50,8 +50,10 @@ extern const struct record surface_record;
  * faces. */
 extern const struct surface reflector_models_usual_surface;
 
-/* Refuses one of full_rad and zero_rad without the other, and a zero_rad that is less. */
-int reflector_models_check_surface(const struct surface *surface, struct diag *diag);
+/* Refuses a surface without a contour, one of full_rad and zero_rad without the other, and a
+ * zero_rad that is less. */
+int reflector_models_check_surface(const struct surface *surface, const struct contour *contour,
+                                   struct diag *diag);
 
 /* The surface with the members of `over` in place of its own where they are stated. */
 struct surface reflector_models_surface(const struct surface *surface, const struct surface *over);

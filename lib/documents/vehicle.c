@@ -107,8 +107,8 @@ const struct vehicle *vehicle_load(const char *class, const char *folder, struct
         diag_prefix(diag, "%s: contour.", path);
         return NULL;
     }
-    if (reflector_models_check_surface(&vehicle->surface, diag) != 0) {
-        diag_prefix(diag, "%s: surface.", path);
+    if (reflector_models_check_surface(&vehicle->surface, &vehicle->contour, diag) != 0) {
+        diag_prefix(diag, "%s: ", path);
         return NULL;
     }
     vehicle->reflectors.document = &vehicle->reflectors;

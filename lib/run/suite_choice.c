@@ -101,7 +101,7 @@ bool suite_choice_doubt_cells(struct runner *runner, const struct suite *suite,
             continue;
         add_notice(runner,
                    arena_format(&runner->arena,
-                                "%s: sensors[%zu]: doubt: range cells of %g m; the "
+                                "%s: sensors[%zu].cell_range_m: doubt: cells of %g m; the "
                                 "reflectors of the class \"%s\" are made for cells of at "
                                 "most %g m",
                                 suite->given, i, cell_m, document->class, document->cell_max_m));

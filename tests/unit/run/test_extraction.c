@@ -91,6 +91,37 @@ EXTRACTION_TEST(a_description_takes_the_place_of_the_documents_reflectors)
     assert_true(car_of(bench)->reflectors.points.count > 1);
 }
 
+/* Gives a car one point that is named after the object. */
+static bool describe_body(const void *state, const struct vehicle *vehicle,
+                          const struct frame *frame, const struct object *object,
+                          struct reflector_set *set)
+{
+    (void)state;
+    if (strcmp(vehicle->reflectors.model, "car") != 0)
+        return false;
+    memset(&set->points, 0, sizeof set->points);
+    list_add(&set->points, frame->arena)->name = object->id;
+    return true;
+}
+
+EXTRACTION_TEST(an_object_may_have_reflectors_of_its_own)
+{
+    assert_int_equal(
+        extraction_step(bench->runner.state, &bench->frame, &bench->runner, NULL, describe_body),
+        0);
+    static const char *const owners[] = {"a", "b", "z"};
+    assert_int_equal(bench->frame.reflectors.count, COUNT(owners));
+    for (size_t i = 0; i < COUNT(owners); i++) {
+        const struct reflector_set *set = &bench->frame.reflectors.items[i];
+        assert_int_equal(set->objects.count, 1);
+        assert_string_equal(set->objects.items[0], owners[i]);
+        bool own = strcmp(set->model, "car") == 0;
+        assert_true(own == (set->points.count == 1));
+        if (own)
+            assert_string_equal(set->points.items[0].name, owners[i]);
+    }
+}
+
 EXTRACTION_TEST(the_message_names_the_object_as_the_frame_numbers_it)
 {
     bench->frame.objects.items[2].class = "hovercraft";

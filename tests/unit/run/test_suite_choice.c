@@ -118,6 +118,28 @@ NOISE_TEST(effects_are_those_that_the_frame_was_seen_with)
     expect_refused(bench, DIAG_CONFIG, "sensors.effects: ");
 }
 
+/* The suite's cells are 0.3 m. */
+NOISE_TEST(reflectors_that_are_made_for_finer_cells_are_doubted)
+{
+    struct frame *frame = &bench->frame;
+    list_add(&frame->vehicles, &bench->arena)->class = "car";
+    list_add(&frame->vehicles, &bench->arena)->class = "van";
+    list_add(&frame->reflectors, &bench->arena)->model = "car";
+    assert_false(suite_choice_doubt_cells(&bench->runner, bench->suite, frame));
+    frame->vehicles.items[0].cell_max_m = 0.3;
+    frame->vehicles.items[1].cell_max_m = 0.2; /* but no van reflects */
+    assert_false(suite_choice_doubt_cells(&bench->runner, bench->suite, frame));
+    assert_int_equal(bench->runner.notices.count, 0);
+    frame->vehicles.items[0].cell_max_m = 0.299;
+    assert_true(suite_choice_doubt_cells(&bench->runner, bench->suite, frame));
+    assert_true(suite_choice_doubt_cells(&bench->runner, bench->suite, frame));
+    assert_int_equal(bench->runner.notices.count, 1);
+    assert_string_equal(
+        bench->runner.notices.items[0],
+        "srr24-pair-every-frame: sensors[0].cell_range_m: doubt: cells of 0.3 m; "
+        "the reflectors of the class \"car\" are made for cells of at most 0.299 m");
+}
+
 /* Counts the visit at its sensor, and notes an effect. */
 static void visit(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
