@@ -14,11 +14,13 @@ FROM read_csv(folder || '/detections.csv*', header = true, auto_detect = false, 
     "sensor": 'VARCHAR', -- name in the suite
     "range_m": reals, -- m: as reported
     "azimuth_rad": reals, -- rad: as reported
+    "elevation_rad": reals, -- rad: as reported, positive upwards
     "range_rate_mps": reals, -- m/s: as reported
     "amplitude_db": reals, -- dB: as reported, 20 log10
     "sign_undecided": 'BOOLEAN', -- the phase between the channels does not tell left from right
     "cell_range_m": reals, -- m: of the cell, without noise
     "cell_azimuth_rad": reals, -- rad: of the cell, without noise
+    "cell_elevation_rad": reals, -- rad: of the cell, without noise
     "cell_range_rate_mps": reals, -- m/s: of the cell, without noise
     "cell_amplitude": reals, -- sum of the contributors' amplitudes, linear
     "cell_sum": reals, -- of the cell's sum pointer, without noise, linear
@@ -35,6 +37,7 @@ FROM read_csv(folder || '/detections.csv*', header = true, auto_detect = false, 
     "quality_range_sd_m": reals, -- m: standard deviation
     "quality_range_rate_sd_mps": reals, -- m/s: standard deviation
     "quality_azimuth_sd_rad": reals, -- rad: standard deviation
+    "quality_elevation_sd_rad": reals, -- rad: standard deviation
     "quality_existence": reals, -- probability of an echo, not noise alone
     "quality_range_rate_interval_mps": reals, -- m/s: range rates this far apart read alike
     "quality_ambiguity_number": 'BIGINT', -- true range rate less the reported one, in such intervals
@@ -59,6 +62,7 @@ FROM read_csv(folder || '/detections.csv*', header = true, auto_detect = false, 
     "path": 'VARCHAR', -- path of the echo's wave
     "mirror": 'VARCHAR', -- id of the object that mirrors, on paths by a wall
     "number": 'BIGINT', -- from 1, if there may be several that are else alike
+    "elevation_rad": reals, -- rad: from the horizontal, positive upwards, exact
     "weight": reals, -- share of the cell's amplitude
     "sensor_x_m": reals, -- m: place of the sensor at the measurement, from the frame's origin
     "sensor_y_m": reals, -- m: place of the sensor at the measurement, from the frame's origin
@@ -137,6 +141,7 @@ FROM read_csv(folder || '/contributors.csv*', header = true, auto_detect = false
     "number": 'BIGINT', -- from 1, if there may be several that are else alike
     "range_m": reals, -- m: from the sensor to the reflector, exact
     "azimuth_rad": reals, -- rad: from boresight, positive to the left, exact
+    "elevation_rad": reals, -- rad: from the horizontal, positive upwards, exact
     "range_rate_mps": reals, -- m/s: positive when receding, exact
     "ercs": reals, -- equivalent radar cross section in this direction
     "time_s": 'DOUBLE', -- s: instant of the measurement

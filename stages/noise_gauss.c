@@ -1,4 +1,4 @@
-/* The textbook sensor: independent Gaussian noise on range, azimuth and range rate. */
+/* The textbook sensor: independent Gaussian noise on range, angles and range rate. */
 #include "base/elementary.h"
 #include "base/random.h"
 #include "base/units.h"
@@ -6,6 +6,16 @@
 #include "noise/beam_cells.h"
 #include "noise/target_list.h"
 #include "run/suite_choice.h"
+
+static void add_elevation_noise(const struct sensor *sensor, const struct random_address *address,
+                                struct effect_measurement *measurement)
+{
+    double draw[2], sigma_rad = sensor->elevation_sigma_rad;
+    random_gaussian_pair(address, RANDOM_ELEVATION, 0, draw);
+    double elevation_rad = measurement->elevation_rad + sigma_rad * draw[0];
+    measurement->elevation_rad = elementary_max(elementary_min(elevation_rad, PI / 2), -PI / 2);
+    measurement->elevation_sigma_rad = sigma_rad;
+}
 
 static struct effect_measurement measure(const struct frame *frame, const struct sensor *sensor,
                                          const struct cell *cell)
@@ -23,6 +33,8 @@ static struct effect_measurement measure(const struct frame *frame, const struct
     measurement.range_rate_mps += sensor->range_rate_sigma_mps * range_and_rate[1];
     measurement.azimuth_rad =
         units_wrap_rad(measurement.azimuth_rad + sensor->azimuth_sigma_rad * azimuth[0]);
+    if (sensor->elevation_view_rad > 0)
+        add_elevation_noise(sensor, &address, &measurement);
     measurement.range_rate_sigma_mps = sensor->range_rate_sigma_mps;
     measurement.azimuth_sigma_rad = sensor->azimuth_sigma_rad;
     return measurement;
@@ -43,14 +55,14 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 
 const struct stage stage_noise_gauss = {
     .name = "noise-gauss",
-    .summary = "Add independent Gaussian noise to range, azimuth and range rate.",
+    .summary = "Add independent Gaussian noise to range, angles and range rate.",
     .details =
-        "Stands in for glint-noise: every cell becomes a target; its range, azimuth and range\n"
-        "rate get noise of the sensor's range_sigma_m, or its range_sigma_share of the range\n"
-        "where that is larger, azimuth_sigma_rad and range_rate_sigma_mps, whatever its\n"
-        "sigma_law. No threshold and no list limit is applied, nothing is rounded or\n"
-        "misaligned, and there are no false alarms. A cell of zero amplitude is lost. A range\n"
-        "below zero is reported as zero.",
+        "Stands in for glint-noise: every cell becomes a target; its range, azimuth, elevation\n"
+        "and range rate get noise of the sensor's range_sigma_m, or its range_sigma_share of\n"
+        "the range where that is larger, azimuth_sigma_rad, elevation_sigma_rad and\n"
+        "range_rate_sigma_mps, whatever its sigma_law. No threshold and no list limit is\n"
+        "applied, nothing is rounded or misaligned, and there are no false alarms. A cell of\n"
+        "zero amplitude is lost. A range below zero is reported as zero.",
     .options = &suite_choice_record,
     .reads = PART_SENSORS | PART_CELLS,
     .writes = PART_TARGETS | PART_LOST | PART_VISIBILITY,

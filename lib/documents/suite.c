@@ -81,6 +81,8 @@ static const struct field sensor_fields[] = {
     {NEEDS(field_of_view_rad, 0, PI, "full width; the border itself is outside")},
     {MAY_HAVE(elevation_half_width_rad, 1e-3, PI / 2,
               "one way, the beam is down by 3 dB this far above and below; absent: no loss")},
+    {MAY_HAVE(elevation_view_rad, 1e-3, PI,
+              "full width, around the horizontal; absent: elevation is not measured")},
     {OPTIONAL_FLAG(struct sensor, diffraction,
                    "do waves bend around the edges of bodies that block?")},
     {OPTIONAL_FLAG(struct sensor, curved_sides,
@@ -176,6 +178,9 @@ static const struct field sensor_fields[] = {
     {OPTIONAL_NAME(struct sensor, azimuth_floor_curve,
                    "CSV file with azimuth_rad, level_db: 20 log10 of the floor, from that at 0, "
                    "which is azimuth_floor_rad")},
+    {MAY_HAVE(elevation_sigma_rad, 0, PI / 2,
+              "noise on elevation at the threshold, in proportion to 1/amplitude")},
+    {MAY_HAVE(elevation_floor_rad, 0, PI / 2, "adds to that noise in quadrature")},
     {MAY_CHOOSE(
         sigma_law, laws,
         "noise on range and range rate: constant, proportional to threshold/amplitude, or by "
@@ -197,6 +202,7 @@ static const struct field sensor_fields[] = {
     {MAY_HAVE(range_step_m, 0, 1e3, "reported in multiples of this; 0: exactly")},
     {MAY_HAVE(range_rate_step_mps, 0, 1e3, "reported in multiples of this; 0: exactly")},
     {MAY_HAVE(azimuth_step_rad, 0, PI, "reported in multiples of this; 0: exactly")},
+    {MAY_HAVE(elevation_step_rad, 0, PI / 2, "reported in multiples of this; 0: exactly")},
     {CHOOSES(list_order, orders, "which targets come first, and stay if there are too many")},
     {FIELD_INTEGER_IN(struct sensor, list_limit, 0, 1e6, "most targets in a list; 0: all")},
     {OPTIONAL_RECORD(struct sensor, waveform, &waveform_record,
@@ -281,6 +287,13 @@ double suite_azimuth_floor_rad(const struct sensor *sensor, double azimuth_rad)
     const struct receiver_curve *levels = &sensor->floor_levels;
     double times = levels->rows == NULL ? 1 : receiver_curve_gain(levels, azimuth_rad);
     return times * sensor->azimuth_floor_rad;
+}
+
+double suite_elevation_sigma_rad(const struct sensor *sensor, double amplitude)
+{
+    double noise_rad = sensor->elevation_sigma_rad * (sensor->threshold / amplitude);
+    return elementary_min(elementary_hypot(noise_rad, sensor->elevation_floor_rad),
+                          sensor->elevation_view_rad / sqrt(12));
 }
 
 /* With a waveform the stated cells are bins, and half a cell is the resolution (MODEL 6). */
@@ -391,6 +404,26 @@ static int check_levels(const struct sensor *sensor, struct diag *diag)
     return 0;
 }
 
+/* Refuses an elevation that is measured without a height of the sensor, and figures of one that is
+ * not measured. */
+static int check_elevation(const struct sensor *sensor, struct diag *diag)
+{
+    const struct {
+        const char *name;
+        double value;
+    } figures[] = {{"elevation_sigma_rad", sensor->elevation_sigma_rad},
+                   {"elevation_floor_rad", sensor->elevation_floor_rad},
+                   {"elevation_step_rad", sensor->elevation_step_rad}};
+    bool measured = sensor->elevation_view_rad > 0;
+    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
+        if (figures[i].value > 0 && !measured)
+            return diag_fail(diag, DIAG_CONFIG, "elevation_view_rad: missing; %s needs it",
+                             figures[i].name);
+    if (measured && !(sensor->mount_z_m > 0))
+        return diag_fail(diag, DIAG_CONFIG, "mount_z_m: missing; elevation_view_rad needs it");
+    return 0;
+}
+
 /* Refuses limits that do not ascend or exceed range_max_m, and what the signal does not have. */
 static int check_limits(const struct sensor *sensor, struct diag *diag)
 {
@@ -447,7 +480,7 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
         return diag_fail(diag, DIAG_CONFIG, "range_max_m: %g is not above range_min_m, %g m",
                          sensor->range_max_m, sensor->range_min_m);
     if (check_limits(sensor, diag) != 0 || check_levels(sensor, diag) != 0 ||
-        check_array(sensor, diag) != 0)
+        check_elevation(sensor, diag) != 0 || check_array(sensor, diag) != 0)
         return -1;
     bool pattern = sensor->antenna_pattern == ANTENNA_TABLE;
     if (pattern && sensor->antenna_table == NULL)

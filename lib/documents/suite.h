@@ -47,6 +47,7 @@ struct sensor {
     LIST_OF(struct range_limit) range_limits; /* by azimuth, ascending */
     double field_of_view_rad;
     double elevation_half_width_rad;
+    double elevation_view_rad; /* 0: elevation is not measured */
     bool diffraction, curved_sides, micro_motion;
     double cycle_s, latency_s;
     int64_t bounces; /* bounces of the longest path, off objects and mirrors; below 2 only direct
@@ -84,12 +85,13 @@ struct sensor {
     double pointer_sigma;
     double range_sigma_m, range_sigma_share; /* the larger of the two holds */
     double range_rate_sigma_mps, azimuth_sigma_rad, azimuth_floor_rad;
+    double elevation_sigma_rad, elevation_floor_rad;
     enum sigma_law sigma_law;
     double window_factor;
     double misalignment_rad, radome_bias_rad, radome_period_rad, radome_phase_rad;
     bool final_threshold;
     double false_alarms, false_alarm_range_rate_mps;
-    double range_step_m, range_rate_step_mps, azimuth_step_rad;
+    double range_step_m, range_rate_step_mps, azimuth_step_rad, elevation_step_rad;
     enum list_order list_order;
     int64_t list_limit;
     struct waveform waveform;
@@ -140,6 +142,11 @@ double suite_azimuth_sigma_rad(const struct sensor *sensor, double azimuth_rad, 
 
 /* The floor, which no signal lessens, of the standard deviation of an azimuth. */
 double suite_azimuth_floor_rad(const struct sensor *sensor, double azimuth_rad);
+
+/* The standard deviation of the elevation of a target of this amplitude, over the noise that other
+ * radars do not raise: elevation_sigma_rad at the threshold, in proportion to 1/amplitude, with the
+ * floor in quadrature; at most that of an elevation anywhere in the view (MODEL 7.6). */
+double suite_elevation_sigma_rad(const struct sensor *sensor, double amplitude);
 
 /* Refuses members that contradict each other (DIAG_CONFIG). */
 int suite_check(const struct sensor *sensor, struct diag *diag);

@@ -59,6 +59,13 @@ static struct echo point_at(const struct effect_scan *scan, const struct ring *r
     };
 }
 
+/* Sets the elevation of a point on the ground, whose range is that in the plane. */
+static void set_elevation(const struct sensor *sensor, struct echo *point)
+{
+    point->elevation_rad = elementary_atan2(-sensor->mount_z_m, point->range_m);
+    point->present |= VALUE_ELEVATION;
+}
+
 /* Adds the points of a ring, the strongest first. share is the part of all points that are stronger
  * than the present one. Powers are exponential, so -ln(share) is its power over the mean, and all
  * weaker points have 1 - share + share ln(share) of the whole power. */
@@ -81,6 +88,8 @@ static void add_ring(const struct effect_scan *scan, const struct ring *ring, in
         struct echo point = point_at(scan, ring, pose, uniform);
         point.id.number = number + RINGS * (int64_t)rank;
         point.ercs = scan->frame->conditions.clutter_ercs * sqrt(power);
+        if (scan->sensor->elevation_view_rad > 0)
+            set_elevation(scan->sensor, &point);
         effect_add(scan, echoes, &point);
     }
 }

@@ -26,7 +26,7 @@ enum effect_step {
     EFFECT_STEP_POINTERS, /* changes the sum and delta pointers, before the angle is read */
     EFFECT_STEP_SIGMA,    /* sets the standard deviations that EFFECT_STEP_NOISE then uses */
     EFFECT_STEP_NOISE,    /* adds noise to the range, azimuth and range rate that were read */
-    EFFECT_STEP_AZIMUTH,  /* changes the azimuth that was read to the one that is reported */
+    EFFECT_STEP_ANGLES,   /* changes azimuth and elevation to those that are reported */
     EFFECT_STEP_ROUNDING, /* rounds what is reported */
     EFFECT_STEPS
 };
@@ -50,6 +50,7 @@ struct effect_reception {
     const struct echo *echo;        /* as ideal or add_echoes made it */
     double strength, amplitude;     /* linear, before and after the antenna */
     double range_m, range_rate_mps; /* as the radar reads them */
+    double elevation_rad;           /* from which the wave arrives, as a mean by power */
     double phase_rad;
     double widening;         /* the response is 1 + widening times as wide as at rest */
     const double *constants; /* of the effect whose hook is called, from its hook begin */
@@ -65,9 +66,9 @@ struct effect_measurement {
     const struct cell *cell;
     struct random_address address; /* of the cell's draws */
     struct antenna_pointers pointers;
-    double range_m, azimuth_rad, range_rate_mps;
+    double range_m, azimuth_rad, elevation_rad, range_rate_mps;
     /* Standard deviations: of the added noise, later as the sensor estimates them. */
-    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
+    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad, elevation_sigma_rad;
     double amplitude; /* linear */
     bool sign_undecided;
     bool looks_merged; /* do the pointers differ from those of a single echo by more than noise? */

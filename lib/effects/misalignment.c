@@ -25,5 +25,5 @@ const struct effect effect_misalignment = {
     .cost = "a sine per cell",
     .home = EFFECT_HOME_NOISE,
     .members = {{EFFECT_SENSOR(misalignment_rad)}, {EFFECT_SENSOR(radome_bias_rad)}},
-    .measure[EFFECT_STEP_AZIMUTH] = turn_azimuth,
+    .measure[EFFECT_STEP_ANGLES] = turn_azimuth,
 };

@@ -38,6 +38,17 @@ static double road_distance_m(const struct sensor *sensor, const struct echo *ec
     return sqrt(elementary_max(echo->range_m - up_m, 0) * (echo->range_m + up_m));
 }
 
+/* Pulls the elevation of an echo towards that of its image below the road, whose power is this part
+ * of its own (MODEL 7.6). */
+static void pull_elevation(const struct two_ray_ends *ends, double power,
+                           struct effect_reception *reception)
+{
+    double image_m = -ends->reflector_height_m - ends->sensor_height_m;
+    double image_rad = elementary_atan2(image_m, ends->distance_m);
+    double share = power / (1 + power);
+    reception->elevation_rad += share * (image_rad - reception->elevation_rad);
+}
+
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
 {
     const struct sensor *sensor = scan->sensor;
@@ -52,6 +63,8 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
     double wavelength_m = units_wavelength_m(sensor->carrier_hz);
     double _Complex reflection =
         reflection_road(&road, sensor->polarization, wavelength_m, paths.grazing_sine);
+    if (sensor->elevation_view_rad > 0)
+        pull_elevation(&ends, reflection_two_ray_image_power(&paths, reflection), reception);
     return effect_scale(reception, reflection_two_ray_factor(&paths, reflection, wavelength_m));
 }
 

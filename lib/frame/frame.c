@@ -225,9 +225,11 @@ struct contributor frame_contributor(const struct echo *echo)
         .id = echo->id,
         .range_m = echo->range_m,
         .azimuth_rad = echo->azimuth_rad,
+        .elevation_rad = echo->elevation_rad,
         .range_rate_mps = echo->range_rate_mps,
         .ercs = echo->ercs,
         .time_s = echo->time_s,
+        .present = echo->present,
     };
 }
 
@@ -336,16 +338,19 @@ struct target *frame_add_target(struct frame *frame, const struct cell *cell, do
         .sensor = cell->sensor,
         .range_m = cell->range_m,
         .azimuth_rad = cell->azimuth_rad,
+        .elevation_rad = cell->elevation_rad,
         .range_rate_mps = cell->range_rate_mps,
         .amplitude_db = amplitude_db,
         .sign_undecided = cell->sign_undecided,
         .cell_range_m = cell->range_m,
         .cell_azimuth_rad = cell->azimuth_rad,
+        .cell_elevation_rad = cell->elevation_rad,
         .cell_range_rate_mps = cell->range_rate_mps,
         .cell_amplitude = cell->amplitude,
         .cell_sum = elementary_hypot(cell->sum_re, cell->sum_im),
         .effects = cell->effects,
         .margins = cell->margins,
+        .present = cell->present,
     };
     target->contributors.items = cell->members.items;
     target->contributors.count = cell->members.count;

@@ -119,11 +119,17 @@ struct echo_id {
     int64_t number;     /* from 1 where several may be alike in all members above; else 0 */
 };
 
+/* Members of echoes, contributors, cells and targets that are known together. */
+enum value_group {
+    VALUE_ELEVATION = 1 << 0, /* of a sensor that measures elevation */
+};
+_Static_assert(VALUE_ELEVATION < 1U << 31, "a set of groups is an unsigned");
+
 /* The exact measurement of a reflector by a sensor along one path. */
 struct echo {
     const char *sensor;
     struct echo_id id;
-    double range_m, azimuth_rad, range_rate_mps;
+    double range_m, azimuth_rad, elevation_rad, range_rate_mps;
     double ercs;
     double departure_azimuth_rad; /* of the wave, on paths by a wall one way; else 0 */
     double height_m;              /* of the reflector's middle over the road; 0: not known */
@@ -135,21 +141,23 @@ struct echo {
     uint64_t effects;       /* EFFECT_BITs of the effects that changed one of these values */
     struct margins margins;
     const char *extra;
+    unsigned present; /* enum value_group, here and below */
 };
 
 /* An echo in a cell or in a target's label: its exact values and its weight in the cell. */
 struct contributor {
     struct echo_id id;
-    double range_m, azimuth_rad, range_rate_mps;
+    double range_m, azimuth_rad, elevation_rad, range_rate_mps;
     double ercs;
     double time_s;
     double weight; /* share of the cell's amplitude, equation (5); a cell's weights sum to 1 */
+    unsigned present;
 };
 
 /* A resolution cell before noise. The first member is the leader, which opened the cell. */
 struct cell {
     const char *sensor;
-    double range_m, azimuth_rad, range_rate_mps;
+    double range_m, azimuth_rad, elevation_rad, range_rate_mps;
     double amplitude; /* sum of the members' amplitudes, A_cell of MODEL 6 */
     double sum_re, sum_im, delta_re, delta_im;
     bool sign_undecided;
@@ -162,6 +170,7 @@ struct cell {
     bool repeats; /* is its label that of another cell of the frame as well? Not on the wire */
     struct margins margins;
     const char *extra;
+    unsigned present;
 };
 
 /* Members of a target's quality that are known together. */
@@ -174,18 +183,19 @@ enum quality_group {
     QUALITY_MOUNT = 1 << 5,    /* places from the sensor and the centre */
     QUALITY_EGO = 1 << 6,      /* places and rate that need to know the ego */
     QUALITY_POINTERS = 1 << 7, /* looks_merged */
+    QUALITY_ELEVATION = 1 << 8,
 };
-_Static_assert(QUALITY_POINTERS < 1U << 31, "a set of groups is an unsigned");
+_Static_assert(QUALITY_ELEVATION < 1U << 31, "a set of groups is an unsigned");
 
 /* Quality of a detection by its report and the sensor's document (MODEL 14.21), and exact labels.
  */
 struct quality {
     double snr_db, rcs_dbsm;
-    double range_sd_m, range_rate_sd_mps, azimuth_sd_rad; /* standard deviations */
-    double existence;                                     /* probability of an echo */
-    double range_rate_interval_mps;                       /* rates this far apart read alike */
-    int64_t ambiguity_number; /* label: true rate less reported one, in such intervals */
-    bool looks_merged;        /* do the pointers show several echoes? */
+    double range_sd_m, range_rate_sd_mps, azimuth_sd_rad, elevation_sd_rad; /* deviations */
+    double existence;               /* probability of an echo */
+    double range_rate_interval_mps; /* rates this far apart read alike */
+    int64_t ambiguity_number;       /* label: true rate less reported one, in such intervals */
+    bool looks_merged;              /* do the pointers show several echoes? */
     bool merged_objects, merged_reflectors; /* labels: are contributors of several? */
     double range_rate_over_ground_mps;      /* without the sensor's own motion */
     double x_sensor_m, y_sensor_m, x_centre_m, y_centre_m;
@@ -196,10 +206,10 @@ struct quality {
 /* An entry of the target list with its exact label: values and members of its cell. */
 struct target {
     const char *sensor;
-    double range_m, azimuth_rad, range_rate_mps;
+    double range_m, azimuth_rad, elevation_rad, range_rate_mps;
     double amplitude_db;
     bool sign_undecided;
-    double cell_range_m, cell_azimuth_rad, cell_range_rate_mps;
+    double cell_range_m, cell_azimuth_rad, cell_elevation_rad, cell_range_rate_mps;
     double cell_amplitude;
     double cell_sum;  /* amplitude of the cell's sum pointer, without noise; 0: not known */
     uint64_t effects; /* EFFECT_BITs of those that changed a value of the target or a contributor */
@@ -207,6 +217,7 @@ struct target {
     struct margins margins;
     struct quality quality;
     const char *extra;
+    unsigned present;
 };
 
 /* Why an echo is part of no target: the reasons of losses.def. */

@@ -14,6 +14,8 @@
 #define POINTER(owner, member, help) FIELD_REAL_IN(owner, member, -1e308, 1e308, help)
 #define RANGE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e6, help)
 #define AZIMUTH(owner, member, help) FIELD_REAL_IN(owner, member, -PI, PI, help)
+#define ELEVATION(owner, member, help)                                                             \
+    FIELD_REAL_IN(owner, member, -PI / 2, PI / 2, help), FIELD_OPTIONAL, .group = VALUE_ELEVATION
 #define RATE(owner, member, help) FIELD_REAL_IN(owner, member, -1e5, 1e5, help)
 #define NAME(owner, member, help) FIELD_NAME_OF(owner, member, help)
 #define UNDECIDED(owner)                                                                           \
@@ -39,6 +41,7 @@
 #define IDEAL_VALUES(owner)                                                                        \
     {RANGE(owner, range_m, "from the sensor to the reflector, exact")},                            \
         {AZIMUTH(owner, azimuth_rad, "from boresight, positive to the left, exact")},              \
+        {ELEVATION(owner, elevation_rad, "from the horizontal, positive upwards, exact")},         \
         {RATE(owner, range_rate_mps, "positive when receding, exact")},                            \
         {AMPLITUDE(owner, ercs, "equivalent radar cross section in this direction")},              \
     {                                                                                              \
@@ -160,7 +163,8 @@ static const struct field echo_fields[] = {
 
 const struct record echo_record = {
     FIELD_TABLE(struct echo, echo_fields, "echo",
-                "What a sensor would read of a reflector along one path, exactly.")};
+                "What a sensor would read of a reflector along one path, exactly."),
+    .present_offset = offsetof(struct echo, present)};
 
 static const struct field contributor_fields[] = {
     ECHO_NAMES(struct contributor),
@@ -170,7 +174,8 @@ static const struct field contributor_fields[] = {
 };
 
 const struct record contributor_record = {
-    FIELD_TABLE(struct contributor, contributor_fields, "contributor", "An echo and its weight.")};
+    FIELD_TABLE(struct contributor, contributor_fields, "contributor", "An echo and its weight."),
+    .present_offset = offsetof(struct contributor, present)};
 
 static const struct field element_fields[] = {
     {POINTER(struct phasor, re, "real part")},
@@ -185,6 +190,7 @@ static const struct field cell_fields[] = {
     {NAME(struct cell, sensor, "name in the suite")},
     {RANGE(struct cell, range_m, "weighted mean of the members")},
     {AZIMUTH(struct cell, azimuth_rad, "read from the superposed pointers, without noise")},
+    {ELEVATION(struct cell, elevation_rad, "mean of the members and their images, by power")},
     {RATE(struct cell, range_rate_mps, "weighted mean of the members")},
     {AMPLITUDE(struct cell, amplitude, "sum of the members' amplitudes")},
     {POINTER(struct cell, sum_re, "sum channel without noise")},
@@ -204,7 +210,8 @@ static const struct field cell_fields[] = {
 };
 
 const struct record cell_record = {
-    FIELD_TABLE(struct cell, cell_fields, "cell", "A resolution cell before noise.")};
+    FIELD_TABLE(struct cell, cell_fields, "cell", "A resolution cell before noise."),
+    .present_offset = offsetof(struct cell, present)};
 
 #define QUALITY_GROUP(name) FIELD_OPTIONAL, .group = QUALITY_##name
 #define QUALITY_REAL(member, group, low, high, help)                                               \
@@ -219,6 +226,7 @@ static const struct field quality_fields[] = {
     {QUALITY_REAL(range_sd_m, ERRORS, 0, 1e6, "standard deviation")},
     {QUALITY_REAL(range_rate_sd_mps, ERRORS, 0, 1e6, "standard deviation")},
     {QUALITY_REAL(azimuth_sd_rad, ERRORS, 0, PI, "standard deviation")},
+    {QUALITY_REAL(elevation_sd_rad, ELEVATION, 0, PI, "standard deviation")},
     {QUALITY_REAL(existence, NOISE, 0, 1, "probability of an echo, not noise alone")},
     {QUALITY_REAL(range_rate_interval_mps, FOLDS, 0, 1e6, "range rates this far apart read alike")},
     {FIELD_INTEGER_IN(struct quality, ambiguity_number, -1e6, 1e6,
@@ -250,11 +258,14 @@ static const struct field target_fields[] = {
     {NAME(struct target, sensor, "name in the suite")},
     {FIELD_REAL_IN(struct target, range_m, 0, 1e7, "as reported")},
     {AZIMUTH(struct target, azimuth_rad, "as reported")},
+    {FIELD_REAL_IN(struct target, elevation_rad, -PI, PI, "as reported, positive upwards"),
+     FIELD_OPTIONAL, .group = VALUE_ELEVATION},
     {FIELD_REAL_IN(struct target, range_rate_mps, -1e6, 1e6, "as reported")},
     {FIELD_REAL_IN(struct target, amplitude_db, -1e4, 1e4, "as reported, 20 log10")},
     {UNDECIDED(struct target)},
     {RANGE(struct target, cell_range_m, "of the cell, without noise")},
     {AZIMUTH(struct target, cell_azimuth_rad, "of the cell, without noise")},
+    {ELEVATION(struct target, cell_elevation_rad, "of the cell, without noise")},
     {RATE(struct target, cell_range_rate_mps, "of the cell, without noise")},
     {AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear")},
     {AMPLITUDE(struct target, cell_sum, "of the cell's sum pointer, without noise, linear"),
@@ -268,7 +279,8 @@ static const struct field target_fields[] = {
 };
 
 const struct record target_record = {
-    FIELD_TABLE(struct target, target_fields, "target", "A detection with its exact label.")};
+    FIELD_TABLE(struct target, target_fields, "target", "A detection with its exact label."),
+    .present_offset = offsetof(struct target, present)};
 
 static const struct field lost_echo_fields[] = {
     ECHO_NAMES(struct lost_echo),

@@ -233,6 +233,8 @@ static void add_echo(struct look *look, const struct look_body *body,
         .effects = candidate->effects | candidate->line_of_sight.effects,
         .margins = look_sight_margins(look, candidate->margin_m),
     };
+    double from_m = candidate->by_road ? -candidate->height_m : candidate->height_m;
+    look_set_elevation(look, candidate->place, from_m, echo);
     describe_height(look, body, candidate, echo);
     describe_motion(look, body, candidate, velocity, echo);
 }

@@ -11,7 +11,8 @@ enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
 
 /* A route between the sensor and a reflector: the direct one, or that by the mirror. */
 struct route {
-    struct kinematics read; /* of the reflector, or of its image */
+    struct vec2 place;      /* of the reflector, or of its image */
+    struct kinematics read; /* of the same */
     double factor;          /* on amplitude, for there and back */
     double margin_m;        /* the least sight margin so far */
     uint64_t effects;       /* the effects that changed a value */
@@ -47,7 +48,7 @@ struct ghost_pair {
 static struct route route_to(const struct look *look, struct vec2 place, struct vec2 velocity,
                              double height_m)
 {
-    struct route route = {.margin_m = (double)INFINITY};
+    struct route route = {.place = place, .margin_m = (double)INFINITY};
     route.read = look_slant(look, height_m, look_kinematics(look, place, velocity), &route.factor,
                             &route.effects);
     return route;
@@ -185,8 +186,9 @@ static void add_ghost(struct look *look, const struct ghost_candidate *candidate
                       struct mirror_ghost ghost, const struct route *out, const struct route *back)
 {
     bool one_way = path != PATH_WALL_OBJECT_WALL;
+    struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
-    *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
+    *echo = (struct echo){
         .sensor = look->sensor->name,
         .id.object = candidate->body->object->id,
         .id.reflector = candidate->reflector,
@@ -204,6 +206,7 @@ static void add_ghost(struct look *look, const struct ghost_candidate *candidate
                    look_latency_effect(look, candidate->face->body),
         .margins = margins_of(look, &ghost.kinematics, out, back),
     };
+    look_set_elevation(look, back->place, candidate->height_m, echo);
 }
 
 /* Part of the amplitude that is left after the bounce, relative to a perfect flat mirror. A

@@ -346,6 +346,16 @@ struct kinematics look_slant(const struct look *look, double reflector_m, struct
     return read;
 }
 
+void look_set_elevation(const struct look *look, struct vec2 place, double height_m,
+                        struct echo *echo)
+{
+    if (look->sensor->elevation_view_rad == 0)
+        return;
+    double distance_m = vec2_length(vec2_sub(place, look->pose.position_m));
+    echo->elevation_rad = elementary_atan2(height_m - look->height_m, distance_m);
+    echo->present |= VALUE_ELEVATION;
+}
+
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects)
 {

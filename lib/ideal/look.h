@@ -93,6 +93,11 @@ struct kinematics look_kinematics(const struct look *look, struct vec2 place, st
 struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics plane,
                              double *gain, uint64_t *effects);
 
+/* Sets the elevation of an echo that arrives from a place at height_m over the road, if the sensor
+ * measures it. */
+void look_set_elevation(const struct look *look, struct vec2 place, double height_m,
+                        struct echo *echo);
+
 /* ERCS of a flat side at its specular point, range_m away in the plane (MODEL 14.5). Adds curvature
  * to effects if it changes the value. */
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,

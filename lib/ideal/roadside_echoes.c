@@ -53,6 +53,7 @@ static void add_scatterer(struct look *look, const struct roadside *side,
     echo.id.number = one->number;
     echo.range_m = read.range_m;
     echo.azimuth_rad = read.azimuth_rad;
+    look_set_elevation(look, one->place_m, side->height_m, &echo);
     echo.range_rate_mps = read.range_rate_mps;
     echo.ercs = sight.factor * gain * one->ercs * elementary_exp(level);
     if (echo.ercs * antenna_gain(&look->sensor->antenna, echo.azimuth_rad) < least_ercs)

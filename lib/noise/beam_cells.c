@@ -103,6 +103,18 @@ static void add_means(const struct sensor *sensor, const struct contributor *lea
     }
 }
 
+/* The mean elevation of a cell's members by their powers. */
+static double mean_elevation_rad(const struct cell *cell)
+{
+    double sum = 0, power = 0;
+    for (size_t i = 0; i < cell->members.count; i++) {
+        double weight = cell->members.items[i].weight;
+        sum += weight * weight * cell->members.items[i].elevation_rad;
+        power += weight * weight;
+    }
+    return sum / power;
+}
+
 static const struct array_maximum *nearest_clean(const struct parting *parting, size_t beam)
 {
     const struct array_maximum *nearest = parting->clean;
@@ -127,6 +139,8 @@ static struct cell cell_of(const struct parting *parting, const struct beam_owne
     cell.amplitude *= add_members(parting, owners, beam, arena, &cell);
     add_means(parting->sensor, &whole->members.items[0], whole, -1, &cell);
     add_means(parting->sensor, &whole->members.items[0], &cell, 1, &cell);
+    if (parting->sensor->elevation_view_rad > 0)
+        cell.elevation_rad += mean_elevation_rad(&cell) - mean_elevation_rad(whole);
     cell.range_m = elementary_max(cell.range_m, 0);
     cell.azimuth_rad = elementary_asin(clean->sine);
     cell.sum_re = clean->amplitude;

@@ -100,6 +100,14 @@ static void estimate_azimuth(const struct detection_source *source,
                                                         sensor->field_of_view_rad / sqrt(12));
 }
 
+static void estimate_elevation(const struct detection_source *source,
+                               struct effect_measurement *measurement)
+{
+    double amplitude = measurement->amplitude / sqrt(source->existence.rise);
+    if (effect_simulates(source->scan, EFFECT_ELEVATION_NOISE))
+        measurement->elevation_sigma_rad = suite_elevation_sigma_rad(source->sensor, amplitude);
+}
+
 void detection_quality_estimate(struct detection_source *source, bool first_threshold,
                                 struct effect_measurement *measurements, size_t count)
 {
@@ -118,6 +126,7 @@ void detection_quality_estimate(struct detection_source *source, bool first_thre
     for (size_t i = 0; i < count; i++) {
         estimate_range(source, &measurements[i], noise);
         estimate_azimuth(source, &measurements[i], noise);
+        estimate_elevation(source, &measurements[i]);
     }
 }
 
@@ -144,6 +153,11 @@ static void add_errors(const struct detection_source *source,
     quality->azimuth_sd_rad =
         rounded_sigma(source, measurement->azimuth_sigma_rad, sensor->azimuth_step_rad);
     quality->present |= QUALITY_ERRORS;
+    if (sensor->elevation_view_rad > 0) {
+        quality->elevation_sd_rad =
+            rounded_sigma(source, measurement->elevation_sigma_rad, sensor->elevation_step_rad);
+        quality->present |= QUALITY_ELEVATION;
+    }
     quality->looks_merged = measurement->looks_merged;
     if (source->channels)
         quality->present |= QUALITY_POINTERS;

@@ -27,6 +27,19 @@ static struct contributor draw_contributor(const struct sensor *sensor, int64_t 
     return contributor;
 }
 
+void false_alarm_cells_draw_elevation(const struct frame *frame, const struct sensor *sensor,
+                                      struct contributor *alarm)
+{
+    if (sensor->elevation_view_rad == 0)
+        return;
+    struct random_address address =
+        frame_draw_address_of(frame, sensor->name, false_alarm_cells_contributor(0).id);
+    double uniform[4];
+    random_uniform(&address, RANDOM_ELEVATION, (uint32_t)alarm->id.number, uniform);
+    alarm->elevation_rad = sensor->elevation_view_rad * (uniform[0] - 0.5);
+    alarm->present |= VALUE_ELEVATION;
+}
+
 struct cell false_alarm_cells_cell(const struct sensor *sensor,
                                    const struct contributor *contributor, double amplitude,
                                    struct arena *arena)
@@ -35,10 +48,12 @@ struct cell false_alarm_cells_cell(const struct sensor *sensor,
         .sensor = sensor->name,
         .range_m = contributor->range_m,
         .azimuth_rad = contributor->azimuth_rad,
+        .elevation_rad = contributor->elevation_rad,
         .range_rate_mps = contributor->range_rate_mps,
         .amplitude = amplitude,
         .sum_re = amplitude,
         .effects = EFFECT_BIT(EFFECT_FALSE_ALARMS),
+        .present = contributor->present,
     };
     *list_add(&cell.members, arena) = *contributor;
     return cell;
@@ -65,6 +80,7 @@ struct cell_span false_alarm_cells_of(struct frame *frame, const struct effect_s
         random_uniform(&address, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
         struct contributor contributor = draw_contributor(sensor, (int64_t)i + 1, uniform);
         contributor.time_s = context->time_s;
+        false_alarm_cells_draw_elevation(frame, sensor, &contributor);
         double amplitude =
             false_alarm_cells_amplitude(sensor->threshold, sensor->search_sigma, uniform[3]);
         cells[i] = false_alarm_cells_cell(sensor, &contributor, amplitude, frame->arena);

@@ -1,9 +1,9 @@
 /* False alarms: targets of noise alone, above the threshold.
  *
  * Their number in a scan has a Poisson distribution (MODEL 14.9). Each is uniform in range, azimuth
- * and range rate, and as strong as noise that has passed the threshold. A false alarm is a cell
- * with one contributor: number n, from 1, of the reflector "cell" of the object "noise", which is
- * no object of the frame. */
+ * and range rate, in elevation if that is measured, and as strong as noise that has passed the
+ * threshold. A false alarm is a cell with one contributor: number n, from 1, of the reflector
+ * "cell" of the object "noise", which is no object of the frame. */
 #pragma once
 
 #include "frame/frame.h"
@@ -14,6 +14,10 @@ struct sensor;
 /* The contributor of false alarm `number` of a scan, from 1, without values. Number 0 is the
  * address of all draws of the scan. */
 struct contributor false_alarm_cells_contributor(int64_t number);
+
+/* Draws the elevation of a false alarm, evenly over the view of a sensor that measures it. */
+void false_alarm_cells_draw_elevation(const struct frame *frame, const struct sensor *sensor,
+                                      struct contributor *alarm);
 
 /* The cell of a false alarm with this contributor. */
 struct cell false_alarm_cells_cell(const struct sensor *sensor,

@@ -66,6 +66,7 @@ static struct target *add_target(struct frame *frame, const struct effect_measur
         frame_add_target(frame, measurement->cell, units_amplitude_db(measurement->amplitude));
     target->range_m = measurement->range_m;
     target->azimuth_rad = measurement->azimuth_rad;
+    target->elevation_rad = measurement->elevation_rad;
     target->range_rate_mps = measurement->range_rate_mps;
     target->sign_undecided = measurement->sign_undecided;
     target->effects = measurement->effects;
@@ -166,7 +167,7 @@ bool target_list_measure(const struct effect_scan *context, const struct cell *c
     effect_measure(context, EFFECT_STEP_POINTERS, measurement);
     bool has_angle = read_angle(sensor, measurement);
     effect_measure(context, EFFECT_STEP_NOISE, measurement);
-    effect_measure(context, EFFECT_STEP_AZIMUTH, measurement);
+    effect_measure(context, EFFECT_STEP_ANGLES, measurement);
     if (frame_carries(context->frame, CARRY_MARGINS))
         target_list_note_margins(sensor, cell, measurement->pointers, measurement->amplitude,
                                  effect_simulates(context, EFFECT_FINAL_THRESHOLD),

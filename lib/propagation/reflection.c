@@ -106,12 +106,23 @@ double _Complex reflection_road(const struct two_ray_road *road, enum polarizati
     return coherent * creal(fresnel) + coherent * cimag(fresnel) * (double _Complex)I;
 }
 
+/* R1/R2, the loss of the bounced wave against the direct one by spreading. */
+static double spreading(const struct two_ray_paths *paths)
+{
+    return paths->bounced_m == 0 ? 1 : paths->direct_m / paths->bounced_m;
+}
+
+double reflection_two_ray_image_power(const struct two_ray_paths *paths, double _Complex reflection)
+{
+    double re = spreading(paths) * creal(reflection), im = spreading(paths) * cimag(reflection);
+    return re * re + im * im;
+}
+
 /* The bounced wave over the direct one, g (R1/R2) exp(-j 2 pi delta/lambda). */
 static struct complex_parts bounced_wave(const struct two_ray_paths *paths,
                                          double _Complex reflection, double wavelength_m)
 {
-    double spreading = paths->bounced_m == 0 ? 1 : paths->direct_m / paths->bounced_m;
-    double re = spreading * creal(reflection), im = spreading * cimag(reflection);
+    double re = spreading(paths) * creal(reflection), im = spreading(paths) * cimag(reflection);
     struct elementary_sincos turn = elementary_sincos_turns(-paths->difference_m / wavelength_m);
     return (struct complex_parts){re * turn.cos - im * turn.sin, re * turn.sin + im * turn.cos};
 }

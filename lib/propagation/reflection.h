@@ -73,6 +73,11 @@ struct two_ray_paths reflection_two_ray_paths(const struct two_ray_ends *ends);
 double _Complex reflection_road(const struct two_ray_road *road, enum polarization polarization,
                                 double wavelength_m, double grazing_sine);
 
+/* The power of the wave that arrives from the reflector's image below the road over that of the
+ * direct one, |g|^2 (R1/R2)^2. */
+double reflection_two_ray_image_power(const struct two_ray_paths *paths,
+                                      double _Complex reflection);
+
 /* The factor on an echo's amplitude, for |reflection| <= 1: the root of the mean of F^4 over the
  * reflector's extent, over that over all phases. At most 4/sqrt(6), and 1 without a reflection. */
 double reflection_two_ray_factor(const struct two_ray_paths *paths, double _Complex reflection,

@@ -157,6 +157,17 @@ static void add_resolution(const struct sensor *sensor, struct text *text)
         text_add_word(text, "without a limit in elevation\n");
 }
 
+static void add_elevation(const struct sensor *sensor, struct text *text)
+{
+    if (sensor->elevation_view_rad > 0)
+        text_format(text,
+                    "  elevation          within +-%.3g degrees; 1 sigma: %.2g degrees at the "
+                    "threshold, at best %.2g\n",
+                    DEGREES * sensor->elevation_view_rad / 2,
+                    DEGREES * suite_elevation_sigma_rad(sensor, sensor->threshold),
+                    DEGREES * sensor->elevation_floor_rad);
+}
+
 /* How bodies of one class differ; nothing where they do not. */
 static void add_levels(const struct sensor *sensor, struct text *text)
 {
@@ -193,7 +204,11 @@ uint64_t datasheet_missing(const struct sensor *sensor)
 {
     uint64_t missing = effect_missing(sensor);
     bool levels = (missing & EFFECT_BIT(EFFECT_LEVEL)) == 0;
-    return levels ? missing & ~EFFECT_BIT(EFFECT_FLUCTUATION) : missing;
+    if (levels)
+        missing &= ~EFFECT_BIT(EFFECT_FLUCTUATION);
+    if (sensor->elevation_view_rad == 0)
+        missing &= ~EFFECT_BIT(EFFECT_ELEVATION_NOISE);
+    return missing;
 }
 
 struct datasheet_example datasheet_example(const struct sensor *sensor)
@@ -230,6 +245,7 @@ static void add_figures(const struct sensor *sensor, const struct datasheet *she
                 sensor->range_min_m, sensor->range_max_m, sheet->weakest_dbsm);
     add_limits(sensor, text);
     add_resolution(sensor, text);
+    add_elevation(sensor, text);
     add_ambiguity(sensor, text);
     add_update(sensor, text);
     add_levels(sensor, text);

@@ -27,6 +27,7 @@ struct received_echo received_echo_in_free_space(const struct sensor *sensor,
         .echo = frame_contributor(echo),
         .range_m = echo->range_m,
         .range_rate_mps = echo->range_rate_mps,
+        .elevation_rad = echo->elevation_rad,
         .phase_rad = phase_rad,
         .effects = echo->effects,
         .margins = &echo->margins,
@@ -50,12 +51,14 @@ struct received_echo received_echo_of(const struct effect_scan *context, const s
         .amplitude = received.amplitude,
         .range_m = received.range_m,
         .range_rate_mps = received.range_rate_mps,
+        .elevation_rad = received.elevation_rad,
     };
     received.effects |= effect_receive(context, &reception);
     received.strength = reception.strength;
     received.amplitude = reception.amplitude;
     received.range_m = reception.range_m;
     received.range_rate_mps = reception.range_rate_mps;
+    received.elevation_rad = reception.elevation_rad;
     received.phase_rad = reception.phase_rad;
     received.widening = reception.widening;
     return received;

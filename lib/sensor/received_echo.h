@@ -14,6 +14,7 @@ struct received_echo {
     double strength;                /* G = A_ref(R) ERCS, before the antenna */
     double amplitude;               /* A = G A_phi, equation (2) */
     double range_m, range_rate_mps; /* as the radar measures them, perhaps folded */
+    double elevation_rad;           /* of the echo with its image in the road, by their powers */
     double phase_rad;               /* relative to others; 0 in the paper */
     double widening;                /* its cell is 1 + widening times as large as the sensor's */
     uint64_t effects;               /* the effects that changed the echo or one of these values */

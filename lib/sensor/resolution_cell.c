@@ -145,6 +145,22 @@ bool resolution_cell_see(const struct sensor *sensor, const struct received_echo
     return cell->sum_re > 0;
 }
 
+void resolution_cell_set_elevation(const struct sensor *sensor, const struct received_echo *echoes,
+                                   size_t count, struct arena *arena, struct cell *cell)
+{
+    if (sensor->elevation_view_rad == 0)
+        return;
+    double *elevation = arena_get(arena, 2 * count * sizeof *elevation);
+    double *power = elevation + count;
+    for (size_t i = 0; i < count; i++) {
+        double part = echoes[i].amplitude / echoes[0].amplitude;
+        elevation[i] = echoes[i].elevation_rad;
+        power[i] = part * part;
+    }
+    cell->elevation_rad = resolution_mean(elevation, power, count);
+    cell->present |= VALUE_ELEVATION;
+}
+
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell)
 {
@@ -167,6 +183,7 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
         *member = echoes[i].echo;
         member->weight = echoes[i].amplitude / cell->amplitude;
     }
+    resolution_cell_set_elevation(sensor, echoes, count, arena, cell);
     cell->range_m = resolution_mean(range, weight, count);
     cell->range_rate_mps = resolution_mean(rate, weight, count);
     struct received_echo merged =

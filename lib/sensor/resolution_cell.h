@@ -27,6 +27,11 @@ bool resolution_cell_measure(const struct sensor *sensor, struct antenna_pointer
 bool resolution_cell_see(const struct sensor *sensor, const struct received_echo *echoes,
                          size_t count, struct arena *arena, struct cell *cell);
 
+/* Sets the cell's elevation, if the sensor measures it: the mean of its echoes' elevations by their
+ * powers (MODEL 7.6). */
+void resolution_cell_set_elevation(const struct sensor *sensor, const struct received_echo *echoes,
+                                   size_t count, struct arena *arena, struct cell *cell);
+
 /* Makes the cell of count echoes, strongest first, which become its members in this order.
  *
  *     amplitude          the sum of the echoes' amplitudes: the denominator of equation (5), and

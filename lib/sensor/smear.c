@@ -210,22 +210,31 @@ static uint64_t effects_of(const struct smear_sample *peak)
                             : peak->effects & ~EFFECT_BIT(EFFECT_COHERENCE);
 }
 
+/* The echoes of a cell, the strongest first; sets count. */
+static struct received_echo *members_of(const struct smear *smear, size_t number, size_t *count,
+                                        struct arena *arena)
+{
+    struct received_echo *members = arena_get(arena, smear->count * sizeof *members);
+    *count = 0;
+    for (size_t i = 0; i < smear->count; i++)
+        if (smear->cell[i] == number)
+            members[(*count)++] = smear->echoes[i];
+    return members;
+}
+
 /* Reads the beams of an array from the echoes of the cell, as strong as they are at its place. */
 static bool see(const struct smear *smear, size_t number, struct arena *arena, struct cell *cell)
 {
     const struct sensor *sensor = smear->sensor;
-    struct received_echo *members = arena_get(arena, smear->count * sizeof *members);
-    size_t count = 0;
-    for (size_t i = 0; i < smear->count; i++) {
-        struct received_echo member = smear->echoes[i];
-        double width = width_of(&member);
-        double range = (member.range_m - cell->range_m) / sensor->cell_range_m / width;
+    size_t count;
+    struct received_echo *members = members_of(smear, number, &count, arena);
+    for (size_t i = 0; i < count; i++) {
+        struct received_echo *member = &members[i];
+        double width = width_of(member);
+        double range = (member->range_m - cell->range_m) / sensor->cell_range_m / width;
         double rate =
-            (member.range_rate_mps - cell->range_rate_mps) / sensor->cell_range_rate_mps / width;
-        if (smear->cell[i] != number)
-            continue;
-        member.amplitude *= point_response_hann(range) * point_response_hann(rate);
-        members[count++] = member;
+            (member->range_rate_mps - cell->range_rate_mps) / sensor->cell_range_rate_mps / width;
+        member->amplitude *= point_response_hann(range) * point_response_hann(rate);
     }
     bool seen = resolution_cell_see(sensor, members, count, arena, cell);
     cell->amplitude = cell->sum_re;
@@ -245,6 +254,14 @@ static void add_members(const struct smear *smear, size_t number, struct arena *
             *member = smear->echoes[i].echo;
             member->weight = smear->echoes[i].amplitude / total;
         }
+}
+
+static void set_elevation(const struct smear *smear, size_t number, struct arena *arena,
+                          struct cell *cell)
+{
+    size_t count;
+    const struct received_echo *members = members_of(smear, number, &count, arena);
+    resolution_cell_set_elevation(smear->sensor, members, count, arena, cell);
 }
 
 bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, struct cell *cell)
@@ -270,6 +287,8 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
         .effects = effects_of(peak),
     };
     add_members(smear, number, arena, cell);
+    if (sensor->elevation_view_rad > 0)
+        set_elevation(smear, number, arena, cell);
     return sensor->beams.count > 0 ? see(smear, number, arena, cell)
                                    : resolution_cell_measure(sensor, pointers, cell);
 }

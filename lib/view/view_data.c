@@ -153,6 +153,17 @@ static void add_contributor(struct view_data *data, const struct contributor *fr
     put_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
 }
 
+/* Adds a row with the elevation, if the sensor measures it. */
+static void add_elevation(struct view_data *data, const struct target *target)
+{
+    bool measured = (target->present & VALUE_ELEVATION) != 0;
+    put_count(data, COLUMN_TARGET_ELEVATIONS, measured);
+    if (!measured)
+        return;
+    put_real(data, COLUMN_ELEVATION_REPORTED, target->elevation_rad);
+    put_real(data, COLUMN_ELEVATION_CELL, target->cell_elevation_rad);
+}
+
 /* Adds a row with every member of the quality, in the order of its table, if the target has one. */
 static void add_quality(struct view_data *data, const struct quality *quality)
 {
@@ -176,6 +187,7 @@ static void add_target(struct view_data *data, const struct target *target)
         intern_number(&data->effect_sets, &target->effects, sizeof target->effects, data->arena));
     for (size_t i = 0; i < target->contributors.count; i++)
         add_contributor(data, &target->contributors.items[i]);
+    add_elevation(data, target);
     add_quality(data, &target->quality);
 }
 

@@ -247,15 +247,16 @@ static void label(const struct signal_cube *signal, struct detection *detection,
         margins_merge(&detection->cell.margins, members[i].margins);
 }
 
-static void label_false_alarm(const struct sensor *sensor, struct detection *detection,
-                              int64_t number, double time_s, struct arena *arena)
+static void label_false_alarm(const struct sensor *sensor, const struct frame *frame,
+                              struct detection *detection, int64_t number, double time_s)
 {
     struct contributor noise = false_alarm_cells_contributor(number);
     noise.range_m = detection->range_m;
     noise.azimuth_rad = detection->azimuth_rad;
     noise.range_rate_mps = detection->range_rate_mps;
     noise.time_s = time_s;
-    detection->cell = false_alarm_cells_cell(sensor, &noise, detection->amplitude, arena);
+    false_alarm_cells_draw_elevation(frame, sensor, &noise);
+    detection->cell = false_alarm_cells_cell(sensor, &noise, detection->amplitude, frame->arena);
 }
 
 /* Records a received echo as lost: itself below the threshold, below it together with others, or
@@ -308,7 +309,7 @@ void detections_label(struct detections *detections, struct frame *frame, const 
         if (count > 0)
             label(detections->signal, detection, members, count, arena);
         else
-            label_false_alarm(sensor, detection, ++alarms, detections->time_s, arena);
+            label_false_alarm(sensor, frame, detection, ++alarms, detections->time_s);
         detection->cell.repeats = repeats;
         detection->cell.beam = detection->beam;
     }
@@ -346,10 +347,12 @@ void detections_list(const struct detections *detections, struct frame *frame, c
         const struct detection *detection = &detections->list.items[i];
         const struct range_doppler_peak *peak = detection->peak;
         measurements[i] = measurement_of(detection);
+        measurements[i].address =
+            frame_draw_address_in(noise->address, detection->cell.members.items[0].id);
         if (frame_carries(frame, CARRY_QUALITY) && detections->noise > 0)
             detections_estimate(detections->signal, peak->amplitude, detections->noise / peak->gain,
                                 &measurements[i]);
-        effect_measure(noise, EFFECT_STEP_AZIMUTH, &measurements[i]);
+        effect_measure(noise, EFFECT_STEP_ANGLES, &measurements[i]);
     }
     struct detection_source source = {
         .sensor = noise->sensor,

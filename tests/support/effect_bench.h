@@ -73,6 +73,7 @@ static inline struct effect_reception effect_bench_receive(struct effect_bench *
                                          .strength = 1,
                                          .amplitude = 1,
                                          .range_m = echo->range_m,
+                                         .elevation_rad = echo->elevation_rad,
                                          .range_rate_mps = echo->range_rate_mps};
     uint64_t effects = effect_receive(&scan, &reception);
     assert_true((effects & ~EFFECT_BIT(effect)) == 0);

@@ -95,6 +95,7 @@ static bool is_named(enum random_purpose purpose)
     case RANDOM_STRIPS:
     case RANDOM_ELEMENTS:
     case RANDOM_SURFACE:
+    case RANDOM_ELEVATION:
     case RANDOM_OWN:
         return true;
     }
@@ -118,7 +119,7 @@ static const char *taker_of(enum random_purpose purpose, int effect)
 /* An effect may draw for a purpose of base/random.h; its own number is no other's. */
 EFFECT_TEST(no_two_effects_draw_for_one_purpose)
 {
-    enum random_purpose next = RANDOM_SURFACE + 1;
+    enum random_purpose next = RANDOM_ELEVATION + 1;
     while (taker_of(next, EFFECT_COUNT) != NULL)
         next++;
     for (int i = 0; i < EFFECT_COUNT; i++)

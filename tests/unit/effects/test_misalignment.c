@@ -4,7 +4,7 @@ static struct effect_measurement turn(struct effect_bench *bench, double azimuth
 {
     struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     struct effect_measurement read = {.azimuth_rad = azimuth_rad};
-    effect_measure(&scan, EFFECT_STEP_AZIMUTH, &read);
+    effect_measure(&scan, EFFECT_STEP_ANGLES, &read);
     return read;
 }
 

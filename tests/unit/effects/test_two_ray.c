@@ -1,4 +1,5 @@
 #include "support/effect_bench.h"
+#include "support/printed.h"
 
 #include <complex.h>
 
@@ -71,6 +72,31 @@ EFFECT_TEST(an_extended_echo_hardly_fades)
         most = fmax(most, fabs(effect_bench_factor(bench, EFFECT_TWO_RAY, &point) - 1));
     }
     assert_true(most > 0.5);
+}
+
+/* The elevation of a point 0.6 m above asphalt from 0.5 m, with its image 0.6 m below, in mrad. */
+static double pulled_mrad(struct effect_bench *bench, struct echo *echo, double along_m)
+{
+    bool labelled;
+    echo->range_m = along_m;
+    echo->elevation_rad = atan((reflector_m - sensor_m) / along_m);
+    return 1e3 * effect_bench_receive(bench, EFFECT_TWO_RAY, echo, &labelled).elevation_rad;
+}
+
+EFFECT_TEST(the_image_below_the_road_pulls_the_elevation)
+{
+    struct echo echo = effect_bench_echo(20);
+    prepare(bench, &echo);
+    bench->sensor.elevation_view_rad = 0.3;
+    double direct_m, longer_m;
+    double power = pow(cabs(road_echo(299792458 / 76.5e9, 20, &direct_m, &longer_m)), 2);
+    double image_rad = -atan((reflector_m + sensor_m) / 20), point_rad = atan(0.1 / 20);
+    assert_close(pulled_mrad(bench, &echo, 20), 1e3 * (point_rad + power * image_rad) / (1 + power),
+                 1e-6);
+    bench->frame.conditions.road = ROAD_ASPHALT;
+    PRINTED("7.6", "ε_i # # # # #", pulled_mrad(bench, &echo, 10), pulled_mrad(bench, &echo, 20),
+            pulled_mrad(bench, &echo, 50), pulled_mrad(bench, &echo, 100),
+            pulled_mrad(bench, &echo, 200));
 }
 
 EFFECT_TEST(without_one_of_its_causes_the_road_does_not_mirror)
