@@ -31,8 +31,9 @@ static void begin_ideal(struct check *own, const struct frame *frame)
     struct suite_choice choice = {suite != NULL ? suite->given : NULL,
                                   arena_text(arena, effects, strlen(effects))};
     own->key = arena_text(arena, key, strlen(key));
-    own->ideal =
-        suite == NULL ? NULL : runner_trial(own->runner, stage_by_name("ideal"), &choice, NULL);
+    own->ideal = suite == NULL ? NULL
+                               : runner_trial(own->runner, stage_by_name("ideal"), &choice,
+                                              sizeof choice, NULL);
 }
 
 /* Makes the echoes of the frame's objects again. False without the documents that made them. */
@@ -100,7 +101,7 @@ static int check_run(void *state, struct runner *runner)
             own->extract);
     if (own->sensors != NULL && suite_choice_load(runner, own->sensors) == NULL)
         return -1;
-    own->extraction = runner_trial(runner, extract, NULL, NULL);
+    own->extraction = runner_trial(runner, extract, NULL, 0, NULL);
     struct output *output = runner_output(runner);
     int result = output != NULL ? check_all(own, runner_diag(runner)) : -1;
     return result == 0 ? print(own, output) : result;

@@ -2,13 +2,13 @@
  * the pipeline that holds a bound on one of the two. */
 #include "run/cost.h"
 #include "run/cost_search.h"
-#include "run/suite_choice.h"
 #include "run/tool.h"
+#include "run/trial_options.h"
 #include "text/output.h"
 #include "text/record_write.h"
 
 struct cost_state {
-    struct suite_choice choice; /* first: the options */
+    struct trial_options options; /* first */
     const char *error, *within;
     int64_t sample; /* most frames */
     int reference;  /* enum cost_reference; -1: not given */
@@ -51,7 +51,7 @@ static int begin(struct cost_state *own, struct runner *runner)
     if (read_bounds(own, diag) != 0)
         return -1;
     cost->brief = own->brief;
-    if (cost_begin(cost, &own->choice, runner, own->reference == COST_ALL ? COST_ALL : COST_SIGNAL,
+    if (cost_begin(cost, &own->options, runner, own->reference == COST_ALL ? COST_ALL : COST_SIGNAL,
                    own->sample) != 0)
         return -1;
     if (own->reference == COST_SIGNAL && cost->no_signal != NULL)
@@ -106,7 +106,7 @@ static void cost_release(void *state)
 }
 
 static const struct field cost_options[] = {
-    SUITE_CHOICE_OF_IDEAL,
+    TRIAL_OPTIONS,
     {OPTIONAL_NAME(
          struct cost_state, error,
          "print the fastest pipeline with at most this error, in per cent as in the table: 30%"),

@@ -3,11 +3,12 @@
  * pipeline without the rest. */
 #include "run/plan.h"
 #include "run/tool.h"
+#include "run/trial_options.h"
 #include "text/output.h"
 #include "text/record_write.h"
 
 struct plan_state {
-    struct suite_choice choice; /* first: the options */
+    struct trial_options options; /* first */
     bool all, json;
     struct plan plan;
 };
@@ -26,7 +27,7 @@ static int plan_run(void *state, struct runner *runner)
 {
     struct plan_state *own = state;
     struct output *output;
-    if (plan_begin(&own->plan, &own->choice, runner) != 0 ||
+    if (plan_begin(&own->plan, &own->options, runner) != 0 ||
         (output = runner_output(runner)) == NULL)
         return -1;
     struct frame *frame;
@@ -43,7 +44,7 @@ static void plan_release(void *state)
 }
 
 static const struct field plan_options[] = {
-    SUITE_CHOICE_OF_IDEAL,
+    TRIAL_OPTIONS,
     {OPTIONAL_FLAG(struct plan_state, all,
                    "also list idle effects, and the documents' reason for each that is on or off")},
     {OPTIONAL_FLAG(struct plan_state, json,

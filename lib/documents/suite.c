@@ -235,6 +235,9 @@ static const struct record prior_record = {
 static const struct field suite_fields[] = {
     {FIELD_NAME_OF(struct suite, origin, "who made this, and from what")},
     {OPTIONAL_NAME(struct suite, effects, "which effects to simulate, as for --effects")},
+    {OPTIONAL_NAME(struct suite, vehicles,
+                   "the set of vehicle documents that its lists are realistic with, as for "
+                   "--vehicles of glint-extract; glint-plan, glint-cost and sets take it")},
     {OPTIONAL_RECORD(struct suite, prior, &prior_record,
                      "echoes that the sensors expect, for probabilities of existence")},
     {FIELD_LIST_OF(struct suite, sensors, &sensor_record, "the radars of one ego")},

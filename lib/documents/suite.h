@@ -111,7 +111,8 @@ struct sensor {
 
 struct suite {
     const char *origin;
-    const char *effects; /* a selection of effects (effects.h); NULL: auto */
+    const char *effects;  /* a selection of effects (effects.h); NULL: auto */
+    const char *vehicles; /* a set of vehicle documents (vehicle_set.h); NULL: the paper's */
     struct suite_prior prior;
     LIST_OF(struct sensor) sensors; /* in the document's order */
     LIST_OF(const char *) assumed;  /* sentences for people */

@@ -5,7 +5,7 @@
 
 #include "base/elementary.h"
 #include "effects/effect.h"
-#include "run/suite_choice.h"
+#include "run/trial_options.h"
 
 enum { FRAMES = 250, FEWEST_FRAMES = 16, SIGNAL_SAMPLES = 32000000 };
 
@@ -39,12 +39,13 @@ static const char *lack_of_signal(enum cost_reference reference, int64_t samples
     return NULL;
 }
 
-int cost_begin(struct cost *cost, const struct suite_choice *choice, struct runner *runner,
+int cost_begin(struct cost *cost, const struct trial_options *options, struct runner *runner,
                enum cost_reference reference, int64_t frames)
 {
-    if (trial_begin(&cost->bench, choice, runner) != 0)
+    if (trial_begin(&cost->bench, options, runner) != 0)
         return -1;
-    int64_t samples = signal_samples(suite_choice_load(runner, choice->sensors)), most = FRAMES;
+    int64_t samples = signal_samples(suite_choice_load(runner, options->choice.sensors)),
+            most = FRAMES;
     cost->runner = runner;
     cost->no_signal = lack_of_signal(reference, samples);
     if (cost->no_signal != NULL)
@@ -53,7 +54,7 @@ int cost_begin(struct cost *cost, const struct suite_choice *choice, struct runn
         most = SIGNAL_SAMPLES / samples > FEWEST_FRAMES ? SIGNAL_SAMPLES / samples : FEWEST_FRAMES;
     cost->sample =
         (struct frame_sample){.arena = runner_arena(runner), .most = frames > 0 ? frames : most};
-    cost->table = (struct cost_table){.suite = choice->sensors,
+    cost->table = (struct cost_table){.suite = options->choice.sensors,
                                       .reference = (int)reference,
                                       .no_signal = cost->no_signal,
                                       .seeds = CHAIN_TRIALS_SEEDS,
@@ -277,6 +278,7 @@ int cost_measure(struct cost *cost)
     table->frames = table->timed_frames = (int64_t)sample->list.count;
     table->seen_frames = sample->seen;
     table->scenes = (int64_t)cost->trials.scenes;
+    cost_table_take_vehicles(table, &cost->bench);
     table->lists = cost->bench.lists;
     fill_table(cost);
     return 0;
@@ -322,11 +324,10 @@ int cost_measure_time(struct cost *cost, struct tried_chain *chain)
 static void write_head(const struct cost *cost, const char *mark, struct text *text)
 {
     const struct cost_table *table = &cost->table;
-    text_format(text,
-                "%s%" PRId64 " of %" PRId64 " frames of %" PRId64 " scene%s, seen by %s, with %d "
-                "seeds.\n",
-                mark, table->frames, table->seen_frames, table->scenes,
-                table->scenes == 1 ? "" : "s", table->suite, CHAIN_TRIALS_SEEDS);
+    text_format(text, "%s%" PRId64 " of %" PRId64 " frames of ", mark, table->frames,
+                table->seen_frames);
+    cost_table_write_scenes(table, text);
+    text_format(text, ", with %d seeds.\n", CHAIN_TRIALS_SEEDS);
     text_format(text,
                 "%sErrors are distances from %s, in %% of those of ideal echoes (roots of energy "
                 "distances).\n%sTheir 95 %% intervals hold for these frames under other seeds, not "
@@ -357,5 +358,5 @@ void cost_write(const struct cost *cost, const struct tried_chain *chosen, struc
                     mark);
     cost_table_write(&cost->table, mark, chosen != NULL ? chosen->left_out : UINT64_MAX, text);
     if (chosen != NULL)
-        cost_table_write_pipeline(cost->table.suite, &chosen->row, &whole(cost)->row, text);
+        cost_table_write_pipeline(&cost->table, &chosen->row, &whole(cost)->row, text);
 }

@@ -26,7 +26,7 @@ struct cost {
 /* Before the first frame: prepares the chain for a suite and among the effects that are asked for,
  * and finds the reference, and how many frames the sample has: those that are given or, for 0, 250,
  * and fewer where a signal has more than 128,000 samples a frame. */
-int cost_begin(struct cost *cost, const struct suite_choice *choice, struct runner *runner,
+int cost_begin(struct cost *cost, const struct trial_options *options, struct runner *runner,
                enum cost_reference reference, int64_t frames);
 
 /* After the last frame: measures the chains, and fills the table. */

@@ -85,6 +85,10 @@ static const struct record scale_record = {
 
 static const struct field table_fields[] = {
     {FIELD_NAME_OF(struct cost_table, suite, "as --sensors names it")},
+    {OPTIONAL_NAME(
+        struct cost_table, vehicles,
+        "set of documents that objects were extracted with; absent: paper, or the frames "
+        "had reflectors")},
     {OPTIONAL_CHOICE(struct cost_table, reference, cost_table_references,
                      "what errors are from; it has seeds of its own; absent: there are none"),
      .absent = -1},
@@ -247,6 +251,20 @@ void cost_table_write(const struct cost_table *table, const char *mark, uint64_t
     write_effects(table, mark, shown, text);
 }
 
+void cost_table_take_vehicles(struct cost_table *table, const struct trial_bench *bench)
+{
+    bool others = bench->vehicles != NULL && strcmp(bench->vehicles, "paper") != 0;
+    table->vehicles = others && bench->extracts ? bench->vehicles : NULL;
+}
+
+void cost_table_write_scenes(const struct cost_table *table, struct text *text)
+{
+    text_format(text, "%" PRId64 " scene%s", table->scenes, table->scenes == 1 ? "" : "s");
+    if (table->vehicles != NULL)
+        text_format(text, " with the vehicles of %s", table->vehicles);
+    text_format(text, ", seen by %s", table->suite);
+}
+
 /* Writes the word so that bash and glint read it back as it is, in quotes if need be. */
 static void write_word(const char *word, struct text *text)
 {
@@ -262,16 +280,22 @@ static void write_word(const char *word, struct text *text)
     text_add_word(text, "'");
 }
 
-void cost_table_write_pipeline(const char *sensors, const struct cost_chain *chain,
+void cost_table_write_pipeline(const struct cost_table *table, const struct cost_chain *chain,
                                const struct cost_chain *whole, struct text *text)
 {
+    const char *sensors = table->suite;
     struct relative_error root = chain->relative_distance;
     char cell[CELL];
     text_format(
         text, "# This takes %.1f us a frame instead of %.1f, with an error of %s (%.1f to %.1f).\n",
         chain->us_per_frame, whole->us_per_frame, error_cell(root, cell), 100 * root.low,
         100 * root.high);
-    text_add_word(text, "set -o pipefail\nglint-extract \\\n  | glint-ideal --sensors ");
+    text_add_word(text, "set -o pipefail\nglint-extract");
+    if (table->vehicles != NULL) {
+        text_add_word(text, " --vehicles ");
+        write_word(table->vehicles, text);
+    }
+    text_add_word(text, " \\\n  | glint-ideal --sensors ");
     write_word(sensors, text);
     text_format(text, " --effects %s", chain->effects);
     for (size_t i = 0; i < chain->programs.count; i++) {

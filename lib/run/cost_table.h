@@ -42,7 +42,8 @@ struct cost_scale {
 
 struct cost_table {
     const char *suite;
-    int reference; /* enum cost_reference; -1: chains have no errors */
+    const char *vehicles; /* that objects were extracted with; NULL: the paper's, or none were */
+    int reference;        /* enum cost_reference; -1: chains have no errors */
     int64_t frames, seen_frames, scenes, seeds, lists;
     int64_t timed_frames;
     struct cost_scale scale;
@@ -68,6 +69,12 @@ void cost_table_whole(struct cost_chain *chain, const struct trial *trial, struc
 /* The row of the trial without an effect, without its error. */
 struct cost_effect cost_table_effect(const struct trial_bench *bench, enum effect_id effect);
 
+/* Takes the set of vehicles from a bench that has run. */
+void cost_table_take_vehicles(struct cost_table *table, const struct trial_bench *bench);
+
+/* Writes the number of scenes, their vehicles and the suite. */
+void cost_table_write_scenes(const struct cost_table *table, struct text *text);
+
 /* Writes the rows of chains and of these effects (EFFECT_BITs); mark stands before every line: "#
  * ". */
 void cost_table_write(const struct cost_table *table, const char *mark, uint64_t shown,
@@ -76,5 +83,5 @@ void cost_table_write(const struct cost_table *table, const char *mark, uint64_t
 /* Writes what the chain takes instead of the whole one, with which error, and its pipeline:
  * extract, ideal with these effects, and the other programs, which get a suite that is a path as
  * well. */
-void cost_table_write_pipeline(const char *sensors, const struct cost_chain *chain,
+void cost_table_write_pipeline(const struct cost_table *table, const struct cost_chain *chain,
                                const struct cost_chain *whole, struct text *text);

@@ -389,6 +389,8 @@ void datasheet_add(const struct suite *suite, struct text *text)
     }
     text_add(text, before.bytes, before.length);
     text_free(&before);
+    if (suite->vehicles != NULL)
+        text_format(text, "\nrealistic with   glint-extract --vehicles %s\n", suite->vehicles);
     for (size_t i = 0; i < suite->assumed.count; i++)
         text_format(text, "%s  %s\n", i == 0 ? "\nassumed\n" : "", suite->assumed.items[i]);
 }

@@ -4,6 +4,7 @@
 
 #include "base/elementary.h"
 #include "effects/effect.h"
+#include "run/trial_options.h"
 
 /* The whole chain without its choice of effects in each scan: "all,-rows" for "auto,-rows". */
 static void try_without_choice(struct plan *plan)
@@ -20,14 +21,15 @@ static void try_without_choice(struct plan *plan)
     trial_add(bench, &plan->everywhere);
 }
 
-int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runner *runner)
+int plan_begin(struct plan *plan, const struct trial_options *options, struct runner *runner)
 {
     struct trial_bench *bench = &plan->bench;
-    if (trial_begin(bench, choice, runner) != 0)
+    if (trial_begin(bench, options, runner) != 0)
         return -1;
     plan->runner = runner;
     plan->sample = (struct frame_sample){.arena = runner_arena(runner), .most = INT64_MAX};
-    plan->table = (struct cost_table){.suite = choice->sensors, .reference = -1, .seeds = 1};
+    plan->table =
+        (struct cost_table){.suite = options->choice.sensors, .reference = -1, .seeds = 1};
     trial_begin_pass(bench, TRIAL_COMPARED | TRIAL_EFFECTS);
     for (int i = 0; i < PLAN_STAGES; i++) {
         plan->stand_ins[i] = bench->whole[TRIAL_SENSOR + i];
@@ -164,6 +166,7 @@ int plan_end(struct plan *plan)
     struct cost_table *table = &plan->table;
     table->frames = table->seen_frames = plan->sample.seen;
     table->scenes = (int64_t)plan->sample.names.list.count;
+    cost_table_take_vehicles(table, &plan->bench);
     table->lists = plan->bench.lists;
     if (plan->sample.seen == 0)
         return 0;
@@ -227,16 +230,14 @@ void plan_write(const struct plan *plan, bool all, struct text *text)
     const struct cost_table *table = &plan->table;
     if (table->frames == 0)
         return;
-    text_format(text,
-                "# %" PRId64 " frame%s of %" PRId64 " scene%s, seen by %s: %" PRId64
-                " lists of targets.\n",
-                table->frames, table->frames == 1 ? "" : "s", table->scenes,
-                table->scenes == 1 ? "" : "s", table->suite, table->lists);
+    text_format(text, "# %" PRId64 " frame%s of ", table->frames, table->frames == 1 ? "" : "s");
+    cost_table_write_scenes(table, text);
+    text_format(text, ": %" PRId64 " lists of targets.\n", table->lists);
     cost_table_write(table, "# ", all ? UINT64_MAX : ~plan->idle, text);
     write_idle(plan, text);
     for (int i = 0; i < EFFECT_COUNT && all; i++)
         write_reason(plan, i, text);
     for (int i = 0; i < PLAN_STAGES; i++)
         write_stage(plan, i, text);
-    cost_table_write_pipeline(table->suite, &table->chains.items[1], &table->chains.items[0], text);
+    cost_table_write_pipeline(table, &table->chains.items[1], &table->chains.items[0], text);
 }

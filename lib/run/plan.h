@@ -7,7 +7,6 @@
 #pragma once
 
 #include "run/cost_table.h"
-#include "run/suite_choice.h"
 
 enum { PLAN_TIMED_FRAMES = 32, PLAN_STAGES = 2 }; /* sensor and noise, which others may replace */
 
@@ -26,7 +25,7 @@ struct plan {
 
 /* Prepares the chain for a suite and among the effects that are asked for. 0, or -1 after a
  * message. */
-int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runner *runner);
+int plan_begin(struct plan *plan, const struct trial_options *options, struct runner *runner);
 
 /* Tries all effects and stand-ins on a frame, of which only the objects and, if they are there, the
  * reflectors are used. The frame is kept. */

@@ -285,17 +285,17 @@ int runner_frame_ascending(struct runner *runner, struct frame **frame)
                : -1;
 }
 
-struct runner *runner_trial(struct runner *runner, const struct stage *stage,
-                            const struct suite_choice *choice, struct effect_log *log)
+struct runner *runner_trial(struct runner *runner, const struct stage *stage, const void *options,
+                            size_t size, struct effect_log *log)
 {
-    assert(choice == NULL || stage->options->size >= sizeof *choice);
+    assert(options == NULL || stage->options->size >= size);
     struct runner *trial = arena_get(&runner->arena, sizeof *trial);
     *list_add(&runner->tried, &runner->arena) = trial;
     *trial = (struct runner){.stage = stage, .log = log, .before = runner};
     trial->state = arena_get(&trial->arena, stage->options->size);
     field_clear(stage->options, trial->state);
-    if (choice != NULL)
-        memcpy(trial->state, choice, sizeof *choice);
+    if (options != NULL)
+        memcpy(trial->state, options, size);
     runner_start(trial);
     return trial;
 }

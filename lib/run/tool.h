@@ -39,11 +39,11 @@ struct output *runner_output_beside(struct runner *runner, const char *path);
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name);
 
 /* A stage that a tool tries, to see what it would do. Each call makes one more, with a state of its
- * own. choice are the stage's options; NULL stands for its defaults, and only stages whose state
- * begins with a suite_choice take others. The stage notes its effects in log, or nowhere (NULL). It
- * is started here and never stopped; it is freed with the tool. */
-struct runner *runner_trial(struct runner *runner, const struct stage *stage,
-                            const struct suite_choice *choice, struct effect_log *log);
+ * own. Its state begins with these options, of this size; NULL stands for its defaults. The stage
+ * notes its effects in log, or nowhere (NULL). It is started here and never stopped; it is freed
+ * with the tool. */
+struct runner *runner_trial(struct runner *runner, const struct stage *stage, const void *options,
+                            size_t size, struct effect_log *log);
 
 /* Runs one step of a tried stage on a frame, with all the checks of a run. A stage that could not
  * start fails here. */

@@ -3,12 +3,14 @@
 #include <time.h>
 
 #include "base/sort.h"
+#include "documents/vehicle_set.h"
 #include "effects/effect.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
+#include "run/extraction.h"
 #include "run/frame_stream.h"
-#include "run/suite_choice.h"
 #include "run/tool.h"
+#include "run/trial_options.h"
 
 /* CPU time of this thread, in nanoseconds. */
 static int64_t cpu_ns(void)
@@ -49,7 +51,7 @@ static struct runner *stage_at(const struct trial_bench *bench, const struct tri
     if (program == NULL)
         return NULL;
     return runner_trial(bench->runner, stage_by_name(stage_name_in_path(program)),
-                        at == TRIAL_IDEAL ? &choice : NULL, log);
+                        at == TRIAL_IDEAL ? &choice : NULL, sizeof choice, log);
 }
 
 void trial_prepare(struct trial_bench *bench, struct trial *trial)
@@ -73,7 +75,9 @@ static void prepare_without(struct trial_bench *bench, enum effect_id effect)
 
 static void prepare_all(struct trial_bench *bench, const char *effects)
 {
-    bench->extract = runner_trial(bench->runner, stage_by_name("extract"), NULL, NULL);
+    const struct extraction extraction = {.vehicles = bench->vehicles};
+    bench->extract =
+        runner_trial(bench->runner, stage_by_name("extract"), &extraction, sizeof extraction, NULL);
     for (int at = 0; at < TRIAL_POSITIONS; at++) {
         struct trial *whole = &bench->whole[at];
         *whole = (struct trial){.effects = effects,
@@ -88,8 +92,24 @@ static void prepare_all(struct trial_bench *bench, const char *effects)
             prepare_without(bench, i);
 }
 
-int trial_begin(struct trial_bench *bench, const struct suite_choice *choice, struct runner *runner)
+/* Refuses a set that is not there, whether it is asked for or the suite's. */
+static int choose_vehicles(struct trial_bench *bench, const char *asked, const struct suite *suite)
 {
+    const char *folder, *named_by = "--vehicles";
+    struct arena *arena = runner_arena(bench->runner);
+    bench->vehicles = asked;
+    if (asked == NULL) {
+        bench->vehicles = suite->vehicles;
+        named_by = arena_format(arena, "%s: vehicles", suite->given);
+    }
+    return vehicle_set_folder(named_by, bench->vehicles, &folder, arena,
+                              runner_diag(bench->runner));
+}
+
+int trial_begin(struct trial_bench *bench, const struct trial_options *options,
+                struct runner *runner)
+{
+    const struct suite_choice *choice = &options->choice;
     struct sensors request;
     struct selection selection;
     struct diag *diag = runner_diag(runner);
@@ -105,6 +125,8 @@ int trial_begin(struct trial_bench *bench, const struct suite_choice *choice, st
         .asked = strcmp(effects, "auto") == 0 ? "auto" : request.effects,
         .allowed = selection.allowed,
     };
+    if (choose_vehicles(bench, options->vehicles, suite) != 0)
+        return -1;
     prepare_all(bench, effects);
     return 0;
 }
@@ -166,9 +188,10 @@ static int open_frame(struct trial_bench *bench, const struct sampled_frame *sam
     if (frame_stream_parse(sampled->line, sampled->length, frame, runner_diag(bench->runner)) != 0)
         return -1;
     frame->seed = seed;
-    if ((frame->present & PART_REFLECTORS) == 0 &&
-        runner_try(bench->runner, bench->extract, frame) != 0)
+    bool extracts = (frame->present & PART_REFLECTORS) == 0;
+    if (extracts && runner_try(bench->runner, bench->extract, frame) != 0)
         return -1;
+    bench->extracts = bench->extracts || extracts;
     bench->head_ns[bench->round] += cpu_ns() - begin_ns;
     bench->frames[bench->round]++;
     bench->kept[TRIAL_IDEAL] = *frame;

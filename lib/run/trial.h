@@ -14,7 +14,7 @@
 #include "run/stage.h"
 #include "text/list_cache.h"
 
-struct suite_choice;
+struct trial_options;
 
 /* In the order of enum effect_home. */
 enum trial_position { TRIAL_IDEAL, TRIAL_SENSOR, TRIAL_NOISE, TRIAL_POSITIONS };
@@ -52,6 +52,8 @@ enum {
 struct trial_bench {
     struct runner *runner; /* of the tool; its diag has the messages */
     const char *sensors;   /* the suite */
+    const char *vehicles;  /* that objects are extracted with; NULL: the paper's */
+    bool extracts;         /* a frame had no reflectors */
     const char *asked;     /* the effects of the whole chain, as they were asked for */
     uint64_t allowed;      /* their EFFECT_BITs */
     struct trial whole[TRIAL_POSITIONS]; /* the whole chain from each stage on */
@@ -83,7 +85,7 @@ const char *trial_names(uint64_t effects, struct arena *arena);
 
 /* Sets up the whole chain for a suite and among the effects that are asked for, and its trials
  * without one effect. */
-int trial_begin(struct trial_bench *bench, const struct suite_choice *choice,
+int trial_begin(struct trial_bench *bench, const struct trial_options *options,
                 struct runner *runner);
 
 /* Sets up the stages of a trial. */

@@ -1,7 +1,7 @@
 #include "run_bench.h"
 
 #include "run/chain_trials.h"
-#include "run/suite_choice.h"
+#include "run/trial_options.h"
 
 enum { SEEDS = CHAIN_TRIALS_SEEDS, ALL = 2 * SEEDS, MATRIX = ALL * ALL };
 
@@ -16,11 +16,11 @@ struct bench {
 
 static int begin(void **state)
 {
-    const struct suite_choice choice = {"srr24-pair-every-frame", NULL};
+    const struct trial_options options = {.choice = {"srr24-pair-every-frame", NULL}};
     struct bench *bench = check_make(state, sizeof *bench);
-    begin_tool(&bench->runner, choice.sensors);
+    begin_tool(&bench->runner, options.choice.sensors);
     bench->sample = sample_of_traffic("12", &bench->arena);
-    assert_int_equal(trial_begin(&bench->bench, &choice, &bench->runner), 0);
+    assert_int_equal(trial_begin(&bench->bench, &options, &bench->runner), 0);
     bench->trials = (struct chain_trials){.bench = &bench->bench, .sample = &bench->sample};
     return 0;
 }

@@ -2,7 +2,7 @@
 
 #include "run/cost.h"
 #include "run/cost_search.h"
-#include "run/suite_choice.h"
+#include "run/trial_options.h"
 
 struct bench {
     struct runner runner; /* of a tool */
@@ -13,10 +13,10 @@ struct bench {
 static int begin(struct bench *bench, const char *suite, enum cost_reference reference,
                  int64_t frames)
 {
-    const struct suite_choice choice = {suite, NULL};
+    const struct trial_options options = {.choice = {suite, NULL}};
     *bench = (struct bench){0};
     begin_tool(&bench->runner, suite);
-    return cost_begin(&bench->cost, &choice, &bench->runner, reference, frames);
+    return cost_begin(&bench->cost, &options, &bench->runner, reference, frames);
 }
 
 static void end(struct bench *bench)

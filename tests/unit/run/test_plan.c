@@ -1,6 +1,7 @@
 #include "run_bench.h"
 
 #include "run/plan.h"
+#include "run/trial_options.h"
 
 struct bench {
     struct runner runner; /* of a tool */
@@ -10,9 +11,9 @@ struct bench {
 
 static void begin(struct bench *bench, const char *effects)
 {
-    const struct suite_choice choice = {"srr24-pair-every-frame", effects};
-    begin_tool(&bench->runner, choice.sensors);
-    assert_int_equal(plan_begin(&bench->plan, &choice, &bench->runner), 0);
+    const struct trial_options options = {.choice = {"srr24-pair-every-frame", effects}};
+    begin_tool(&bench->runner, options.choice.sensors);
+    assert_int_equal(plan_begin(&bench->plan, &options, &bench->runner), 0);
 }
 
 /* Plans 12 snapshots of dense traffic. */
