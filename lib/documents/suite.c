@@ -218,36 +218,25 @@ const struct record sensor_record = {
     FIELD_TABLE(struct sensor, sensor_fields, "sensor",
                 "A radar: mount, beam, amplitude, resolution, angle, noise and list.")};
 
-static const struct field prior_fields[] = {
-    {OPTIONAL_REAL(struct suite_prior, echoes, 1e-3, 1e6,
-                   "mean number of echoes in a scan, detected or not; absent: 20"),
-     .absent = 20},
-    {OPTIONAL_REAL(struct suite_prior, snr_db, -100, 100,
-                   "mean of their powers over that of the noise; absent: 20"),
-     .absent = 20},
-    {0},
-};
-
-static const struct record prior_record = {
-    FIELD_TABLE(struct suite_prior, prior_fields, "prior",
-                "What the designer of the sensors expects of a scan.")};
-
 static const struct field suite_fields[] = {
     {FIELD_NAME_OF(struct suite, origin, "who made this, and from what")},
     {OPTIONAL_NAME(struct suite, effects, "which effects to simulate, as for --effects")},
     {OPTIONAL_NAME(struct suite, vehicles,
                    "the set of vehicle documents that its lists are realistic with, as for "
                    "--vehicles of glint-extract; glint-plan, glint-cost and sets take it")},
-    {OPTIONAL_RECORD(struct suite, prior, &prior_record,
-                     "echoes that the sensors expect, for probabilities of existence")},
     {FIELD_LIST_OF(struct suite, sensors, &sensor_record, "the radars of one ego")},
     {FIELD_NAMES_OF(struct suite, assumed, "what no source states, for people: one sentence each"),
      FIELD_OPTIONAL},
     {0},
 };
 
+static const struct field_gone gone_fields[] = {
+    {"prior", "existence follows the echoes of each scan; leave prior out"}, {0}};
+
 const struct record suite_record = {
-    FIELD_TABLE(struct suite, suite_fields, "sensor suite", "The radars that one ego carries.")};
+    FIELD_TABLE(struct suite, suite_fields, "sensor suite", "The radars that one ego carries."),
+    .gone = gone_fields,
+};
 
 const struct sensor *suite_sensor(const struct suite *suite, const char *name)
 {

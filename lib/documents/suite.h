@@ -28,12 +28,6 @@ enum range_migration {
 };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
-/* Echoes in a scan that the designer of a sensor expects (MODEL 14.21). */
-struct suite_prior {
-    double echoes; /* mean number of echoes, detected or not */
-    double snr_db; /* mean power of echoes over the power of the noise */
-};
-
 /* The farthest range that is measured at an azimuth, to either side. */
 struct range_limit {
     double azimuth_rad, range_max_m;
@@ -106,14 +100,12 @@ struct sensor {
     double half_range_m, half_range_rate_mps; /* half the width of a resolution cell */
     double dwell_s;                           /* of a scan's signal */
     double search_sigma; /* RMS of the noise of the search for echoes; > 0 with false alarms */
-    struct suite_prior prior;
 };
 
 struct suite {
     const char *origin;
     const char *effects;  /* a selection of effects (effects.h); NULL: auto */
     const char *vehicles; /* a set of vehicle documents (vehicle_set.h); NULL: the paper's */
-    struct suite_prior prior;
     LIST_OF(struct sensor) sensors; /* in the document's order */
     LIST_OF(const char *) assumed;  /* sentences for people */
     const char *given;              /* the name or path that the user gave */
@@ -126,7 +118,7 @@ extern const struct record sensor_record, suite_record;
 /* The sensor of that name, or NULL. */
 const struct sensor *suite_sensor(const struct suite *suite, const char *name);
 
-/* Sets a sensor's derived members, except prior and the rows of tables. */
+/* Sets a sensor's derived members, except the rows of tables. */
 void suite_derive(struct sensor *sensor);
 
 /* The farthest range that the sensor measures at an azimuth: straight between its range_limits and

@@ -223,7 +223,6 @@ static int complete_suite(struct suite *suite, const char *path, const char *bes
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         if (consistency_check(sensor, i, diag) != 0)
             return diag_prefix(diag, "%s: ", path);
-        sensor->prior = suite->prior;
     }
     set_digest(suite);
     return 0;

@@ -6,33 +6,68 @@
 #include "radar/detection.h"
 #include "radar/monopulse.h"
 
+/* Echoes of up to so many times the least power tell how many weak ones a scan has, beside so many
+ * that are always expected. */
+static const double BAND = 10, ALWAYS = 0.25;
+
 /* The probability that an echo of which this power is left with noise has passed the first
  * threshold, which acts before the noise. Its amplitude without the noise is complex Gaussian,
  * given the one with it. */
 static double passed_first(const struct existence *existence, double power)
 {
-    double mean = existence->rise + existence->snr, part = existence->snr / mean;
     if (existence->first_threshold == 0)
         return 1;
-    return detection_in_noise(sqrt(power) * part, sqrt(existence->first_threshold),
-                              sqrt(part * existence->rise));
+    return detection_in_noise(sqrt(power), sqrt(existence->first_threshold), sqrt(existence->rise));
 }
 
-double detection_quality_existence(const struct existence *existence, double power)
+/* The density of echoes at this power over that of false alarms, where one echo is expected in the
+ * band, evenly over decibels. */
+static double odds_of_one(const struct existence *existence, double power)
 {
-    double mean = existence->rise + existence->snr, least = existence->least_false_alarm;
+    double least = existence->least_false_alarm, search = existence->search_noise;
     if (existence->false_alarms == 0 || power < least)
-        return 1;
+        return (double)INFINITY;
     if (power < existence->least_echo)
         return 0;
-    double passed = passed_first(existence, power);
-    if (passed == 0)
+    double echo = passed_first(existence, power) / (power * elementary_log(BAND));
+    if (echo == 0)
         return 0;
-    /* ln(f0/f1), as both densities may be below the least double. */
-    double search = existence->search_noise, density = existence->false_alarms / search;
-    double log_odds = elementary_log(density * mean / existence->echoes / passed) -
-                      (power - least) / search + power / mean;
-    return 1 / (1 + elementary_exp(log_odds));
+    /* By logarithms, as the density of false alarms may be below the least double. */
+    double log_noise = elementary_log(existence->false_alarms / search) - (power - least) / search;
+    return elementary_exp(elementary_log(echo) - log_noise);
+}
+
+static bool is_weak(const struct existence *existence, double power)
+{
+    return power <= BAND * existence->weakest;
+}
+
+/* Bayes' rule, where the band has as many echoes as are always expected and those of the other
+ * detections, by their own probabilities; from all of them on, until they agree. */
+void detection_quality_weigh(const struct existence *existence, struct detection_evidence *scan,
+                             size_t count)
+{
+    enum { STEPS = 8 };
+    for (size_t i = 0; i < count; i++)
+        scan[i].odds = odds_of_one(existence, scan[i].power);
+    for (size_t i = 0; i < count; i++)
+        scan[i].existence = 1;
+    for (int step = 0; step < STEPS; step++) {
+        double weak = ALWAYS;
+        for (size_t i = 0; i < count; i++)
+            weak += is_weak(existence, scan[i].power) ? scan[i].existence : 0;
+        for (size_t i = 0; i < count; i++) {
+            double own = is_weak(existence, scan[i].power) ? scan[i].existence : 0;
+            scan[i].existence = 1 / (1 + 1 / ((weak - own) * scan[i].odds));
+        }
+    }
+}
+
+double detection_quality_power(const struct detection_source *source,
+                               const struct effect_measurement *measurement)
+{
+    double ratio = measurement->amplitude / source->noise;
+    return ratio * ratio;
 }
 
 struct detection_source detection_quality_source(const struct sensor *sensor,
@@ -42,10 +77,12 @@ struct detection_source detection_quality_source(const struct sensor *sensor,
     double interference = 0;
     for (size_t i = 0; i < cells.count; i++)
         interference = elementary_max(interference, cells.items[i].interference);
+    double search = sensor->pointer_sigma > 0 ? sensor->search_sigma / sensor->pointer_sigma : 0;
+    struct existence existence = {.rise = 1 + interference, .search_noise = search * search};
     return (struct detection_source){.sensor = sensor,
                                      .scan = scan,
                                      .noise = sensor->pointer_sigma,
-                                     .existence.rise = 1 + interference,
+                                     .existence = existence,
                                      .range_rate_interval_mps = 2 * sensor->unambiguous_rate_mps};
 }
 
@@ -114,12 +151,13 @@ void detection_quality_estimate(struct detection_source *source, bool first_thre
     struct existence *existence = &source->existence;
     double least = source->sensor->threshold / source->noise, noise = 0;
     existence->least_false_alarm = least * least;
+    existence->weakest = existence->least_false_alarm * existence->rise;
     if (effect_simulates(source->scan, EFFECT_FALSE_ALARMS))
         existence->false_alarms = source->sensor->false_alarms;
     if (first_threshold)
-        existence->first_threshold = existence->least_false_alarm * existence->rise;
+        existence->first_threshold = existence->weakest;
     if (effect_simulates(source->scan, EFFECT_FINAL_THRESHOLD))
-        existence->least_echo = existence->least_false_alarm * existence->rise;
+        existence->least_echo = existence->weakest;
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         noise = source->noise * sqrt(existence->rise);
     source->channels = noise > 0 && source->sensor->beams.count == 0;
@@ -168,11 +206,9 @@ static void add_strength(const struct detection_source *source,
 {
     const struct sensor *sensor = source->sensor;
     double ratio = measurement->amplitude / source->noise;
-    double expected = units_amplitude_from_db(sensor->prior.snr_db);
     double azimuth_rad = elementary_min(elementary_max(measurement->azimuth_rad, -PI / 2), PI / 2);
     double reference = radar_amplitude(&sensor->amplitude_law, &sensor->antenna,
                                        measurement->range_m, azimuth_rad, 1);
-    struct existence existence = source->existence;
     if (reference > 0) {
         quality->rcs_dbsm =
             to_part(10 + units_amplitude_db(measurement->amplitude / reference), 1e3);
@@ -180,12 +216,7 @@ static void add_strength(const struct detection_source *source,
     }
     if (source->noise == 0)
         return;
-    double search = sensor->search_sigma / sensor->pointer_sigma;
-    existence.echoes = sensor->prior.echoes;
-    existence.snr = expected * expected;
-    existence.search_noise = search * search;
-    quality->snr_db = to_part(units_amplitude_db(ratio / sqrt(existence.rise)), 1e3);
-    quality->existence = detection_quality_existence(&existence, ratio * ratio);
+    quality->snr_db = to_part(units_amplitude_db(ratio / sqrt(source->existence.rise)), 1e3);
     quality->present |= QUALITY_NOISE;
 }
 

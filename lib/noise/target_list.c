@@ -108,14 +108,27 @@ static void lose(struct frame *frame, const char *stage, const struct effect_mea
     }
 }
 
+/* Tells the targets of a scan, the last of the frame, how likely each one is an echo. */
+static void add_existence(struct frame *frame, const struct detection_source *source,
+                          struct detection_evidence *evidence, size_t count)
+{
+    struct target *targets = frame->targets.items + frame->targets.count - count;
+    detection_quality_weigh(&source->existence, evidence, count);
+    for (size_t i = 0; i < count; i++)
+        targets[i].quality.existence = evidence[i].existence;
+}
+
 void target_list_make(struct frame *frame, const char *stage, const struct detection_source *source,
                       struct effect_measurement *measurements, size_t count)
 {
     const struct sensor *sensor = source->sensor;
     const struct effect_scan *scan = source->scan;
     bool limited = scan != NULL && effect_simulates(scan, EFFECT_LIST_LIMIT);
-    int64_t limit = limited ? sensor->list_limit : 0, listed = 0;
-    bool repeats = false;
+    int64_t limit = limited ? sensor->list_limit : 0;
+    size_t listed = 0;
+    bool repeats = false, weighs = frame_carries(frame, CARRY_QUALITY) && source->noise > 0;
+    struct detection_evidence *evidence =
+        arena_get(frame->arena, (weighs ? count : 0) * sizeof *evidence);
     sort_items(measurements, count, sizeof *measurements,
                sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
                frame->arena);
@@ -126,7 +139,7 @@ void target_list_make(struct frame *frame, const char *stage, const struct detec
     for (size_t i = 0; i < count; i++) {
         struct effect_measurement *measurement = &measurements[i];
         bool silent = !(measurement->amplitude > 0);
-        if (silent || (limit > 0 && listed == limit)) {
+        if (silent || (limit > 0 && (int64_t)listed == limit)) {
             lose(frame, stage, measurements, i, silent ? LOSS_NO_AMPLITUDE : LOSS_LIST_LIMIT,
                  repeats);
             continue;
@@ -136,8 +149,12 @@ void target_list_make(struct frame *frame, const char *stage, const struct detec
         struct target *target = add_target(frame, measurement);
         if (frame_carries(frame, CARRY_QUALITY))
             target->quality = detection_quality_of(source, measurement, target, frame);
+        if (weighs)
+            evidence[listed].power = detection_quality_power(source, measurement);
         listed++;
     }
+    if (weighs && listed > 0)
+        add_existence(frame, source, evidence, listed);
 }
 
 /* Reads azimuth and amplitude: of the pointers, or of a beam. False without an azimuth. */

@@ -337,6 +337,14 @@ static struct effect_measurement measurement_of(const struct detection *detectio
     return measurement;
 }
 
+/* False alarms are the bins of noise alone; the weakest echoes are as strong as one bin of them. */
+static struct existence existence_in(const struct signal_cube *signal)
+{
+    double bins = detections_noise_bins(signal);
+    return (struct existence){
+        .false_alarms = bins, .search_noise = 1, .weakest = elementary_log(bins), .rise = 1};
+}
+
 void detections_list(const struct detections *detections, struct frame *frame, const char *stage,
                      const struct effect_scan *noise)
 {
@@ -360,7 +368,7 @@ void detections_list(const struct detections *detections, struct frame *frame, c
         .range_rate_interval_mps = detections->signal->fold_mps,
         .noise = detections->noise,
         .channels = detections->noise > 0 && detections->signal->array->count == 0,
-        .existence = {.false_alarms = detections_noise_bins(detections->signal), .rise = 1},
+        .existence = existence_in(detections->signal),
     };
     target_list_make(frame, stage, &source, measurements, count);
 }

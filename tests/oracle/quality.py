@@ -124,9 +124,14 @@ def poisson(draw, mean):
     return count
 
 
+def varying(draw, mean):
+    """A count whose own mean is drawn by a gamma law of shape 1/4 from scan to scan: mostly few, now and then many."""
+    return poisson(draw, draw.gammavariate(0.25, 4 * mean))
+
+
 def tally(bench, targets, what):
     """Of the targets with a probability of existence in each of ten bins, so many are echoes, within three standard
-    errors."""
+    errors and 0.03."""
     bins = [[0, 0, 0, 0] for _ in range(10)]
     for one in targets:
         probability = one["quality"]["existence"]
@@ -136,7 +141,7 @@ def tally(bench, targets, what):
         own[2] += probability * (1 - probability)
         own[3] += one["contributors"][0]["path"] != "false_alarm"
     for number, (count, expected, variance, found) in enumerate(bins):
-        good = abs(found - expected) <= 3 * math.sqrt(variance) + 1e-9
+        good = abs(found - expected) <= 3 * math.sqrt(variance) + 0.03 * count
         bench.check(good, f"{what}, bin {number}: {found} echoes of {count}, expected {expected:.1f}")
     shares = ", ".join(f"{found / count:.3f} for {expected / count:.3f}" for count, expected, _, found in bins if count)
     print(f"  {what}: {shares}")
@@ -144,15 +149,14 @@ def tally(bench, targets, what):
 
 
 def existence(bench):
-    """In a world drawn from the prior, of cells that all pass the first threshold, with the effect left out."""
-    sigma, snr, echoes, scans = 0.8, 10 ** 1.5, 5, quick(2000, 6000)
+    """Of cells with powers even over decibels that all pass the first threshold, with the effect left out."""
+    sigma, scans = 0.8, quick(2000, 6000)
     for interference in (0, 3):
         draw = random.Random(interference)
-        loud = [[cell_of(number, 50, draw.uniform(-1, 1), 0, sigma * math.sqrt(snr * draw.expovariate(1)),
-                         interference=interference) for number in range(max(1, poisson(draw, echoes)))]
+        loud = [[cell_of(number, 50, draw.uniform(-1, 1), 0, sigma * 10 ** draw.uniform(-0.5, 1.5),
+                         interference=interference) for number in range(max(1, varying(draw, 10)))]
                 for _ in range(scans)]
         suite = suite_of(radar(pointer_sigma=sigma, final_threshold=True, false_alarms=3, false_alarm_range_rate_mps=2))
-        suite["prior"] = {"echoes": echoes, "snr_db": 15}
         targets = targets_of(heard(bench, suite, loud, effects="all,-threshold"))
         counts = tally(bench, targets, f"interference {interference}")
         bench.check(interference or sum(count > 100 for count in counts) >= 8, f"empty bins: {counts}")
@@ -160,36 +164,38 @@ def existence(bench):
 
 # What a suite's thresholds and noise decide; all else would change the powers of the world.
 DECIDED = "visibility,merging,superposition,fluctuation,threshold,angle_noise,range_noise,false_alarms,final_threshold"
+LEVELS_DB = range(-18, 25, 3)  # of the world's echoes, over the threshold
 
 
-def world(draw, document, kind, scans):
-    """Frames with objects of the prior's mean strength ahead of a shipped radar, each in a cell of its own."""
-    one, prior = document["sensors"][0], document.get("prior", {})
+def world(draw, document, kinds, scans):
+    """Frames with objects ahead of a shipped radar, each in a cell of its own, and the vehicles: one a level."""
+    one = document["sensors"][0]
     one.update(fluctuation="swerling_1", list_limit=0, latency_s=0, mount_yaw_rad=0, false_alarm_range_rate_mps=1,
                antenna_table=str(model.ROOT / "data/antennas" / one["antenna_table"].rpartition("/")[2])
                if "antenna_table" in one else None)
     document["sensors"] = [{key: value for key, value in one.items() if value is not None}]
-    strength = one["pointer_sigma"] * 10 ** (prior.get("snr_db", 20) / 20)
     at_m = 0.8 * one["range_max_m"]
-    law = 10 ** (one["threshold_db"] / 20) / one["calibration_ercs"]
-    ercs = strength / law * (at_m / one["calibration_range_m"]) ** one["exponent"]
-    point = {"name": "point", "x": 0, "y": 0, "facing_rad": 0, "full_rad": math.pi, "zero_rad": math.pi, "ercs": ercs}
+    ercs = one["calibration_ercs"] * (at_m / one["calibration_range_m"]) ** one["exponent"]
+    point = {"name": "point", "x": 0, "y": 0, "facing_rad": 0, "full_rad": math.pi, "zero_rad": math.pi}
     step = 3 * one["cell_range_rate_mps"]
     frames = []
     for number in range(scans):
-        count = poisson(draw, prior.get("echoes", 20))
-        stand = [thing(f"o{i}", kind, at_m + one["mount_x_m"], one["mount_y_m"], velocity=(step * i, 0)) for i in range(count)]
+        stand = [thing(f"o{i}", draw.choice(kinds), at_m + one["mount_x_m"], one["mount_y_m"], velocity=(step * i, 0))
+                 for i in range(min(varying(draw, 10), 300))]
         frames.append(dict(model.frame([ego()] + stand), scene=f"s{number}"))
-    return frames, {"origin": "tests", "length_m": 0.1, "width_m": 0.1, "height_m": 1,
-                    "reflectors": {"blocks": False, "points": [point]}}
+    return frames, [{"origin": "tests", "length_m": 0.1, "width_m": 0.1, "height_m": 1,
+                     "reflectors": {"blocks": False, "points": [dict(point, ercs=ercs * 10 ** (level_db / 20))]}}
+                    for level_db in LEVELS_DB]
 
 
 def existence_of_shipped(bench):
-    """Through the whole chain, with both thresholds, in worlds drawn from the priors of three shipped suites."""
+    """Through the whole chain, with both thresholds, in worlds of echoes whose powers are even over decibels."""
+    kinds = [f"point{number}" for number in range(len(LEVELS_DB))]
     for name in ("lrr77-full", "radarscenes77-full", "srr24-signal"):
         document = suites.whole(name)
-        frames, vehicle = world(random.Random(name), document, "point", quick(1000, 4000))
-        bench.add_vehicle("point", vehicle)
+        frames, vehicles = world(random.Random(name), document, kinds, quick(1000, 4000))
+        for kind, vehicle in zip(kinds, vehicles):
+            bench.add_vehicle(kind, vehicle)
         tally(bench, targets_of(driven(bench, document, frames, effects=DECIDED)), name)
 
 

@@ -20,7 +20,6 @@ struct detection {
 static struct detection detect(struct effect_bench *bench)
 {
     bench->sensor.pointer_sigma = 1;
-    bench->sensor.prior = (struct suite_prior){.echoes = 10, .snr_db = 20};
     return (struct detection){.measurement = {.range_m = 20,
                                               .azimuth_rad = PI / 6,
                                               .range_rate_mps = -4,
