@@ -165,6 +165,10 @@ EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured)
     known = estimated(bench, &source, 0.1, EVERY_EFFECT);
     assert_near(known.range_sigma_m, 2 / sqrt(12), 1e-12);
     assert_near(known.azimuth_sigma_rad, PI / 2 / sqrt(12), 1e-12);
+    /* At least a share of the range, 20 m, which no cell bounds. */
+    sensor->range_sigma_share = 0.05;
+    known = estimated(bench, &source, 0.1, EVERY_EFFECT);
+    assert_near(known.range_sigma_m, 1.0, 1e-12);
 }
 
 /* A real delta/sum of 0.1 is 0.1 · 100/sqrt(1.01/2) standard deviations from that of one echo. */
