@@ -200,6 +200,16 @@ def chances(bench):
         share = len(data_sheet.look(bench, sensor, "rcs_10", 79.99, 0, DRAWS)) / DRAWS
         slack = 5 * math.sqrt(chance * (1 - chance) / DRAWS) + 0.002
         bench.check(abs(share - chance) < slack, f"{law}: {share} detected, not {chance}")
+    lines = [{"dbsm": 10, "at_m": 140, "probability": 0.9}, {"dbsm": 0, "at_m": 70, "probability": 0.7}]
+    for law in ("none", "swerling_1"):
+        sensor = sensors_of(bench, PLAIN | {"detections": lines, "false_alarm_rate": 1e-5, "fluctuation": law})[0]
+        for line in lines:
+            chance, kind = line["probability"], f"rcs_{line['dbsm']}"
+            share = len(data_sheet.look(bench, sensor, kind, line["at_m"] - 0.01, 0, DRAWS)) / DRAWS
+            bench.check(abs(share - chance) < 5 * math.sqrt(chance * (1 - chance) / DRAWS) + 0.002, f"{law}, {line}: {share} detected")
+    part = printed(bench, PLAIN | {"detections": [{"object": "car", "at_m": 140}, {"object": "pedestrian", "at_m": 60}]})[0]["front"]
+    for dbsm in (0, 10):  # 13 dB are lg(140/60) decades
+        hold(bench, f"{dbsm} dBsm between two lines", reach_m(part, 0, dbsm)[0], 140 * (140 / 60) ** ((dbsm - 10) / 13), 0.02)
     part = printed(bench, PLAIN | {"false_alarms_per_scan": 2})[0]["front"]
     hold(bench, "false alarms", numbers(part, "false alarms")[0], 2)
 
@@ -210,7 +220,7 @@ def posts_of(bench, sensor, places, draws):
     with open(sensor["azimuth_curve" if array else "antenna_table"], encoding="ascii") as table:
         near = min(list(csv.reader(table))[1:], key=lambda row: abs(float(row[0]) - math.radians(degrees)))
     gain = 10 ** (float(near[1]) / 20) if array else float(near[1])
-    ercs = 10 * sensor["calibration_ercs"] * (range_m / sensor["calibration_range_m"]) ** 2 / gain
+    ercs = 10 * sensor["calibration_ercs"] * (range_m / sensor["calibration_range_m"]) ** sensor.get("exponent", 2) / gain
     bench.add_vehicle("strong", model.vehicle(0.1, 0.1, points=[model.everywhere("p", ercs)]))
     things = [model.thing(f"post{i}", "strong", *model.polar(at_m, at_deg), velocity=(mps, 0)) for i, (at_m, at_deg, mps) in enumerate(places)]
     frames = [dict(one, scene=f"s{one['frame']}", frame=0, last=True) for one in frames_of(things, draws)]
@@ -228,6 +238,11 @@ def edges(bench):
         lists = posts_of(bench, sensor, [(15, degrees, 0)], DRAWS)
         error_deg = rms([math.degrees(one["azimuth_rad"]) - degrees for targets in lists for one in targets])
         bench.check(abs(error_deg / stated - 1) < 0.1, f"{sensor['name']}: azimuths scatter by {error_deg} at {degrees} degrees, not {stated}")
+    shares = sensors_of(bench, PLAIN | {"range_accuracy_m": 0.3, "range_accuracy_percent": 1})[0]
+    for range_m, sigma_m in ((15, 0.3), (60, 0.6), (140, 1.4)):
+        lists = posts_of(bench, shares, [(range_m, 0, 0)], DRAWS)
+        error_m = rms([one["range_m"] - range_m for targets in lists for one in targets])
+        bench.check(abs(error_m / sigma_m - 1) < 0.1, f"ranges scatter by {error_m} m at {range_m} m, not {sigma_m}")
     for sensor, resolution_deg in ((far, 1.6), (near, 3.2)):
         for times, least, most in ((0.3, 0, 0.35), (1, 0.5, 0.8), (2, 1, 1)):
             apart = times * resolution_deg / 2
@@ -316,12 +331,14 @@ def random_sheet(generator, name, sensors):
                ("speed_resolution_kmh", generator.uniform(0.2, 2)), ("view_half_width_deg", view_deg * generator.uniform(0.3, 0.5)),
                ("azimuth_accuracy_deg", generator.uniform(0.3, 3)), ("azimuth_resolution_deg", generator.uniform(2, 20)), ("cycle_ms", generator.uniform(20, 90)),
                ("latency_ms", generator.uniform(0, 90)), ("speed_max_kmh", generator.uniform(100, 400)), ("range_accuracy_m", generator.uniform(0.02, 0.5)),
-               ("height_m", generator.uniform(0.3, 1)), ("carrier_ghz", generator.uniform(76, 81)), ("list_limit", generator.randrange(10, 300)),
+               ("height_m", generator.uniform(0.3, 1)), ("range_accuracy_percent", generator.uniform(0.1, 2)),
+               ("detections", [{"object": "car", "at_m": far_m * generator.uniform(0.5, 0.9)}, {"dbsm": -3, "at_m": far_m * generator.uniform(0.1, 0.5)}]),
+               ("carrier_ghz", generator.uniform(76, 81)), ("list_limit", generator.randrange(10, 300)),
                ("behind_front_bumper_m", generator.uniform(0, 0.5)), ("yaw_right_deg", generator.uniform(-90, 90)), ("range_unambiguous_m", generator.uniform(50, 500))]
     members = [("level_constant_db", generator.uniform(1, 6)), ("exponent", generator.uniform(1.3, 2.2)), ("bounces", 3), ("final_threshold", False),
                ("pointer_sigma", generator.uniform(0.2, 2)), ("cell_range_m", generator.uniform(0.2, 3)), ("threshold_db", generator.uniform(3, 15)),
                ("range_max_m", far_m), ("fluctuation", "swerling_1"), ("receiver_bandwidth_hz", None), ("waveform", None), ("calibration_range_m", far_m)]
-    chosen = {figure: value if isinstance(value, (int, str)) else float(f"{value:.4g}") for figure, value in generator.sample(figures, generator.randint(1, 5))}
+    chosen = {figure: value if isinstance(value, (int, str, list)) else float(f"{value:.4g}") for figure, value in generator.sample(figures, generator.randint(1, 5))}
     sheet |= {figure: value for figure, value in chosen.items() if figure not in ("detected_dbsm", "detection_probability") or "detected_at_m" in chosen}
     return sheet | ({"members": dict(generator.sample(members, generator.randint(1, 2)))} if generator.random() < 0.5 else {})
 
@@ -476,6 +493,27 @@ REFUSED = [
     ({"cycle_ms": 50, "members": {"cycle_s": 0.06}}, "cycle_ms 50 and members, cycle_s 0.06, contradict each other: 0.05 follows"),
     ({"false_alarm_rate": 1e-6, "members": {"threshold_db": 20}}, "false_alarm_rate 1e-06 and members, threshold_db 20, contradict each other"),
     ({"detected_at_m": 90, "members": {"calibration_ercs": 1, "calibration_range_m": 60}}, "detected_at_m: not used beside the other figures"),
+    ({"detections": []}, "detections is []; expected a list of one or two rows"),
+    ({"detections": [{"object": "car"}]}, 'detections[0] is {"object": "car"}; expected object or dbsm, at_m, and no more than probability'),
+    ({"detections": [{"object": "car", "dbsm": 10, "at_m": 90}]}, "expected object or dbsm, at_m, and no more than probability beside them"),
+    ({"detections": [{"object": "lorry", "at_m": 90}]}, 'detections[0].object is "lorry"; expected one of car, truck, motorcycle, pedestrian'),
+    ({"detections": [{"object": "car", "at_m": "far"}]}, 'detections[0].at_m is "far"; expected a number from 0.1 to 100000'),
+    ({"detections": 3 * [{"object": "car", "at_m": 90}]}, "expected one or two rows, which state level and slope"),
+    ({"detections": [{"object": "car", "at_m": 90}], "detected_at_m": 80}, "detected_at_m: not used beside the other figures"),
+    ({"detections": [{"object": "car", "at_m": 151}]}, "detections, at_m 151 is beyond the range limit on boresight, 150"),
+    ({"detections": [{"object": "car", "at_m": 90}, {"object": "pedestrian", "at_m": 90}]},
+     "that 10 dBsm are detected at 90 m with a probability of 0.9 and that -3 dBsm are detected at 90 m with a probability of 0.9 are at one range"),
+    ({"detections": [{"object": "car", "at_m": 90}, {"object": "pedestrian", "at_m": 80}]},
+     "that 10 dBsm are detected at 90 m with a probability of 0.9 and that -3 dBsm are detected at 80 m with a probability of 0.9 let echoes fall by "
+     "254 dB a decade of range; expected two ranges, and 5 to 60 dB"),
+    ({"detections": [{"object": "car", "at_m": 60}, {"object": "pedestrian", "at_m": 140}]}, "let echoes fall by -35.3 dB a decade of range"),
+    ({"detections": [{"object": "car", "at_m": 140}, {"object": "pedestrian", "at_m": 60}], "members": {"exponent": 2}},
+     "detections (1.766) and members, exponent 2, contradict each other: 1.766 follows"),
+    ({"range_limits": [{"azimuth_deg": 0, "range_max_m": 100}], "members": {"range_limits": [{"azimuth_rad": 0, "range_max_m": 90}]}},
+     'range_limits and members, range_limits [{"azimuth_rad": 0, "range_max_m": 90}], contradict each other'),
+    ({"range_accuracy_percent": 0.5, "members": {"range_sigma_share": 0.01}},
+     "range_accuracy_percent 0.5 and members, range_sigma_share 0.01, contradict each other: 0.005 follows"),
+    ({"range_accuracy_percent": 101}, "range_accuracy_percent is 101; expected a number from 0 to 100"),
     ({"azimuth_accuracy_deg": 1, "members": {"azimuth_floor_rad": 0.1}}, "azimuth accuracy at 0 degrees 1 is asked, and the suite's printed data sheet has 5.8"),
     ({"speed_max_kmh": 180, "members": {"unambiguous_middle_mps": 5}}, "speed_max_kmh 180 is asked, and the suite's printed data sheet has none"),
     ({"elevation_one_way_full_width_deg": 14, "members": {"mount_z_m": None}}, "glint refuses the suite: "),

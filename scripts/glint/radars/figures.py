@@ -6,7 +6,8 @@ import re
 
 DEGREE = math.pi / 180
 # Endings of names, and the factor to the unit in which figures are read.
-UNITS = {"_m": 1, "_cm": 1e-2, "_mm": 1e-3, "_deg": DEGREE, "_mps": 1, "_kmh": 1 / 3.6, "_mph": 0.44704, "_ghz": 1e9, "_ms": 1e-3}
+UNITS = {"_m": 1, "_cm": 1e-2, "_mm": 1e-3, "_deg": DEGREE, "_mps": 1, "_kmh": 1 / 3.6, "_mph": 0.44704, "_ghz": 1e9, "_ms": 1e-3,
+         "_percent": 1e-2}
 # Figures that are numbers, by the name under which the script reads them, with their least and greatest value.
 NUMBERS = """vehicle_length_m 0.5 50  vehicle_width_m 0.5 10  height_m 0.01 20  yaw_left_deg -180 180
     ahead_of_middle_m -50 50  behind_front_bumper_m -50 50  ahead_of_rear_bumper_m -50 50
@@ -15,17 +16,18 @@ NUMBERS = """vehicle_length_m 0.5 50  vehicle_width_m 0.5 10  height_m 0.01 20  
     range_min_m 0 1e5  range_max_m 0.1 1e5  range_unambiguous_m 0.1 1e6  view_full_width_deg 0.1 180
     range_resolution_m 1e-4 1e4  speed_resolution_mps 1e-4 1e3  azimuth_resolution_deg 0.01 180
     receding_max_mps 0.1 1e4  approaching_max_mps 0.1 1e4  speed_max_mps 0.1 1e4
-    range_accuracy_m 0 1e3  speed_accuracy_mps 0 1e3  azimuth_accuracy_deg 1e-4 90  accuracy_snr_db -20 100
+    range_accuracy_m 0 1e3  range_accuracy_percent 0 100  speed_accuracy_mps 0 1e3  azimuth_accuracy_deg 1e-4 90  accuracy_snr_db -20 100
     beam_two_way_full_width_deg 0.1 360  elevation_one_way_full_width_deg 0.2 180
     false_alarm_rate 1e-15 0.1  false_alarms_per_scan 1e-9 1e4
     detected_dbsm -60 60  detected_at_m 0.1 1e5  detection_probability 0.01 0.9999
     range_step_m 0 1e3  speed_step_mps 0 1e3  azimuth_step_deg 0 90  list_limit 0 1e6""".split()
 BOUNDS = {name: (float(low), float(high)) for name, low, high in zip(NUMBERS[::3], NUMBERS[1::3], NUMBERS[2::3])}
+DETECTION = {"dbsm": "detected_dbsm", "at_m": "detected_at_m", "probability": "detection_probability"}  # as columns, and as figures
 COLUMNS = {"azimuth_deg": (-180, 180), "range_max_m": (1e-3, 1e5), "accuracy_deg": (1e-4, 90), "one_way_db": (-200, 100),
            "two_way_db": (-200, 100)}
 WORDS = {"detected_object": ("car", "truck", "motorcycle", "pedestrian"), "fluctuation": ("none", "swerling_1", "swerling_3"),
          "list_order": ("strongest", "nearest")}
-LISTS = ("range_limits", "azimuth_accuracies", "gains", "transmit_positions_wavelengths", "receive_positions_wavelengths")
+LISTS = ("detections", "range_limits", "azimuth_accuracies", "gains", "transmit_positions_wavelengths", "receive_positions_wavelengths")
 # What is no figure, with the levels on which it may stand.
 LEVELS = ("the sheet", "a radar", "a scan")
 ABOUT = {"origin": LEVELS[:1], "document": LEVELS[:1], "extends": LEVELS[:1], "radars": LEVELS[:1], "scans": LEVELS[1:2], "name": LEVELS[1:],
@@ -124,7 +126,8 @@ class Figures:
     def told(self, name, value=None):
         """The figure's name and value as the sheet has them; beside lists and words the value that follows from them."""
         given = self.values[self.spelled(name)]
-        follows = "" if value is None or isinstance(given, (int, float)) else f" ({value / (DEGREE if isinstance(given, list) else 1):.4g})"
+        known = isinstance(given, (int, float)) or not isinstance(value, (int, float))
+        follows = "" if known else f" ({value / (DEGREE if name == 'azimuth_accuracies' else 1):.4g})"
         return self.spelled(name) + ("" if isinstance(given, list) else f" {given}") + follows
 
     def take(self, name):
@@ -170,6 +173,21 @@ class Figures:
             found.append((row["azimuth_deg"] * DEGREE, row[given[0]] * scale(given[0]) * (2 if given[0] == "one_way_db" else 1)))
             expect(f"{path}.azimuth_deg", row["azimuth_deg"], i == 0 or found[i][0] > found[i - 1][0], "azimuths that ascend")
         return found
+
+    def detections(self):
+        """Rows of what is detected: {object or dbsm, at_m, and probability if it is stated}; [] if the sheet does not have them."""
+        rows = self.whole("detections", "a list of one or two rows")
+        expect(f"{self.scan}: detections", rows, len(rows) < 3, "one or two rows, which state level and slope")
+        for i, row in enumerate(rows):
+            path = f"{self.scan}: detections[{i}]"
+            good = isinstance(row, dict) and "at_m" in row and ("object" in row) != ("dbsm" in row) and row.keys() <= {"object", *DETECTION}
+            expect(path, row, good, "object or dbsm, at_m, and no more than probability beside them")
+            for column, value in row.items():
+                if column == "object":
+                    expect(f"{path}.object", value, value in WORDS["detected_object"], f"one of {', '.join(WORDS['detected_object'])}")
+                else:
+                    number(f"{path}.{column}", value, *BOUNDS[DETECTION[column]])
+        return rows
 
     def source(self, names):
         """Where figures come from, as a suite says it; and a sentence on each that is guessed."""

@@ -34,6 +34,7 @@ LINES = ((rf"at x {NUMBER} m, y {NUMBER} m", ("ahead_of_middle_m", 1), ("left_of
          (rf"update +every {NUMBER} ms", ("cycle_ms", 1e-3)),
          (rf"update .*latency {NUMBER} ms", ("latency_ms", 1e-3)),
          (rf"false alarms +{NUMBER} a scan", ("false_alarms_per_scan", 1)),
+         (rf"range: at least {NUMBER} % of the range", ("range_accuracy_percent", 1e-2)),
          (rf"list +the \w+ {NUMBER}", ("list_limit", 1)))
 
 
@@ -130,9 +131,9 @@ def compare_accuracy(scan, lines):
 
 
 def compare_detection(scan, printed):
-    """Ranges up to which 0, 10 and 20 dBsm are detected with a probability of 0.9, by the range that is stated for one cross section."""
-    dbsm, at_m, chance, stronger = scan.detected
-    for printed_dbsm, word in sorted(zip((0, 10, 20), printed), key=lambda one: abs(one[0] - dbsm)):
+    """Ranges up to which 0, 10 and 20 dBsm are detected with a probability of 0.9, by the range that is stated for the nearest cross section."""
+    for printed_dbsm, word in zip((0, 10, 20), printed):
+        dbsm, at_m, chance, stronger = min(scan.detected, key=lambda line: abs(line[0] - printed_dbsm))
         asked_m = at_m * (stronger * 10 ** ((printed_dbsm - dbsm) / 20)) ** (1 / scan.members.get("exponent", 2))
         got_m = 0 if word == "-" else float(word.lstrip(">"))
         least_m = max(scan.members["range_min_m"], scan.members.get("range_floor_m", 0.5))

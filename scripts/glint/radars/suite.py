@@ -32,6 +32,7 @@ USUAL = {"mount_y_m": (0, "in the middle of the front"),
          "phase_reference": ("centre", "a pattern symmetric about the array's centre"),
          "list_order": ("strongest", "the strongest targets stay if there are too many"),
          "list_limit": (0, "the list has room for all")}
+EXPONENTS = 0.25, 3  # 5 to 60 dB a decade
 LEVEL = "calibration_ercs", "calibration_range_m", "range_curve"
 # What holds where a suite has none of these members.
 ABSENT = {"cycle_s": "every frame has a scan", "latency_s": "lists have no latency", "unambiguous_range_m": "ranges do not fold",
@@ -195,7 +196,7 @@ def thresholds(scan):
         cells_of_base = scan.base["false_alarms"] / waveform.get("cfar_false_alarm", CFAR_FALSE_ALARM)
         count = cells_of_base * (members["range_max_m"] - members["range_min_m"]) / (scan.base["range_max_m"] - scan.base["range_min_m"])
     if scan.base and not any(name in figures for name in (
-            "false_alarm_rate", "false_alarms_per_scan", "detected_dbsm", "detected_object", "detected_at_m", "detection_probability", "fluctuation")):
+            "false_alarm_rate", "false_alarms_per_scan", "detected_dbsm", "detected_object", "detected_at_m", "detection_probability", "fluctuation", "detections")):
         if "false_alarms" in members:
             scan.follow("false_alarms", members["false_alarms"] * count / cells_of_base)  # as many in a cell
         return
@@ -229,33 +230,68 @@ def thresholds(scan):
         calibrate(scan, 10 ** ((members["threshold_db"] - noise_db) / 20))
 
 
-def calibrate(scan, threshold):
-    figures, members = scan.figures, scan.members
-    kind = figures.take("detected_object")
-    _, dbsm = figures.agreed(("detected_object", CLASSES_DBSM.get(kind)), ("detected_dbsm", figures.take("detected_dbsm")))
-    dbsm = CLASSES_DBSM["car"] if dbsm is None else dbsm
-    at_m, chance = figures.take("detected_at_m") or members["range_max_m"], figures.take("detection_probability") or 0.9
+def one_detection(figures):
+    """What is detected by figures of their own, as a row of `detections`; absent: a car."""
+    kind, dbsm = figures.take("detected_object"), figures.take("detected_dbsm")
+    figures.agreed(("detected_object", CLASSES_DBSM.get(kind)), ("detected_dbsm", dbsm))
+    row = {"at_m": figures.take("detected_at_m"), "probability": figures.take("detection_probability")}
+    return row | ({"object": kind or "car"} if dbsm is None else {"dbsm": dbsm})
+
+
+def detections(scan):
+    """One or two of (cross section in dBsm, range in m, probability) that the sheet states; absent: a car at the greatest range with 0.9."""
+    figures, members, stated = scan.figures, scan.members, []
     limit_m = min([members["range_max_m"], *(row["range_max_m"] for row in members.get("range_limits", [])[:1])])
-    if at_m > limit_m and "detected_at_m" in figures:
-        raise Refused(f"{scan.name}: detected_at_m {told(at_m)} is beyond the range limit on boresight, {told(limit_m)}")
-    law = detection.Law(members)
-    strong = law.amplitude(chance, threshold)
-    if abs(law.probability(strong, threshold) - chance) > 0.01:
-        raise Refused(f"{scan.name}: detection_probability {chance:g} is not reached; an echo at the threshold has "
-                      f"{law.probability(threshold, threshold):.3g}")
-    words = f"{dbsm:g} dBsm are detected at {told(at_m)} m with a probability of {told(chance)}"
-    missing = [what for what, figure in (("cross section of a " + (kind or "car"), "detected_dbsm"), ("range", "detected_at_m"),
-                                         ("probability", "detection_probability")) if figure not in figures]
-    if missing:
-        scan.assumed.append(f"{words}; the sheet does not state the {' or the '.join(missing)}")
-    scan.detected = dbsm, at_m, chance, strong / law.amplitude(0.9, threshold)
-    scan.put("calibration_ercs", 10 ** ((dbsm - REFERENCE_DBSM) / 20), "detected_dbsm", "detected_object")
-    scan.put("calibration_range_m", at_m * (strong / threshold) ** (1 / members.get("exponent", 2)), "detected_at_m", "detection_probability")
+    for row in figures.detections() or [one_detection(figures)]:
+        kind, at_m, chance = row.get("object"), row.get("at_m"), row.get("probability")
+        stated.append((CLASSES_DBSM[kind] if kind else row["dbsm"], at_m or members["range_max_m"], chance or 0.9))
+        if at_m and at_m > limit_m:
+            name = "detections, at_m" if "detections" in figures else "detected_at_m"
+            raise Refused(f"{scan.name}: {name} {told(at_m)} is beyond the range limit on boresight, {told(limit_m)}")
+        missing = [what for what, absent in ((f"cross section of a {kind}", kind), ("range", not at_m), ("probability", not chance)) if absent]
+        if missing:
+            scan.assumed.append(f"{told_of(*stated[-1])}; the sheet does not state the {' or the '.join(missing)}")
+    return stated
+
+
+def told_of(dbsm, at_m, chance):
+    return f"{dbsm:g} dBsm are detected at {told(at_m)} m with a probability of {told(chance)}"
+
+
+def exponent_of(scan, lines, strong):
+    """The exponent by which amplitudes fall from one line of detection to the other, whose mean amplitudes are `strong`."""
+    (dbsm, at_m, _), (other_dbsm, other_m, _) = lines
+    rise = 10 ** ((dbsm - other_dbsm) / 20) * strong[1] / strong[0]
+    exponent = math.log(rise) / math.log(at_m / other_m) if at_m != other_m else math.inf
+    if not EXPONENTS[0] <= exponent <= EXPONENTS[1]:
+        falls = f"let echoes fall by {20 * exponent:.3g} dB a decade of range" if at_m != other_m else "are at one range"
+        least_db, most_db = (20 * end for end in EXPONENTS)
+        raise Refused(f"{scan.name}: detections: that {' and that '.join(told_of(*line) for line in lines)} {falls}; "
+                      f"expected two ranges, and {least_db:g} to {most_db:g} dB")
+    return exponent
+
+
+def calibrate(scan, threshold):
+    members, lines, law = scan.members, detections(scan), detection.Law(scan.members)
+    strong = [law.amplitude(chance, threshold) for *_, chance in lines]
+    for amplitude, (*_, chance) in zip(strong, lines):
+        if abs(law.probability(amplitude, threshold) - chance) > 0.01:
+            raise Refused(f"{scan.name}: detection_probability {chance:g} is not reached; an echo at the threshold has "
+                          f"{law.probability(threshold, threshold):.3g}")
+    if len(lines) == 2:
+        scan.put("exponent", exponent_of(scan, lines, strong), "detections")
+    likely = law.amplitude(0.9, threshold)
+    scan.detected = [(*line, amplitude / likely) for line, amplitude in zip(lines, strong)]
+    dbsm, at_m, _ = lines[0]
+    scan.put("calibration_ercs", 10 ** ((dbsm - REFERENCE_DBSM) / 20), "detected_dbsm", "detected_object", "detections")
+    scan.put("calibration_range_m", at_m * (strong[0] / threshold) ** (1 / members.get("exponent", 2)), "detected_at_m",
+             "detection_probability", "detections")
 
 
 def accuracy(scan):
     """The antenna's table, and the standard deviations of range and range rate."""
     members = scan.members
+    scan.copy("range_sigma_share", "range_accuracy_percent")
     for member, step, name, what in (("range_sigma_m", "range_step_m", "range_accuracy_m", "cell_range_m"),
                                      ("range_rate_sigma_mps", "range_rate_step_mps", "speed_accuracy_mps", "cell_range_rate_mps")):
         sigma = scan.figures.take(name)
