@@ -128,6 +128,16 @@ def public_sheets(bench):
         value, ends = reach_m(near, degrees, 20)
         hold(bench, f"range limit at {degrees} degrees", value, limit_m)
         bench.check(ends, f"no limit at {degrees} degrees")
+    part = printed(bench, json.loads((model.ROOT / "data/sheets/ars548-rdi.json").read_text()))[0]["front"]
+    for line, values in (("range", [0.2, 300]), ("field of view", [-60]), ("resolution", [0.22, 0.1]), ("carrier", [77]), ("update", [50]),
+                         ("unambiguous", [-200 / 3.6, 400 / 3.6]), ("list", [800]), ("array", [1, 74, 74])):
+        for value, expected in zip(numbers(part, line), values):
+            hold(bench, line, value, expected)
+    hold(bench, "azimuths apart", numbers(part, "cell")[2], 1.2)
+    hold(bench, "height of the beam", numbers(part, "element's beam")[1], 28)
+    hold(bench, "azimuth accuracy", last_accuracy(part)[0][2], 0.1, 0.06)
+    for dbsm in (0, 10):
+        hold(bench, f"{dbsm} dBsm at 25 dB a decade", reach_m(part, 0, dbsm)[0], 300 * 10 ** ((dbsm - 10) / 25))
     part = printed(bench, json.loads((model.ROOT / "data/sheets/umrr-11-type-132.json").read_text()))[0]["front"]
     for line, values in (("range", [1, 175]), ("field of view", [-16]), ("resolution", [1.8, 0.14]), ("carrier", [77])):
         for value, expected in zip(numbers(part, line), values):
@@ -220,7 +230,7 @@ def posts_of(bench, sensor, places, draws):
     with open(sensor["azimuth_curve" if array else "antenna_table"], encoding="ascii") as table:
         near = min(list(csv.reader(table))[1:], key=lambda row: abs(float(row[0]) - math.radians(degrees)))
     gain = 10 ** (float(near[1]) / 20) if array else float(near[1])
-    ercs = 10 * sensor["calibration_ercs"] * (range_m / sensor["calibration_range_m"]) ** sensor.get("exponent", 2) / gain
+    ercs = 10 * sensor["calibration_ercs"] * (range_m / sensor["calibration_range_m"]) ** sensor["exponent"] / gain
     bench.add_vehicle("strong", model.vehicle(0.1, 0.1, points=[model.everywhere("p", ercs)]))
     things = [model.thing(f"post{i}", "strong", *model.polar(at_m, at_deg), velocity=(mps, 0)) for i, (at_m, at_deg, mps) in enumerate(places)]
     frames = [dict(one, scene=f"s{one['frame']}", frame=0, last=True) for one in frames_of(things, draws)]
@@ -243,7 +253,8 @@ def edges(bench):
         lists = posts_of(bench, shares, [(range_m, 0, 0)], DRAWS)
         error_m = rms([one["range_m"] - range_m for targets in lists for one in targets])
         bench.check(abs(error_m / sigma_m - 1) < 0.1, f"ranges scatter by {error_m} m at {range_m} m, not {sigma_m}")
-    for sensor, resolution_deg in ((far, 1.6), (near, 3.2)):
+    fine = sensors_of(bench, json.loads((model.ROOT / "data/sheets/ars548-rdi.json").read_text()))[0]
+    for sensor, resolution_deg in ((far, 1.6), (near, 3.2), (fine, 1.2)):
         for times, least, most in ((0.3, 0, 0.35), (1, 0.5, 0.8), (2, 1, 1)):
             apart = times * resolution_deg / 2
             lists = posts_of(bench, sensor | {"cell_phase": "random"}, [(15, apart, 0), (15, -apart, 0)], 400)

@@ -32,6 +32,9 @@ USUAL = {"mount_y_m": (0, "in the middle of the front"),
          "phase_reference": ("centre", "a pattern symmetric about the array's centre"),
          "list_order": ("strongest", "the strongest targets stay if there are too many"),
          "list_limit": (0, "the list has room for all")}
+EXPONENT = 1.25
+SLOPE = ("[F] levels of two UMRR-11 fell by 24 and 25 dB a decade of range, of a dense 4D radar by 14, of an ARS430 by 0 to 11 near it; "
+         "40 without a control of gain over range")
 EXPONENTS = 0.25, 3  # 5 to 60 dB a decade
 LEVEL = "calibration_ercs", "calibration_range_m", "range_curve"
 # What holds where a suite has none of these members.
@@ -225,6 +228,9 @@ def thresholds(scan):
     scan.follow("false_alarms", alarms or rate * count)
     if waveform:
         scan.follow("waveform", waveform | {"cfar_false_alarm": rate})
+    if not scan.base and "range_curve" not in members and "detections" not in figures and "exponent" not in scan.own:
+        members["exponent"], scan.sources["exponent"] = EXPONENT, SLOPE
+        scan.assumed.append(f"echoes fall by {20 * EXPONENT:g} dB a decade of range (exponent {EXPONENT}), as measured of radars")
     if not scan.own.keys() & set(LEVEL):
         scan.drop(*LEVEL)
         calibrate(scan, 10 ** ((members["threshold_db"] - noise_db) / 20))
