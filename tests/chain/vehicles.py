@@ -1,4 +1,4 @@
-"""Vehicles of data/detailed/ tell where their figures come from, and are seen under.
+"""Vehicles of data/detailed/ tell where their figures come from, hardly fade over a road, and are seen under.
 
 Usage: python3 tests/chain/vehicles.py BIN_DIR        exit status 1 if any check fails
 """
@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 BIN = Path(sys.argv[1]).resolve() if len(sys.argv) == 2 else sys.exit(__doc__)
 ENV = dict(os.environ, GLINT_DATA=str(ROOT / "data" / "detailed"))
+CAR_M = (4.3, 1.8, 1.5)
 failed = []
 
 
@@ -52,21 +53,31 @@ def every_figure_has_two_sources_or_is_assumed():
             check(text.startswith("[A]") or text.startswith("[F]") and ";" in text, f"{place.name}: {path}: {text or 'no source'}")
 
 
+def scene_of(name, bodies, **more):
+    """A frame in which bodies, (id, x, y, length, width, height), stand before the ego's front."""
+    rest = {"yaw_rad": 0, "vx_mps": 0, "vy_mps": 0, "yaw_rate_radps": 0, "travelled_m": 0}
+    objects = [rest | dict(zip(("id", "x_m", "y_m", "length_m", "width_m", "height_m"), body)) | {"class": "van" if body[0] == "van" else "car"}
+               for body in [("ego", -2.25, 0, *CAR_M), *bodies]]
+    return {"version": 0, "scene": name, "frame": 0, "time_s": 0, "interval_s": 0.1, "seed": "1", "ego": "ego", "last": True,
+            "objects": objects} | more
+
+
+def seen(scenes, effects, stages=""):
+    """Frames of scenes as lrr77-full sees them."""
+    with tempfile.TemporaryDirectory() as folder:
+        traffic = Path(folder, "traffic.jsonl")
+        traffic.write_text("".join(json.dumps(scene) + "\n" for scene in scenes))
+        done = subprocess.run([BIN / "glint", "-c", f"glint-extract {traffic} | glint-ideal --sensors lrr77-full --effects {effects}{stages}"],
+                              env=ENV, check=True, stdout=subprocess.PIPE)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
 def loss_behind_a_van_db(begin_m):
     """What the rear corner of a car, 40 m away, loses behind a van that begins here; the sensor is 0.5 m above the road."""
+    scene = scene_of("van", [("car", 42.15, 0, *CAR_M), ("van", begin_m + 3.25, 0, 6.5, 2.16, 2.86)])
+
     def echo(effects):
-        objects = [{"id": "ego", "class": "car", "x_m": -2.25, "length_m": 4.3, "width_m": 1.8, "height_m": 1.5},
-                   {"id": "car", "class": "car", "x_m": 42.15, "length_m": 4.3, "width_m": 1.8, "height_m": 1.5},
-                   {"id": "van", "class": "van", "x_m": begin_m + 3.25, "length_m": 6.5, "width_m": 2.16, "height_m": 2.86}]
-        rest = {"y_m": 0, "yaw_rad": 0, "vx_mps": 0, "vy_mps": 0, "yaw_rate_radps": 0, "travelled_m": 0}
-        frame = {"version": 0, "scene": "van", "frame": 0, "time_s": 0, "interval_s": 0.1, "seed": "1", "ego": "ego",
-                 "last": True, "objects": [rest | one for one in objects]}
-        with tempfile.TemporaryDirectory() as folder:
-            scene = Path(folder, "scene.jsonl")
-            scene.write_text(json.dumps(frame) + "\n")
-            done = subprocess.run([BIN / "glint", "-c", f"glint-extract {scene} | glint-ideal --sensors lrr77-full --effects "
-                                   f"{effects}"], env=ENV, check=True, stdout=subprocess.PIPE)
-        return next((one["ercs"] for one in json.loads(done.stdout)["echoes"]
+        return next((one["ercs"] for one in seen([scene], effects)[0]["echoes"]
                      if (one["object"], one["reflector"]) == ("car", "corner_rr")), None)
 
     behind, free = echo("auto"), echo("auto,-occlusion")
@@ -81,7 +92,22 @@ def a_car_behind_a_van_is_seen_under_it():
         check(9.9 <= loss_db <= 14.2, f"behind a van at {begin_m} m: {loss_db:.2f} dB")
 
 
+def what_is_added_hardly_fades_over_a_road():
+    """By 3 dB at most up to 60 m (MODEL 14.10); points fade by 20 dB and more."""
+    scenes = [scene_of(f"{x_m} m", [("car", x_m, 1, *CAR_M)], conditions={"road": "asphalt"}) for x_m in range(20, 60)]
+
+    def levels_db(without):
+        return {(frame["scene"], one["contributors"][0]["reflector"]): one["amplitude_db"]
+                for frame in seen(scenes, f"all,-merging,-threshold{without}", " | glint-sensor | glint-noise-none")
+                for one in frame["targets"] if one["contributors"][0]["reflector"].startswith(("far", "inside", "axle", "weak"))}
+
+    mirrored, plain = levels_db(""), levels_db(",-two_ray")
+    changes = [mirrored[key] - level for key, level in plain.items()]
+    check(len(changes) > 80 and 0.5 < max(map(abs, changes)) < 3, f"{len(changes)} added parts change by {max(map(abs, changes))} dB")
+
+
 every_figure_has_two_sources_or_is_assumed()
+what_is_added_hardly_fades_over_a_road()
 a_car_behind_a_van_is_seen_under_it()
 for message in failed:
     print("FAILED:", message)
