@@ -14,6 +14,7 @@ from glint.progress import Progress
 from glint.recordings import chains, fitted, geometry, marginals, readers, roadside, score, statics
 
 FAR, NEAR = 10, (1, 2, 3)  # scans away, of predictors that the recording itself gives
+MOUNT_Z_M = 0.5  # assumed, as lrr77-full
 
 
 class Part(namedtuple("Part", "radar scans speeds boxes")):
@@ -167,7 +168,7 @@ def print_marginals(second, lists, threshold_db):
 
 
 def print_components(second, fit, folder, scores):
-    """The components whose replacement costs most, of the best chain with all effects."""
+    """The components whose replacement costs most, of the best chain with all effects, and what a road that mirrors costs."""
     with_all = [chain for chain in scores if chain.effects == "auto" and not chain.road]
     best = min(with_all, key=lambda chain: sum(scores[chain].values()))
     suite, scans, lost = fitted.write_suite(fit, folder), len(second.scans), []
@@ -177,11 +178,12 @@ def print_components(second, fit, folder, scores):
     steady = {"level_constant_db": 0, "level_slow_db": 0, "level_fast_db": 0}
     trials += [(f"{law} instead of levels", best, fitted.write_suite(fit, folder, **steady, fluctuation=law))
                for law in ("log_normal", "swerling_1", "swerling_3")]
-    for name, chain, document in Progress("components").over(trials):
+    mirrored = (f"over asphalt, {MOUNT_Z_M} m high", best._replace(surface="asphalt"), fitted.write_suite(fit, folder, mount_z_m=MOUNT_Z_M))
+    for name, chain, document in Progress("components").over([*trials, mirrored]):
         lists, _ = chains.run(chain, document, fit, second)
         lost.append((gains(scores[best], second.scores(lists), scores[chains.IDEAL], scans), name))
     print(f"\n{best.name}, these cost most skill")
-    for (points, least, most), name in sorted(lost, reverse=True)[:3]:
+    for (points, least, most), name in [*sorted(lost[:-1], reverse=True)[:3], lost[-1]]:
         print(f"{name:38} {points:6.1f} points, {least:.1f} to {most:.1f}")
 
 

@@ -16,8 +16,9 @@ SEEDS = 39
 PAPER = ("visibility,plane_reflection,rows,occlusion,ambiguity,merging,superposition,threshold,angle_noise,range_noise,"
          "final_threshold,list_limit")
 
-# data: the folder that vehicle documents come from; road: between the strips beside the road that were found
-Chain = namedtuple("Chain", "name effects stages data road", defaults=("glint-sensor | glint-noise", "data", False))
+# data: the folder that vehicle documents come from; road: between the strips beside the road that were found; surface: what
+# the road is made of
+Chain = namedtuple("Chain", "name effects stages data road surface", defaults=("glint-sensor | glint-noise", "data", False, "unknown"))
 IDEAL = Chain("ideal echoes", PAPER, "glint-sensor-perfect | glint-noise-none")
 ALL = Chain("all effects", "auto")
 CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("without levels", "auto,-level"), ALL,
@@ -25,8 +26,8 @@ CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("without levels", "aut
           Chain("with data/detailed", "auto", data="data/detailed"), Chain("with a roadside", "auto", road=True)]
 
 
-def frames(scans, speeds, seed, strips):
-    """Frames of traffic, one a scan: the ego drives straight ahead at these speeds, between strips of a roadside."""
+def frames(scans, speeds, seed, strips, surface):
+    """Frames of traffic, one a scan: the ego drives straight ahead at these speeds on a road, between strips of a roadside."""
     ways, ahead_m = {}, 0
     for i, (scan, speed) in enumerate(zip(scans, speeds)):
         interval_s = scans[max(i, 1)].time_s - scans[max(i, 1) - 1].time_s
@@ -36,7 +37,7 @@ def frames(scans, speeds, seed, strips):
             ways[box.id] = ways[box.id] + driven_m if box.id in ways else 0
         yield {"version": 0, "scene": f"seed{seed}", "frame": i, "time_s": scan.time_s - scans[0].time_s,
                "interval_s": interval_s, "seed": str(seed), "ego": "ego", "last": i + 1 == len(scans),
-               "roadside": strips, "objects": [
+               "conditions": {"road": surface}, "roadside": strips, "objects": [
                    {"id": box.id, "class": box.kind, "x_m": ahead_m + box.x_m, "y_m": box.y_m, "yaw_rad": box.yaw_rad,
                     "vx_mps": speed + box.vx_mps, "vy_mps": box.vy_mps, "yaw_rate_radps": 0, "length_m": box.length_m,
                     "width_m": box.width_m, "height_m": box.height_m, "travelled_m": ways[box.id]} for box in bodies]}
@@ -46,7 +47,7 @@ def run(chain, suite, fit, part, seeds=SEEDS, first=1):
     """Lists of detections, [seed][scan], with seeds from the first one on, and the CPU time of a frame in microseconds."""
     with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as traffic:
         for seed in range(first, first + seeds):
-            for frame in frames(part.scans, part.speeds, seed, fit.roadside if chain.road else []):
+            for frame in frames(part.scans, part.speeds, seed, fit.roadside if chain.road else [], chain.surface):
                 traffic.write(json.dumps(frame) + "\n")
         traffic.flush()
         text = (f"glint-extract {traffic.name} | glint-ideal --sensors {shlex.quote(suite)} --effects {chain.effects} --sections none"
