@@ -34,10 +34,23 @@ double detection_fluctuation(enum fluctuation_law law, double sigma_db, const do
     return 1;
 }
 
+/* In units of the noise's RMS. */
+static const double LOWERED_BY = 1.75;
+
+double detection_lowered_threshold(double final_threshold, double noise)
+{
+    return elementary_max(final_threshold - LOWERED_BY * noise, 0);
+}
+
 /* (1 - exp(-x))/x. */
 static double mean_decay(double x)
 {
     return x < 1e-8 ? 1 : (1 - elementary_exp(-x)) / x;
+}
+
+static bool is_noisy(double threshold, double noise)
+{
+    return threshold < 600 * noise;
 }
 
 /* Noise falls inside the circle of radius T around the origin with a probability that is an
@@ -46,7 +59,7 @@ static double mean_decay(double x)
  * integrand is smooth and periodic, so the trapezoidal rule converges exponentially. */
 double detection_in_noise(double amplitude, double threshold, double noise)
 {
-    if (!(threshold < 600 * noise))
+    if (!is_noisy(threshold, noise))
         return amplitude >= threshold ? 1 : 0;
     double power = noise * noise, sum = 0;
     int steps = 16 + (int)(8 * (threshold / noise));
@@ -65,6 +78,24 @@ struct power_law {
     double mean_db, sigma_db, most;
 };
 
+static bool is_steady(const struct power_law *varying)
+{
+    bool normal = varying->law == FLUCTUATION_LOG_NORMAL;
+    return varying->law == FLUCTUATION_NONE || (normal && varying->sigma_db == 0);
+}
+
+static double least_db(const struct power_law *varying)
+{
+    bool normal = varying->law == FLUCTUATION_LOG_NORMAL;
+    return normal ? varying->mean_db - 9 * varying->sigma_db : -90;
+}
+
+static double most_db(const struct power_law *varying)
+{
+    bool normal = varying->law == FLUCTUATION_LOG_NORMAL;
+    return normal ? varying->mean_db + varying->most * varying->sigma_db : 17;
+}
+
 /* How likely a varying power is, per decibel. */
 static double density(const struct power_law *varying, double power_db)
 {
@@ -78,75 +109,103 @@ static double density(const struct power_law *varying, double power_db)
     return elementary_exp(-deviations * deviations / 2) / (varying->sigma_db * sqrt(2 * PI));
 }
 
-/* An echo that meets the first threshold, at the final one. */
-static double passes(const struct detection_law *detection, double amplitude)
+/* An echo of a mean amplitude whose power varies by one law, and by another one beside it or not.
+ */
+struct echo_law {
+    const struct detection_law *detection;
+    struct power_law varying;
+    const struct power_law *beside;
+    double amplitude;
+};
+
+/* How far from the final threshold noise decides, in units of its RMS: beyond with less than 1e-15.
+ */
+static const double DECIDES = 6;
+
+/* The probability that an echo without variation is detected. */
+static double steady_probability(const struct detection_law *detection, double amplitude)
 {
-    if (detection->final_threshold == 0)
+    double certain = detection->final_threshold + DECIDES * detection->noise;
+    if (amplitude < detection->threshold)
+        return 0;
+    if (detection->final_threshold == 0 || amplitude > certain)
         return 1;
     return detection_in_noise(amplitude, detection->final_threshold, detection->noise);
 }
 
-/* The weight of a step of Simpson's rule: 4, 2, 4, ... 4, 1, without the first, at which nothing
- * is.
- */
-static double simpson_weight(int step, int steps)
+static double single_probability(const struct detection_law *detection,
+                                 const struct power_law *varying, double amplitude);
+
+/* The probability that an echo with this power of its law is detected. */
+static double probability_at(const struct echo_law *echo, double power_db)
 {
-    if (step == steps)
-        return 1;
-    return step % 2 == 1 ? 4 : 2;
+    double amplitude = echo->amplitude * units_amplitude_from_db(power_db);
+    if (echo->beside == NULL)
+        return steady_probability(echo->detection, amplitude);
+    return single_probability(echo->detection, echo->beside, amplitude);
 }
 
-/* Simpson's rule over the power in decibels, with steps that grow from 0: the final threshold
- * decides close to the first one. */
-static double integral(const struct detection_law *detection, const struct power_law *varying,
-                       double amplitude, double from, double to)
+/* The part of the probability of detection from powers in these decibels. Steps of the trapezoidal
+ * rule shrink so smoothly towards both ends that it converges quickly. */
+static double integral(const struct echo_law *echo, double from, double to)
 {
-    enum { STEPS = 256 };
     double sum = 0;
-    for (int i = 1; i <= STEPS; i++) {
-        double part = (double)i / STEPS, power_db = from + (to - from) * part * part;
-        sum += simpson_weight(i, STEPS) * 2 * part * density(varying, power_db) *
-               passes(detection, amplitude * units_amplitude_from_db(power_db));
+    int steps = 32 + (int)(to - from);
+    for (int i = 1; i < steps; i++) {
+        double part = (double)i / steps, rest = 1 - part;
+        double way = part * part * part * (10 - 15 * part + 6 * part * part);
+        double power_db = from + (to - from) * way;
+        sum += 30 * part * part * rest * rest * density(&echo->varying, power_db) *
+               probability_at(echo, power_db);
     }
-    return (to - from) * sum / (3 * STEPS);
+    return (to - from) * sum / steps;
 }
 
-static double varying_probability(const struct detection_law *detection,
-                                  const struct power_law *varying, double amplitude)
+/* The power in decibels that an echo needs for an amplitude, between two others. */
+static double power_for(const struct echo_law *echo, double amplitude, double from, double to)
 {
-    double mean_db = varying->mean_db, sigma_db = varying->sigma_db;
-    double least = detection->threshold / amplitude;
-    bool normal = varying->law == FLUCTUATION_LOG_NORMAL;
-    if (varying->law == FLUCTUATION_NONE || (normal && sigma_db == 0))
-        return least <= 1 ? passes(detection, amplitude) : 0;
-    double from = normal ? mean_db - 9 * sigma_db : -90,
-           to = normal ? mean_db + varying->most * sigma_db : 17;
-    if (least > 0)
-        from = elementary_max(from, units_amplitude_db(least));
-    if (from > to)
+    if (!(amplitude > 0))
+        return from;
+    double db = units_amplitude_db(amplitude / echo->amplitude);
+    return elementary_min(elementary_max(db, from), to);
+}
+
+/* Where noise decides, the integrand is as steep as the noise is small. So this part and what is
+ * stronger are integrated one by one. */
+static double single_probability(const struct detection_law *detection,
+                                 const struct power_law *varying, double amplitude)
+{
+    const struct echo_law echo = {detection, *varying, NULL, amplitude};
+    if (is_steady(varying))
+        return steady_probability(detection, amplitude);
+    double final = detection->final_threshold;
+    double reach = is_noisy(final, detection->noise) ? DECIDES * detection->noise : 0;
+    double weakest = elementary_max(final - reach, detection->threshold);
+    double certain = elementary_max(final + reach, weakest);
+    double most = most_db(varying);
+    double from_db = power_for(&echo, weakest, least_db(varying), most);
+    double certain_db = power_for(&echo, certain, from_db, most);
+    return integral(&echo, from_db, certain_db) + integral(&echo, certain_db, most);
+}
+
+/* The mean over the narrower of two laws of the probability under the other, which is smooth then.
+ */
+static double double_probability(const struct detection_law *detection,
+                                 const struct power_law *narrow, const struct power_law *wide,
+                                 double amplitude)
+{
+    const struct echo_law echo = {detection, *narrow, wide, amplitude};
+    return integral(&echo, least_db(narrow), most_db(narrow));
+}
+
+/* Of echoes that are stronger than where their law is cut, and so as strong as there. */
+static double cut_probability(const struct detection_law *detection, const struct power_law *echo,
+                              const struct power_law *body, double amplitude)
+{
+    if (echo->law != FLUCTUATION_LOG_NORMAL || is_steady(echo))
         return 0;
-    double cut = normal && varying->most == CUT
-                     ? BEYOND_CUT * passes(detection, amplitude * units_amplitude_from_db(to))
-                     : 0;
-    return integral(detection, varying, amplitude, from, to) + cut;
-}
-
-/* The mean over levels of a fluctuating echo's probability, which is smooth, by the trapezoidal
- * rule, which converges exponentially under a normal law. */
-static double levelled_probability(const struct detection_law *detection,
-                                   const struct power_law *varying, double amplitude)
-{
-    double sigma_db = detection->level_sigma_db, step_db = elementary_min(sigma_db / 2, 2);
-    double sum = 0, total = 0;
-    int steps = (int)ceil(16 * sigma_db / step_db);
-    for (int i = 0; i < steps; i++) {
-        double db = i * step_db - 8 * sigma_db;
-        double weight = elementary_exp(-db * db / (2 * sigma_db * sigma_db));
-        double level = units_amplitude_from_db(detection->level_mean_db + db);
-        sum += weight * varying_probability(detection, varying, amplitude * level);
-        total += weight;
-    }
-    return sum / total;
+    double cut = amplitude * units_amplitude_from_db(most_db(echo));
+    return BEYOND_CUT * single_probability(detection, body, cut);
 }
 
 double detection_probability(const struct detection_law *detection, double amplitude)
@@ -156,11 +215,14 @@ double detection_probability(const struct detection_law *detection, double ampli
     struct power_law echo = {detection->fluctuation, level_mean_db(sigma_db), sigma_db, CUT};
     struct power_law body = {FLUCTUATION_LOG_NORMAL, detection->level_mean_db,
                              detection->level_sigma_db, 9};
-    if (body.sigma_db == 0)
-        return varying_probability(detection, &echo, amplitude);
-    if (echo.law == FLUCTUATION_NONE)
-        return varying_probability(detection, &body, amplitude);
-    return levelled_probability(detection, &echo, amplitude);
+    bool narrow = echo.law == FLUCTUATION_LOG_NORMAL && echo.sigma_db < body.sigma_db;
+    double cut = cut_probability(detection, &echo, &body, amplitude);
+    if (is_steady(&body))
+        return cut + single_probability(detection, &echo, amplitude);
+    if (is_steady(&echo))
+        return single_probability(detection, &body, amplitude);
+    return cut + (narrow ? double_probability(detection, &echo, &body, amplitude)
+                         : double_probability(detection, &body, &echo, amplitude));
 }
 
 struct amplitude_search {

@@ -7,7 +7,8 @@
  *
  * An echo of the mean amplitude A, which its body's level may change, is detected if A f meets one
  * threshold and |A f + n| another, with complex Gaussian noise n. A steady echo passes the second
- * threshold T with the probability Q(sqrt 2 A/noise, sqrt 2 T/noise), Marcum's function. */
+ * threshold T with the probability Q(sqrt 2 A/noise, sqrt 2 T/noise), Marcum's function. The first
+ * is lowered so far that it takes little from this (MODEL 8.4). */
 #pragma once
 
 enum fluctuation_law {
@@ -30,6 +31,11 @@ struct detection_law {
     double noise;                         /* RMS of n, both quadratures together; 0: none */
     double level_mean_db, level_sigma_db; /* of a normal level in dB (MODEL 14.22) beside f */
 };
+
+/* The threshold on amplitudes without noise where noise of this RMS >= 0 and a final threshold
+ * follow; >= 0. It takes at most 0.012 from the probability of detection of steady echoes, if the
+ * final one is 10 dB over the noise or more. */
+double detection_lowered_threshold(double final_threshold, double noise);
 
 /* The probability that |amplitude + n| >= threshold, for amplitude >= 0 and threshold > 0: within
  * 1e-12. Below a 600th of the threshold, noise counts as none. */

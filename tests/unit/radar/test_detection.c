@@ -60,6 +60,81 @@ TEST(without_a_final_threshold_the_laws_tails_decide)
     }
 }
 
+/* The closed forms of gamma laws of the power, whose mean is S times the noise's, at y times it. */
+TEST(with_a_final_threshold_alone_fluctuating_echoes_are_detected_by_swerlings_closed_forms)
+{
+    static const double noises[] = {0.001, 0.02, 0.1, 0.25, 0.5, 1, 2};
+    for (size_t i = 0; i < COUNT(noises); i++)
+        for (double amplitude = 0.5; amplitude < 20; amplitude *= 1.3) {
+            struct detection_law detection = {
+                .fluctuation = FLUCTUATION_SWERLING_1, .final_threshold = 2, .noise = noises[i]};
+            double y = 4 / (noises[i] * noises[i]);
+            double ratio = pow(amplitude / noises[i], 2), mean = 1 + ratio / 2;
+            assert_close(detection_probability(&detection, amplitude), exp(-y / (1 + ratio)), 1e-6);
+            detection.fluctuation = FLUCTUATION_SWERLING_3;
+            assert_close(detection_probability(&detection, amplitude),
+                         exp(-y / mean) * (1 + ratio / 2 * y / (mean * mean)), 1e-6);
+        }
+}
+
+/* The sum over 20,000 levels with a deviation of 6 dB. */
+TEST(levels_of_bodies_are_summed_where_noise_decides)
+{
+    static const double firsts[] = {0, 1.5625, 2};
+    for (size_t i = 0; i < COUNT(firsts); i++)
+        for (double amplitude = 0.7; amplitude < 9; amplitude *= 2) {
+            struct detection_law detection = {
+                .threshold = firsts[i], .final_threshold = 2, .noise = 0.25, .level_sigma_db = 6};
+            double sum = 0;
+            for (int k = -10000; k < 10000; k++) {
+                double deviations = (k + 0.5) / 1666;
+                double echo = amplitude * pow(10, 6 * deviations / 20);
+                double passes = echo < 4 ? marcum(4 * echo, 8) : 1;
+                if (echo >= firsts[i])
+                    sum += passes * exp(-deviations * deviations / 2) / sqrt(2 * acos(-1)) / 1666;
+            }
+            assert_close(detection_probability(&detection, amplitude), sum, 1e-4);
+        }
+}
+
+/* Of normal factors the mean of the power is 1; that they are cut changes less than 1e-4. */
+TEST(a_narrow_factor_beside_a_level_is_a_wider_level)
+{
+    for (double sigma_db = 0.05; sigma_db < 1; sigma_db *= 3)
+        for (double amplitude = 0.7; amplitude < 9; amplitude *= 2) {
+            struct detection_law both = {.fluctuation = FLUCTUATION_LOG_NORMAL,
+                                         .fluctuation_sigma_db = sigma_db,
+                                         .final_threshold = 2,
+                                         .noise = 0.02,
+                                         .level_sigma_db = 6};
+            struct detection_law wider = both;
+            wider.fluctuation = FLUCTUATION_NONE;
+            wider.level_sigma_db = hypot(6, sigma_db);
+            wider.level_mean_db = -log(10) / 20 * sigma_db * sigma_db;
+            assert_close(detection_probability(&both, amplitude),
+                         detection_probability(&wider, amplitude), 1e-4);
+        }
+}
+
+TEST(the_lowered_threshold_takes_little_from_marcums_function)
+{
+    static const double thresholds_db[] = {4, 6, 10, 13.2, 18.1, 26};
+    static const double most[] = {0, 0.024, 0.012, 0.012, 0.012, 0.012};
+    for (size_t i = 0; i < COUNT(thresholds_db); i++) {
+        double threshold = pow(10, thresholds_db[i] / 20);
+        struct detection_law detection = {.final_threshold = threshold, .noise = 1};
+        detection.threshold = detection_lowered_threshold(threshold, 1);
+        for (double amplitude = 0.02; amplitude < threshold + 3; amplitude += 0.02) {
+            double lost =
+                marcum(amplitude, threshold) - detection_probability(&detection, amplitude);
+            assert_close(lost, 0, most[i] + 1e-12);
+        }
+    }
+    assert_close(detection_lowered_threshold(2, 0), 2, 0);
+    assert_close(detection_lowered_threshold(2, 0.4), 1.3, 1e-15);
+    assert_close(detection_lowered_threshold(2, 1.2), 0, 0);
+}
+
 /* Both thresholds, by drawing factors and noise as the stages do. */
 TEST(both_thresholds_together_are_those_of_drawn_echoes)
 {
