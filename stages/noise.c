@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "noise/beam_cells.h"
 #include "noise/false_alarm_cells.h"
+#include "noise/steady_cells.h"
 #include "noise/target_list.h"
 #include "radar/interferer.h"
 #include "run/suite_choice.h"
@@ -31,12 +32,21 @@ static size_t measure_cells(struct frame *frame, const struct effect_scan *conte
     return count;
 }
 
+/* The cells that noise decides, or where it does not, those that are detected without it. */
+static struct cell_span cells_of(struct frame *frame, const struct effect_scan *context)
+{
+    if (effect_simulates(context, EFFECT_FINAL_THRESHOLD))
+        return frame_cells_of(frame, context->sensor->name);
+    return steady_cells_of(frame, "noise", context->sensor);
+}
+
 static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
 {
     struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_NOISE);
     struct cell_span alarms = false_alarm_cells_of(frame, &context);
-    struct cell_span cells = beam_cells_of(frame, "noise", sensor, &context);
+    struct cell_span cells =
+        beam_cells_of(frame, "noise", sensor, &context, cells_of(frame, &context));
     struct effect_measurement *measurements =
         arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *measurements);
     size_t count = measure_cells(frame, &context, cells, measurements);

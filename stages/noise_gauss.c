@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "frame/frame.h"
 #include "noise/beam_cells.h"
+#include "noise/steady_cells.h"
 #include "noise/target_list.h"
 #include "run/suite_choice.h"
 
@@ -44,7 +45,8 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
 {
     (void)selection;
-    struct cell_span cells = beam_cells_of(frame, "noise-gauss", sensor, NULL);
+    struct cell_span steady = steady_cells_of(frame, "noise-gauss", sensor);
+    struct cell_span cells = beam_cells_of(frame, "noise-gauss", sensor, NULL, steady);
     struct effect_measurement *measurements =
         arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)

@@ -1,5 +1,6 @@
 /* No noise: the cells become targets as they are. */
 #include "noise/beam_cells.h"
+#include "noise/steady_cells.h"
 #include "noise/target_list.h"
 #include "run/suite_choice.h"
 
@@ -7,7 +8,8 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
 {
     (void)selection;
-    struct cell_span cells = beam_cells_of(frame, "noise-none", sensor, NULL);
+    struct cell_span steady = steady_cells_of(frame, "noise-none", sensor);
+    struct cell_span cells = beam_cells_of(frame, "noise-none", sensor, NULL, steady);
     struct effect_measurement *measurements =
         arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)

@@ -24,6 +24,7 @@ static const char *const laws[] = {[SIGMA_FIXED] = "fixed",
                                    [SIGMA_BY_SNR] = "by_snr",
                                    NULL};
 static const char *const samplings[] = {[IF_REAL] = "real", [IF_COMPLEX] = "complex", NULL};
+static const char *const firsts[] = {[FIRST_LOWERED] = "lowered", [FIRST_FULL] = "full", NULL};
 static const char *const orders[] = {
     [LIST_STRONGEST] = "strongest", [LIST_NEAREST] = "nearest", NULL};
 static const char *const patterns[] = {[ANTENNA_DIPOLE_PAIR] = "dipole_pair",
@@ -195,6 +196,9 @@ static const struct field sensor_fields[] = {
               "period of the radome's error, in azimuth; needed with radome_bias_rad")},
     {MAY_HAVE(radome_phase_rad, -PI, PI, "phase of the radome's error at boresight")},
     {FIELD_FLAG_OF(struct sensor, final_threshold, "test the noisy amplitude once more")},
+    {MAY_CHOOSE(first_threshold, firsts,
+                "of cells before noise: lowered by 1.75 pointer_sigma where final_threshold is "
+                "true, so that noise decides, or full, as in the paper; absent: lowered")},
     {MAY_HAVE(false_alarms, 0, 1e4, "mean number of targets per scan that are nothing but noise")},
     {MAY_HAVE(false_alarm_range_rate_mps, 0, 1e5,
               "false alarms have range rates up to this far from unambiguous_middle_mps"),
@@ -326,6 +330,10 @@ void suite_derive(struct sensor *sensor)
 {
     derive_cells(sensor);
     sensor->threshold = units_amplitude_from_db(sensor->threshold_db);
+    sensor->lowered_threshold =
+        sensor->final_threshold && sensor->first_threshold == FIRST_LOWERED
+            ? detection_lowered_threshold(sensor->threshold, sensor->pointer_sigma)
+            : sensor->threshold;
     sensor->search_sigma = search_sigma(sensor);
     sensor->antenna.pattern = sensor->antenna_pattern;
     if (sensor->array.transmit.count > 0)

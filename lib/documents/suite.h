@@ -26,6 +26,8 @@ enum range_migration {
     MIGRATION_HANN,
     MIGRATION_COMPENSATED
 };
+/* The threshold on cells without noise: lowered where a final threshold follows, or the same. */
+enum first_threshold { FIRST_LOWERED, FIRST_FULL };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
 /* The farthest range that is measured at an azimuth, to either side. */
@@ -84,6 +86,7 @@ struct sensor {
     double window_factor;
     double misalignment_rad, radome_bias_rad, radome_period_rad, radome_phase_rad;
     bool final_threshold;
+    enum first_threshold first_threshold;
     double false_alarms, false_alarm_range_rate_mps;
     double range_step_m, range_rate_step_mps, azimuth_step_rad, elevation_step_rad;
     enum list_order list_order;
@@ -96,6 +99,7 @@ struct sensor {
     struct receiver_curve elevation_levels, floor_levels;
     struct measurement_sigma range_error, range_rate_error;
     double threshold;                         /* linear, on the amplitude */
+    double lowered_threshold;                 /* of a cell before noise; at most the threshold */
     double bin_range_m, bin_range_rate_mps;   /* full width of the stated cell */
     double half_range_m, half_range_rate_mps; /* half the width of a resolution cell */
     double dwell_s;                           /* of a scan's signal */

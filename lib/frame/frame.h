@@ -160,6 +160,7 @@ struct cell {
     double range_m, azimuth_rad, elevation_rad, range_rate_mps;
     double amplitude; /* sum of the members' amplitudes, A_cell of MODEL 6 */
     double sum_re, sum_im, delta_re, delta_im;
+    bool below_threshold; /* only noise can lift it over the threshold (MODEL 8.4) */
     bool sign_undecided;
     double interference; /* power of other radars over that of the sensor's own noise */
     uint64_t effects;    /* EFFECT_BITs of those that changed a value of the cell or a member */

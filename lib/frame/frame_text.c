@@ -193,6 +193,8 @@ static const struct field cell_fields[] = {
     {ELEVATION(struct cell, elevation_rad, "mean of the members and their images, by power")},
     {RATE(struct cell, range_rate_mps, "weighted mean of the members")},
     {AMPLITUDE(struct cell, amplitude, "sum of the members' amplitudes")},
+    {OPTIONAL_FLAG(struct cell, below_threshold,
+                   "only noise can lift the cell over the threshold")},
     {POINTER(struct cell, sum_re, "sum channel without noise")},
     {POINTER(struct cell, sum_im, "sum channel without noise")},
     {POINTER(struct cell, delta_re, "delta channel without noise")},

@@ -171,9 +171,8 @@ static void part(struct frame *frame, const char *stage, const struct parting *p
 }
 
 struct cell_span beam_cells_of(struct frame *frame, const char *stage, const struct sensor *sensor,
-                               const struct effect_scan *scan)
+                               const struct effect_scan *scan, struct cell_span cells)
 {
-    struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct beam_list beams = {{0}};
     if (sensor->beams.count == 0)
         return cells;

@@ -149,18 +149,21 @@ void detection_quality_estimate(struct detection_source *source, bool first_thre
                                 struct effect_measurement *measurements, size_t count)
 {
     struct existence *existence = &source->existence;
-    double least = source->sensor->threshold / source->noise, noise = 0;
+    const struct sensor *sensor = source->sensor;
+    bool final = effect_simulates(source->scan, EFFECT_FINAL_THRESHOLD);
+    double least = sensor->threshold / source->noise, noise = 0;
+    double first = (final ? sensor->lowered_threshold : sensor->threshold) / source->noise;
     existence->least_false_alarm = least * least;
     existence->weakest = existence->least_false_alarm * existence->rise;
     if (effect_simulates(source->scan, EFFECT_FALSE_ALARMS))
-        existence->false_alarms = source->sensor->false_alarms;
+        existence->false_alarms = sensor->false_alarms;
     if (first_threshold)
-        existence->first_threshold = existence->weakest;
-    if (effect_simulates(source->scan, EFFECT_FINAL_THRESHOLD))
+        existence->first_threshold = first * first * existence->rise;
+    if (final)
         existence->least_echo = existence->weakest;
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         noise = source->noise * sqrt(existence->rise);
-    source->channels = noise > 0 && source->sensor->beams.count == 0;
+    source->channels = noise > 0 && sensor->beams.count == 0;
     for (size_t i = 0; i < count; i++) {
         estimate_range(source, &measurements[i], noise);
         estimate_azimuth(source, &measurements[i], noise);

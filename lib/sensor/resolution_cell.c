@@ -199,12 +199,15 @@ void resolution_cell_list(struct frame *frame, const char *stage, const struct e
                           const struct selection *selection, struct cell *cell, bool has_angle)
 {
     double threshold = interferer_threshold(scan->sensor->threshold, scan->interference);
+    double least = interferer_threshold(scan->sensor->lowered_threshold, scan->interference);
     cell->interference = scan->interference;
     if (cell->interference > 0)
         cell->effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
     if (frame_carries(frame, CARRY_MARGINS))
         resolution_cell_note_margins(scan->sensor, cell);
-    if (effects_enabled(selection, EFFECT_THRESHOLD) && cell->amplitude < threshold)
+    bool tested = effects_enabled(selection, EFFECT_THRESHOLD);
+    cell->below_threshold = tested && cell->amplitude < threshold;
+    if (tested && cell->amplitude < least)
         frame_lose_cell(frame, stage, cell, LOSS_BELOW_THRESHOLD,
                         units_shortfall_db(threshold, cell->amplitude), &cell->margins);
     else if (!has_angle)
@@ -313,8 +316,8 @@ struct margins *resolution_cell_margins(const struct sensor *sensor,
 
 void resolution_cell_note_margins(const struct sensor *sensor, struct cell *cell)
 {
-    margins_note(&cell->margins, MARGIN_THRESHOLD,
-                 margins_between_db(cell->amplitude,
-                                    interferer_threshold(sensor->threshold, cell->interference)));
+    double least = interferer_threshold(sensor->lowered_threshold, cell->interference);
+    if (least > 0)
+        margins_note(&cell->margins, MARGIN_THRESHOLD, margins_between_db(cell->amplitude, least));
     margins_note_sign(&cell->margins, sensor->angle_estimator, frame_cell_pointers(cell));
 }

@@ -47,8 +47,8 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
                         size_t count, bool superpose, struct arena *arena, struct cell *cell);
 
 /* Adds the cell of a scan to the frame, with the scan's interference and, in a frame with margins,
- * those of the whole cell. A cell below the detection threshold, if the effect threshold is
- * enabled, or without an angle is lost to the stage instead. */
+ * those of the whole cell. A cell without an angle or, if the effect threshold is enabled, below
+ * the sensor's lowered_threshold is lost to the stage instead. */
 void resolution_cell_list(struct frame *frame, const char *stage, const struct effect_scan *scan,
                           const struct selection *selection, struct cell *cell, bool has_angle);
 
@@ -70,6 +70,6 @@ struct margins *resolution_cell_margins(const struct sensor *sensor,
                                         const struct clustered_echoes *all, size_t cells,
                                         struct arena *arena);
 
-/* Adds the margins of decisions about a whole cell: of the threshold on its summed amplitude, and
- * of the sign of its azimuth, which only the magnitude rule decides. */
+/* Adds the margins of decisions about a whole cell: of the threshold on its summed amplitude,
+ * unless that is 0, and of the sign of its azimuth, which only the magnitude rule decides. */
 void resolution_cell_note_margins(const struct sensor *sensor, struct cell *cell);

@@ -220,9 +220,28 @@ EFFECT_TEST(false_alarms_are_expected_where_they_are_made)
     assert_close(source.existence.false_alarms, 0.5, 0);
     assert_close(source.existence.least_false_alarm, 9, 1e-12);
     assert_close(source.existence.least_echo, 9, 1e-12);
-    assert_close(source.existence.first_threshold, 9, 1e-12);
     estimated(bench, &source, 30, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_FALSE_ALARMS));
     assert_close(source.existence.false_alarms, 0, 0);
+}
+
+/* Lowered by 1.75 of the noise's RMS, from 3 to 1.25, or from 1.5 to nothing. */
+EFFECT_TEST(the_first_threshold_is_that_of_the_sensor)
+{
+    struct sensor *sensor = &bench->sensor;
+    struct detection_source source;
+    sensor->final_threshold = true;
+    sensor->threshold_db = units_amplitude_db(3);
+    estimated(bench, &source, 30, EVERY_EFFECT);
+    assert_close(source.existence.first_threshold, 1.25 * 1.25, 1e-12);
+    estimated(bench, &source, 30, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_FINAL_THRESHOLD));
+    assert_close(source.existence.first_threshold, 9, 1e-12);
+    sensor->first_threshold = FIRST_FULL;
+    estimated(bench, &source, 30, EVERY_EFFECT);
+    assert_close(source.existence.first_threshold, 9, 1e-12);
+    sensor->first_threshold = FIRST_LOWERED;
+    sensor->threshold_db = units_amplitude_db(1.5);
+    estimated(bench, &source, 30, EVERY_EFFECT);
+    assert_close(source.existence.first_threshold, 0, 0);
 }
 
 EFFECT_TEST(rounding_adds_its_own_deviation)

@@ -9,8 +9,11 @@
 enum { ALL = 4 };
 
 /* A sensor with a threshold of 2 and cells that reach 1 m and 2 m/s to either side. */
-static const struct sensor sensor = {
-    .name = "s", .threshold = 2, .half_range_m = 1, .half_range_rate_mps = 2};
+static const struct sensor sensor = {.name = "s",
+                                     .threshold = 2,
+                                     .lowered_threshold = 2,
+                                     .half_range_m = 1,
+                                     .half_range_rate_mps = 2};
 
 static const struct resolution resolution = {1, 2, false};
 

@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
+#include "radar/detection.h"
 #include "radar/monopulse.h"
 #include "radar/point_response.h"
 
@@ -47,6 +48,23 @@ TEST(resolutions)
     PRINTED("6", "δ = # ((ΔR/h_R)²", point_response_resolution(POINT_RESPONSE_PULSE) / 2);
     PRINTED("6", "only below # m, its long side and its corners below # m",
             (0.9 * 0.9 - 0.15 * 0.15) / (2 * 0.15), (2.25 * 2.25 - 0.15 * 0.15) / (2 * 0.15));
+}
+
+/* The probability of detection of a steady echo at the lowered threshold, or at the threshold. */
+static double detected_at(double threshold_db, bool lowered)
+{
+    double threshold = units_amplitude_from_db(threshold_db);
+    double amplitude = lowered ? detection_lowered_threshold(threshold, 1) : threshold;
+    return detection_in_noise(amplitude, threshold, 1);
+}
+
+TEST(detection_in_noise_below_the_threshold)
+{
+    PRINTED("8.4", "Q1 at T_1 # # # # #", detected_at(6, true), detected_at(10, true),
+            detected_at(13.2, true), detected_at(18.1, true), detected_at(26, true));
+    PRINTED("8.4", "Q1 at T # # # # #", detected_at(6, false), detected_at(10, false),
+            detected_at(13.2, false), detected_at(18.1, false), detected_at(26, false));
+    PRINTED("8.4", "noise alone decides, up to # dB", units_amplitude_db(1.75));
 }
 
 static double hann(double bins)
