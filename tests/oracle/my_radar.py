@@ -135,6 +135,8 @@ def public_sheets(bench):
             hold(bench, line, value, expected)
     hold(bench, "azimuths apart", numbers(part, "cell")[2], 1.2)
     hold(bench, "height of the beam", numbers(part, "element's beam")[1], 28)
+    for value, expected in zip(numbers(part, "elevation"), (-14, 1, 0.288, 0.096)):  # the second is the 1 of "1 sigma"
+        hold(bench, "elevation", value, expected, 0.06)
     hold(bench, "azimuth accuracy", last_accuracy(part)[0][2], 0.1, 0.06)
     for dbsm in (0, 10):
         hold(bench, f"{dbsm} dBsm at 25 dB a decade", reach_m(part, 0, dbsm)[0], 300 * 10 ** ((dbsm - 10) / 25))
@@ -253,6 +255,12 @@ def edges(bench):
         lists = posts_of(bench, shares, [(range_m, 0, 0)], DRAWS)
         error_m = rms([one["range_m"] - range_m for targets in lists for one in targets])
         bench.check(abs(error_m / sigma_m - 1) < 0.1, f"ranges scatter by {error_m} m at {range_m} m, not {sigma_m}")
+    for figures, sigma_deg in (({"elevation_accuracy_deg": 0.4}, 0.4), ({"elevation_accuracy_deg": 0.1, "elevation_resolution_deg": 2.3}, 0.1),
+                               ({"elevation_resolution_deg": 2.3}, 2.3 * 0.44 / 10 ** (31.4 / 20))):
+        sensor = sensors_of(bench, PLAIN | {"elevation_view_half_width_deg": 14} | figures)[0]
+        lists = posts_of(bench, sensor, [(15, 0, 0)], DRAWS)
+        error_deg = rms([math.degrees(one["elevation_rad"] - one["cell_elevation_rad"]) for targets in lists for one in targets])
+        bench.check(abs(error_deg / sigma_deg - 1) < 0.1, f"{figures}: elevations scatter by {error_deg}, not {sigma_deg}")
     fine = sensors_of(bench, json.loads((model.ROOT / "data/sheets/ars548-rdi.json").read_text()))[0]
     for sensor, resolution_deg in ((far, 1.6), (near, 3.2), (fine, 1.2)):
         for times, least, most in ((0.3, 0, 0.35), (1, 0.5, 0.8), (2, 1, 1)):
@@ -343,6 +351,8 @@ def random_sheet(generator, name, sensors):
                ("azimuth_accuracy_deg", generator.uniform(0.3, 3)), ("azimuth_resolution_deg", generator.uniform(2, 20)), ("cycle_ms", generator.uniform(20, 90)),
                ("latency_ms", generator.uniform(0, 90)), ("speed_max_kmh", generator.uniform(100, 400)), ("range_accuracy_m", generator.uniform(0.02, 0.5)),
                ("height_m", generator.uniform(0.3, 1)), ("range_accuracy_percent", generator.uniform(0.1, 2)),
+               ("elevation_view_half_width_deg", generator.uniform(5, 20)), ("elevation_accuracy_deg", generator.uniform(0.05, 1)),
+               ("elevation_resolution_deg", generator.uniform(1, 5)),
                ("detections", [{"object": "car", "at_m": far_m * generator.uniform(0.5, 0.9)}, {"dbsm": -3, "at_m": far_m * generator.uniform(0.1, 0.5)}]),
                ("carrier_ghz", generator.uniform(76, 81)), ("list_limit", generator.randrange(10, 300)),
                ("behind_front_bumper_m", generator.uniform(0, 0.5)), ("yaw_right_deg", generator.uniform(-90, 90)), ("range_unambiguous_m", generator.uniform(50, 500))]
@@ -520,6 +530,12 @@ REFUSED = [
     ({"detections": [{"object": "car", "at_m": 60}, {"object": "pedestrian", "at_m": 140}]}, "let echoes fall by -35.3 dB a decade of range"),
     ({"detections": [{"object": "car", "at_m": 140}, {"object": "pedestrian", "at_m": 60}], "members": {"exponent": 2}},
      "detections (1.766) and members, exponent 2, contradict each other: 1.766 follows"),
+    ({"elevation_accuracy_deg": 0.1}, "elevation_accuracy_deg 0.1 needs elevation_view_full_width_deg beside it"),
+    ({"elevation_view_half_width_deg": 14, "elevation_accuracy_deg": 0.01, "elevation_resolution_deg": 2.3},
+     "elevation_accuracy_deg 0.01 is finer than 0.0272 degrees, what elements with elevation_resolution_deg 2.3 have 20 dB above the threshold"),
+    ({"elevation_view_half_width_deg": 14, "members": {"elevation_view_rad": 0.4}}, "elevation_view_half_width_deg 14 and members, elevation_view_rad 0.4, contra"),
+    ({"elevation_view_half_width_deg": 14, "elevation_accuracy_deg": 0.1, "members": {"elevation_floor_rad": 0.01}},
+     "elevation_accuracy_deg 0.1 is asked, and the suite's printed data sheet has 0.5797"),
     ({"range_limits": [{"azimuth_deg": 0, "range_max_m": 100}], "members": {"range_limits": [{"azimuth_rad": 0, "range_max_m": 90}]}},
      'range_limits and members, range_limits [{"azimuth_rad": 0, "range_max_m": 90}], contradict each other'),
     ({"range_accuracy_percent": 0.5, "members": {"range_sigma_share": 0.01}},

@@ -83,12 +83,19 @@ def accuracy(scan):
     return figure and (lambda at: scan.unrounded(between(rows, at) if rows else scan.members["azimuth_sigma_rad"], step, figure))
 
 
+def least_snr(scan):
+    """The ratio of powers at the threshold."""
+    if scan.members["pointer_sigma"] == 0:
+        raise Refused(f"{scan.name}: pointer_sigma 0; the accuracy of angles depends on the noise, expected more than 0")
+    return 10 ** (scan.members["threshold_db"] / 10) / scan.members["pointer_sigma"] ** 2
+
+
 def reference_snr(scan):
-    """The ratio of powers at which accuracies hold."""
+    """The ratio of powers at which accuracies of angles hold."""
     snr_db = scan.figures.take("accuracy_snr_db")
     if snr_db is None:
-        snr_db = scan.members["threshold_db"] - 20 * math.log10(scan.members["pointer_sigma"]) + 20
-        scan.assumed.append(f"the accuracy of azimuths, a standard deviation, holds 20 dB above the threshold, {snr_db:.3g} dB over the noise")
+        snr_db = 10 * math.log10(least_snr(scan)) + 20
+        scan.assume_that(f"the accuracy of angles, a standard deviation, holds 20 dB above the threshold, {snr_db:.3g} dB over the noise")
     return 10 ** (snr_db / 10)
 
 

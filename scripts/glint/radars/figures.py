@@ -18,6 +18,7 @@ NUMBERS = """vehicle_length_m 0.5 50  vehicle_width_m 0.5 10  height_m 0.01 20  
     receding_max_mps 0.1 1e4  approaching_max_mps 0.1 1e4  speed_max_mps 0.1 1e4
     range_accuracy_m 0 1e3  range_accuracy_percent 0 100  speed_accuracy_mps 0 1e3  azimuth_accuracy_deg 1e-4 90  accuracy_snr_db -20 100
     beam_two_way_full_width_deg 0.1 360  elevation_one_way_full_width_deg 0.2 180
+    elevation_view_full_width_deg 0.1 180  elevation_accuracy_deg 1e-4 90  elevation_resolution_deg 0.01 180  elevation_step_deg 0 90
     false_alarm_rate 1e-15 0.1  false_alarms_per_scan 1e-9 1e4
     detected_dbsm -60 60  detected_at_m 0.1 1e5  detection_probability 0.01 0.9999
     range_step_m 0 1e3  speed_step_mps 0 1e3  azimuth_step_deg 0 90  list_limit 0 1e6""".split()

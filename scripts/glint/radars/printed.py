@@ -27,6 +27,7 @@ LINES = ((rf"at x {NUMBER} m, y {NUMBER} m", ("ahead_of_middle_m", 1), ("left_of
          (rf"array +{NUMBER} transmitters in turn, {NUMBER} receivers", ("transmit_positions_wavelengths", 1), ("receive_positions_wavelengths", 1)),
          (rf"(?:element's )?beam +{NUMBER} degrees wide", ("beam_two_way_full_width_deg", DEGREE)),
          (rf"(?:element's )?beam .*, {NUMBER} degrees high", ("elevation_one_way_full_width_deg", DEGREE)),
+         (rf"elevation +within \+-{NUMBER} degrees", ("elevation_view_full_width_deg", 2 * DEGREE)),
          (rf"unambiguous +to {NUMBER} m", ("range_unambiguous_m", 1)),
          (rf"unambiguous [^;]*within \+-{NUMBER} m/s", ("approaching_max_mps", 1)),
          (rf"unambiguous [^;]*within \+-{NUMBER} m/s", ("receding_max_mps", 1)),
@@ -122,12 +123,23 @@ def compare_accuracy(scan, lines):
         asked = figures.take(name)
         if asked:
             hold(scan, figures.spelled(name), asked, float(word), OF_DEVIATIONS * asked, scale(figures.spelled(name)))
+    compare_elevation(scan, lines, (float(row[1]) if snr_db is None else snr_db) - float(rows[0][1]))
     directions = next(line for line in lines if line.startswith("accuracy")).partition(", at")[2].split()
     stated, times = figures.rows("azimuth_accuracies", "accuracy_deg"), 1 if snr_db is None else 10 ** ((snr_db - float(row[1])) / 20)
     for degrees, word in zip(directions, azimuths):
         asked = between(stated, float(degrees) * DEGREE) if stated else figures.take("azimuth_accuracy_deg")
         if asked and word != "-" and float(degrees) < 90 and (stated or degrees == "0" or "array" not in scan.members):
             hold(scan, f"azimuth accuracy at {degrees} degrees", asked, float(word) * DEGREE, OF_DEVIATIONS * asked, DEGREE, times)
+
+
+def compare_elevation(scan, lines, above_db):
+    """The deviation of elevations, so many dB above the threshold. At the threshold it is at most that of an elevation anywhere in the view."""
+    asked, step_rad = scan.figures.take("elevation_accuracy_deg"), scan.members.get("elevation_step_rad", 0)
+    for word, floor in re.findall(rf"1 sigma: {NUMBER} degrees at the threshold, at best {NUMBER}", " ".join(lines)) if asked else ():
+        most, floor_rad = float(word) * DEGREE, float(floor) * DEGREE
+        fades_rad = math.sqrt(max(most ** 2 - floor_rad ** 2, 0)) / 10 ** (above_db / 20)
+        if most < 0.95 * scan.members["elevation_view_rad"] / 12 ** 0.5:
+            hold(scan, "elevation_accuracy_deg", asked, math.hypot(fades_rad, floor_rad, step_rad / 12 ** 0.5), OF_DEVIATIONS * asked, DEGREE)
 
 
 def compare_detection(scan, printed):

@@ -5,7 +5,7 @@ import os
 
 from glint.places import SCHEMAS
 from glint.radars import antennas, detection, printed
-from glint.radars.figures import ABOUT, FIRST, Figures, Refused, scale
+from glint.radars.figures import ABOUT, DEGREE, FIRST, Figures, Refused, scale
 from glint.sets.documents import TABLES, path_of, whole_suite
 from glint.sets.plan import read_json, refuse
 from glint.sets.schema import fault_of
@@ -20,7 +20,8 @@ CLASSES_DBSM = {"car": 10, "truck": 20, "motorcycle": 3, "pedestrian": -3}  # as
 PLAIN = {"mount_z_m": "height_m", "mount_yaw_rad": "yaw_left_deg", "carrier_hz": "carrier_ghz", "range_min_m": "range_min_m",
          "field_of_view_rad": "view_full_width_deg", "latency_s": "latency_ms", "unambiguous_range_m": "range_unambiguous_m",
          "fluctuation": "fluctuation", "range_step_m": "range_step_m", "range_rate_step_mps": "speed_step_mps",
-         "azimuth_step_rad": "azimuth_step_deg", "list_limit": "list_limit", "list_order": "list_order"}
+         "azimuth_step_rad": "azimuth_step_deg", "elevation_view_rad": "elevation_view_full_width_deg",
+         "elevation_step_rad": "elevation_step_deg", "list_limit": "list_limit", "list_order": "list_order"}
 # Members that a suite needs, if the sheet does not state them: value, and the reason for it.
 USUAL = {"mount_y_m": (0, "in the middle of the front"),
          "mount_yaw_rad": (0, "straight ahead"),
@@ -36,10 +37,14 @@ EXPONENT = 1.25
 SLOPE = ("[F] levels of two UMRR-11 fell by 24 and 25 dB a decade of range, of a dense 4D radar by 14, of an ARS430 by 0 to 11 near it; "
          "40 without a control of gain over range")
 EXPONENTS = 0.25, 3  # 5 to 60 dB a decade
+# A row of elements with a beam of 0.886 lambda/D, of width 1, has a deviation of this over the root of the ratio of powers (MODEL 7.5).
+SIGMA_OF_BEAM = math.sqrt(6) / math.tau / 0.8859
+ELEVATION = "elevation_accuracy_deg", "elevation_resolution_deg", "elevation_view_full_width_deg", "elevation_step_deg"
 LEVEL = "calibration_ercs", "calibration_range_m", "range_curve"
 # What holds where a suite has none of these members.
 ABSENT = {"cycle_s": "every frame has a scan", "latency_s": "lists have no latency", "unambiguous_range_m": "ranges do not fold",
           "unambiguous_rate_mps": "range rates do not fold", "sigma_law": "range and speed are equally accurate at every signal",
+          "elevation_view_rad": "elevations are not measured",
           "elevation_half_width_rad elevation_curve": "echoes are equally strong at every elevation",
           "exponent range_curve": "echoes fall by 40 dB a decade of range"}
 
@@ -83,6 +88,11 @@ class Scan:
         if member not in self.members and member not in self.own:
             self.members[member], self.sources[member] = value, f"[A] {reason}"
             self.assumed.append(f"{member} {told(value)}: {reason}")
+
+    def assume_that(self, sentence):
+        """A sentence that several figures need, once."""
+        if sentence not in self.assumed:
+            self.assumed.append(sentence)
 
     def choose(self, member, *given):
         """A member that is the first of some (figure, value); the others that the sheet has must agree. The figure, or None."""
@@ -307,6 +317,32 @@ def accuracy(scan):
     return antennas.tables(scan)
 
 
+def elevation(scan):
+    """The standard deviation of elevations at the threshold, by the beam or by the accuracy, and the floor that makes up the difference."""
+    figures, members, stated = scan.figures, scan.members, [name for name in ELEVATION if name in scan.figures]
+    accuracy_rad, beam_rad = figures.take("elevation_accuracy_deg"), figures.take("elevation_resolution_deg")
+    if stated and "elevation_view_rad" not in members:
+        raise Refused(f"{scan.name}: {figures.told(stated[0])} needs elevation_view_full_width_deg beside it")
+    if stated:
+        scan.assume("mount_z_m", 0.5, "in the bumper; elevation needs a height")
+    if not (accuracy_rad or beam_rad) and (not stated or members.keys() & {"elevation_sigma_rad", "elevation_floor_rad"}):
+        return
+    times = math.sqrt(antennas.reference_snr(scan) / antennas.least_snr(scan))
+    if not (accuracy_rad or beam_rad):
+        accuracy_rad = members["elevation_view_rad"] / 100
+        scan.assumed.append(f"the accuracy of elevations is {accuracy_rad / DEGREE:.3g} degrees, a hundredth of their view")
+    sigma_rad = accuracy_rad and scan.unrounded(accuracy_rad, members.get("elevation_step_rad", 0), "elevation_accuracy_deg")
+    of_beam_rad = SIGMA_OF_BEAM * beam_rad / math.sqrt(antennas.least_snr(scan)) if beam_rad else times * sigma_rad
+    finest_rad = of_beam_rad / times
+    if sigma_rad and sigma_rad < 0.98 * finest_rad:
+        raise Refused(f"{scan.name}: {figures.told('elevation_accuracy_deg')} is finer than {finest_rad / DEGREE:.3g} degrees, what elements with "
+                      f"{figures.told('elevation_resolution_deg')} have {20 * math.log10(times):.3g} dB above the threshold")
+    scan.put("elevation_sigma_rad", of_beam_rad, "elevation_accuracy_deg", "elevation_resolution_deg")
+    scan.drop("elevation_floor_rad")
+    if sigma_rad and sigma_rad > 1.01 * finest_rad:
+        scan.follow("elevation_floor_rad", math.sqrt(sigma_rad ** 2 - finest_rad ** 2))
+
+
 def scan_of(name, figures, base):
     scan = Scan(name, figures, base)
     if base:
@@ -320,6 +356,7 @@ def scan_of(name, figures, base):
     cells(scan)
     thresholds(scan)
     tables = accuracy(scan)
+    elevation(scan)
     scan.assumed += [sentence for names, sentence in ABSENT.items() if not scan.members.keys() & set(names.split())]
     figures.check_used()
     if fault := fault_of(scan.members, SENSOR, name):
