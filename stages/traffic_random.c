@@ -66,7 +66,7 @@ static int traffic_random_start(void *state, struct runner *runner)
     snapshot->density = &random_traffic_densities[traffic->density];
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
-            runner_vehicle(runner, NULL, random_traffic_class_name(class));
+            runner_vehicle(runner, NULL, random_traffic_class_name(class), NULL);
         if (vehicle == NULL)
             return -1;
         snapshot->models[class] = (struct random_traffic_model){vehicle->length_m, vehicle->width_m,

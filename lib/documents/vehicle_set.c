@@ -105,3 +105,33 @@ int vehicle_set_folder(const char *named_by, const char *word, const char **fold
     }
     return refuse_word(named_by, word, arena, diag);
 }
+
+static bool has_digest(const struct vehicle *vehicle, const char *digest)
+{
+    return vehicle != NULL && strcmp(vehicle->digest, digest) == 0;
+}
+
+/* Among the sets, the paper's first; NULL: none has it. Documents with faults do not count. */
+static const struct vehicle *find_digest(const char *class, const char *digest, struct arena *arena)
+{
+    struct diag unused = {0};
+    struct document_names sets = {0};
+    const struct vehicle *vehicle = vehicle_load(class, NULL, arena, &unused);
+    vehicle_set_list(class, &sets, arena, &unused);
+    for (size_t i = 0; i < sets.names.count && !has_digest(vehicle, digest); i++) {
+        const char *folder;
+        vehicle_set_folder("", sets.names.items[i], &folder, arena, &unused);
+        vehicle = vehicle_load(class, folder, arena, &unused);
+    }
+    return has_digest(vehicle, digest) ? vehicle : NULL;
+}
+
+const struct vehicle *vehicle_set_load(const char *class, const char *digest, const char *folder,
+                                       struct arena *arena, struct diag *diag)
+{
+    const struct vehicle *first = vehicle_load(class, folder, arena, diag);
+    if (first == NULL || digest == NULL || has_digest(first, digest))
+        return first;
+    const struct vehicle *other = find_digest(class, digest, arena);
+    return other != NULL ? other : first;
+}

@@ -14,6 +14,11 @@
 int vehicle_set_folder(const char *named_by, const char *word, const char **folder,
                        struct arena *arena, struct diag *diag);
 
+/* The document of a class as vehicle_load finds it, or the one of a set that has this digest; NULL
+ * asks for no digest. Where no document has it, the first that was found. NULL after a message. */
+const struct vehicle *vehicle_set_load(const char *class, const char *digest, const char *folder,
+                                       struct arena *arena, struct diag *diag);
+
 /* The words of the sets beside "paper" that have a document of the class, or of all that there are
  * (NULL), in the order of bytes. 0, or -1 after a message. */
 int vehicle_set_list(const char *class, struct document_names *sets, struct arena *arena,

@@ -42,15 +42,22 @@ static void complete_size(struct object *object, const struct vehicle *vehicle)
         object->height_m = vehicle->height_m;
 }
 
+/* The document of the class that the frame was extracted with before; NULL: none. */
+static const struct class_document *noted_document(const struct frame *frame, const char *class)
+{
+    for (size_t i = 0; i < frame->vehicles.count; i++)
+        if (frame_same_name(frame->vehicles.items[i].class, class))
+            return &frame->vehicles.items[i];
+    return NULL;
+}
+
 /* A frame that was extracted before keeps to its documents. */
 static int note_document(struct frame *frame, const struct vehicle *vehicle, struct diag *diag)
 {
     const char *class = vehicle->reflectors.model;
-    for (size_t i = 0; i < frame->vehicles.count; i++)
-        if (frame_same_name(frame->vehicles.items[i].class, class))
-            return frame->vehicles.items[i].digest == vehicle->digest
-                       ? 0
-                       : vehicle_check_frame(vehicle, frame, diag);
+    const struct class_document *noted = noted_document(frame, class);
+    if (noted != NULL)
+        return noted->digest == vehicle->digest ? 0 : vehicle_check_frame(vehicle, frame, diag);
     *list_add(&frame->vehicles, frame->arena) =
         (struct class_document){.class = class,
                                 .digest = vehicle->digest,
@@ -58,6 +65,16 @@ static int note_document(struct frame *frame, const struct vehicle *vehicle, str
                                 .level = vehicle->level,
                                 .cell_max_m = vehicle->cell_max_m};
     return 0;
+}
+
+/* The document of the object's class, with the digest that the frame notes. */
+static const struct vehicle *document_of(const struct extraction *extraction,
+                                         const struct frame *frame, const struct object *object,
+                                         struct runner *runner)
+{
+    const struct class_document *noted = noted_document(frame, object->class);
+    return runner_vehicle(runner, extraction->folder, object->class,
+                          noted != NULL ? noted->digest : NULL);
 }
 
 /* A new set of this object alone, or NULL if those of its class share one. */
@@ -94,8 +111,7 @@ int extraction_step(const struct extraction *extraction, struct frame *frame, st
 {
     struct object *const *object = frame_order_objects(frame);
     for (size_t i = 0; i < frame->objects.count; i++) {
-        const struct vehicle *vehicle =
-            runner_vehicle(runner, extraction->folder, object[i]->class);
+        const struct vehicle *vehicle = document_of(extraction, frame, object[i], runner);
         if (vehicle == NULL)
             return diag_prefix(runner_diag(runner),
                                "objects[%zu].class: ", (size_t)(object[i] - frame->objects.items));

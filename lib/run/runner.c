@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
-#include "documents/vehicle.h"
+#include "documents/vehicle_set.h"
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "run/suite_choice.h"
@@ -64,14 +64,24 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
     return runner_write_text(runner, &text);
 }
 
-const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class)
+static bool is_asked_for(const struct known_vehicle *known, const char *class, const char *digest)
+{
+    const struct vehicle *vehicle = known->vehicle;
+    return frame_same_name(vehicle->reflectors.model, class) &&
+           (digest != NULL ? frame_same_name(vehicle->digest, digest) : known->by_class);
+}
+
+const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class,
+                                     const char *digest)
 {
     for (size_t i = 0; i < runner->vehicles.count; i++)
-        if (frame_same_name(runner->vehicles.items[i]->reflectors.model, class))
-            return runner->vehicles.items[i];
-    const struct vehicle *vehicle = vehicle_load(class, folder, &runner->arena, &runner->diag);
+        if (is_asked_for(&runner->vehicles.items[i], class, digest))
+            return runner->vehicles.items[i].vehicle;
+    const struct vehicle *vehicle =
+        vehicle_set_load(class, digest, folder, &runner->arena, &runner->diag);
     if (vehicle != NULL)
-        *list_add(&runner->vehicles, &runner->arena) = vehicle;
+        *list_add(&runner->vehicles, &runner->arena) =
+            (struct known_vehicle){vehicle, digest == NULL};
     return vehicle;
 }
 

@@ -17,6 +17,12 @@ struct frame_source {
     void *from;
 };
 
+/* A vehicle document, and whether its class was asked for without a digest. */
+struct known_vehicle {
+    const struct vehicle *vehicle;
+    bool by_class;
+};
+
 struct runner {
     const struct stage *stage;
     void *state;
@@ -32,7 +38,7 @@ struct runner {
     LIST_OF(const struct suite *) suites;
     LIST_OF(const char *)
     notices; /* a line each, printed before the first frame, or at a tool's end */
-    LIST_OF(const struct vehicle *) vehicles;
+    LIST_OF(struct known_vehicle) vehicles;
     struct frame_sequence sequence;    /* of the frames so far, under --complete */
     int64_t expected_frames;           /* 0 if the source does not say */
     struct effect_log *log;            /* of a stage that a tool tries; NULL: none */

@@ -105,9 +105,10 @@ const struct stage *runner_stage(const struct runner *runner);
 /* The log in which the stage notes the effects that it simulates and leaves out; NULL: none. */
 struct effect_log *runner_log(struct runner *runner);
 
-/* The vehicle document of a class (documents/vehicle.h; folder may be NULL), loaded once. Stages
- * ask for suites by suite_choice.h. */
-const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class);
+/* The vehicle document of a class (vehicle_set_load; folder and digest may be NULL), loaded once.
+ * Stages ask for suites by suite_choice.h. */
+const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class,
+                                     const char *digest);
 
 /* What a sink writes: bytes, a text, whose memory is given back, or a record as a line of JSON. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);

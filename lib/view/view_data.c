@@ -135,7 +135,7 @@ static uint32_t sensor_of(struct view_data *data, const struct sensor_view *sens
 
 static void add_object(struct view_data *data, const struct object *object, struct vec2 shift)
 {
-    struct box box = view_frame_box(object, view_frame_vehicle(&data->models, object->class));
+    struct box box = view_frame_box(object, view_frame_vehicle(&data->models, object->class, NULL));
     put_real(data, COLUMN_OBJECT_X, object->x_m + shift.x);
     put_real(data, COLUMN_OBJECT_Y, object->y_m + shift.y);
     put_real(data, COLUMN_OBJECT_YAW, remainder(object->yaw_rad, 2 * acos(-1)));

@@ -41,7 +41,8 @@ bool view_frame_loss_is_notable(enum loss reason)
            reason != LOSS_OUT_OF_RANGE && reason != LOSS_OUT_OF_VIEW && reason != LOSS_SWITCHED_OFF;
 }
 
-const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class)
+const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class,
+                                         const char *digest)
 {
     assert(models->arena != NULL);
     for (size_t i = 0; i < models->list.count; i++)
@@ -50,7 +51,7 @@ const struct vehicle *view_frame_vehicle(struct view_models *models, const char 
     struct diag unused = {0};
     struct view_model *model = list_add(&models->list, models->arena);
     model->class = arena_text(models->arena, class, strlen(class));
-    model->vehicle = vehicle_load(class, models->folder, models->arena, &unused);
+    model->vehicle = vehicle_set_load(class, digest, models->folder, models->arena, &unused);
     return model->vehicle;
 }
 
@@ -58,7 +59,8 @@ int view_frame_check_vehicles(struct view_models *models, const struct frame *fr
                               struct diag *diag)
 {
     for (size_t i = 0; i < frame->vehicles.count; i++) {
-        const struct vehicle *vehicle = view_frame_vehicle(models, frame->vehicles.items[i].class);
+        const struct class_document *used = &frame->vehicles.items[i];
+        const struct vehicle *vehicle = view_frame_vehicle(models, used->class, used->digest);
         if (vehicle != NULL && vehicle_check_frame(vehicle, frame, diag) != 0)
             return -1;
     }

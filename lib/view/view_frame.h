@@ -3,7 +3,7 @@
  * of their class's vehicle document. */
 #pragma once
 
-#include "documents/vehicle.h"
+#include "documents/vehicle_set.h"
 #include "frame/frame.h"
 #include "geometry/kinematics.h"
 
@@ -42,7 +42,9 @@ struct view_models {
     LIST_OF(struct view_model) list;
 };
 
-const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class);
+/* The document with this digest, or any (NULL), when the class is looked up first. */
+const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class,
+                                         const char *digest);
 
 /* Refuses a frame whose reflectors are those of other vehicle documents (DIAG_CONFIG): they would
  * be drawn where they are not. */

@@ -25,7 +25,7 @@ static int traffic_adversarial_start(void *state, struct runner *runner)
     traffic->scene.density = &adversarial_traffic_density;
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
-            runner_vehicle(runner, NULL, random_traffic_class_name(class));
+            runner_vehicle(runner, NULL, random_traffic_class_name(class), NULL);
         if (vehicle == NULL)
             return -1;
         traffic->scene.models[class] = (struct random_traffic_model){

@@ -74,6 +74,38 @@ TEST_OF(scratch, an_unknown_word_gets_the_nearest_set_and_all_sets)
     assert_non_null(strstr(diag.text, "or the path of a folder: ./detaild"));
 }
 
+/* A document that the folder named first does not have, and one that no folder has. */
+TEST_OF(scratch, a_document_is_found_by_its_digest_in_any_set)
+{
+    unsetenv("GLINT_DATA");
+    struct diag diag = {0};
+    const char *folder;
+    assert_done(vehicle_set_folder, "", "detailed", &folder, &scratch->arena);
+    const struct vehicle *paper = vehicle_load("car", NULL, &scratch->arena, &diag);
+    const struct vehicle *detailed = vehicle_load("car", folder, &scratch->arena, &diag);
+    assert_string_not_equal(paper->digest, detailed->digest);
+    const struct {
+        const char *digest, *folder;
+        const struct vehicle *found;
+    } cases[] = {
+        {NULL, NULL, paper},
+        {NULL, folder, detailed},
+        {paper->digest, NULL, paper},
+        {paper->digest, folder, paper},
+        {detailed->digest, NULL, detailed},
+        {detailed->digest, folder, detailed},
+        {"0123456789abcdef", NULL, paper},
+        {"0123456789abcdef", folder, detailed},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        const struct vehicle *found =
+            vehicle_set_load("car", cases[i].digest, cases[i].folder, &scratch->arena, &diag);
+        assert_string_equal(found->digest, cases[i].found->digest);
+        assert_int_equal(found->reflectors.points.count, cases[i].found->reflectors.points.count);
+    }
+    setenv("GLINT_DATA", scratch->directory, 1);
+}
+
 TEST_OF(scratch, sets_are_listed_by_the_classes_that_they_have)
 {
     struct document_names all, cars, vans;

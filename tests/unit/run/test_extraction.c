@@ -39,7 +39,7 @@ static int step(struct bench *bench, extraction_describe *describe)
 
 static const struct vehicle *car_of(struct bench *bench)
 {
-    return runner_vehicle(&bench->runner, NULL, "car");
+    return runner_vehicle(&bench->runner, NULL, "car", NULL);
 }
 
 #define EXTRACTION_TEST(name) TEST_WITH(make_bench, remove_bench, struct bench *bench, name)
