@@ -728,6 +728,29 @@ def suites_that_a_suite_extends_stand_in_the_set(folder):
     refusals(folder, [(extending("../base.json"), "expected a suite that does not extend this one")], 65)
 
 
+def vehicles_are_those_of_the_plan_or_of_its_suites(folder):
+    """A set has the documents of one set of vehicles, whose word or path the plan has, or else all of its suites."""
+    def document(*path):
+        with open(os.path.join(ROOT, "data", *path), "rb") as file:
+            return file.read()
+
+    paper, detailed, wall = document("vehicles/car.json"), document("detailed/vehicles/car.json"), document("vehicles/wall.json")
+    os.mkdir(os.path.join(folder, "mine"))
+    shutil.copy(os.path.join(ROOT, "data/vehicles/van.json"), os.path.join(folder, "mine/car.json"))
+    for number, (members, car) in enumerate((({}, paper), ({"suites": ["lrr77-full"]}, detailed), ({"vehicles": "detailed"}, detailed),
+                                             ({"suites": ["lrr77-full"], "vehicles": "paper"}, paper),
+                                             ({"suites": ["lrr77-full", "radarscenes77-full"]}, detailed),
+                                             ({"suites": [SUITE, "lrr77-full"], "vehicles": "detailed"}, detailed),
+                                             ({"vehicles": "./mine"}, document("vehicles/van.json")))):
+        there = files(begin(folder, snapshots(9, **members), f"set{number}")[0])
+        assert there["documents/vehicles/car.json"] == car, members
+        assert there["documents/vehicles/wall.json"] == wall, members
+    refusals(folder, [(snapshots(9, suites=[SUITE, "lrr77-full"]), "/vehicles: missing; the suites name detailed and paper"),
+                      (snapshots(9, vehicles="mine"), '/vehicles: "mine" is no set of vehicles; expected a word as detailed or paper, '
+                       'or the path of a folder: ./mine')], 65)
+    refusals(folder, [(snapshots(9, vehicles="./nowhere"), "/vehicles: ")], 66)
+
+
 def paths_may_have_any_letters(folder):
     """A plan's folder with letters that mean something to make and the shell, and a table that looks like an option."""
     home = os.path.join(folder, "it's $(my) #1 \"plan\"")
@@ -1017,7 +1040,7 @@ CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole
           blocks_of_time_keep_their_gap, blocks_of_a_resampled_recording_have_all_frames, no_two_scenes_share_a_draw,
           leaks_are_refused, scenes_that_differ_by_a_body_are_alike, copies_of_a_recording_are_known, what_no_frame_of_a_rehearsal_meets_is_refused, what_cannot_be_made_is_refused,
           scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused,
-          suites_that_a_suite_extends_stand_in_the_set, paths_may_have_any_letters,
+          suites_that_a_suite_extends_stand_in_the_set, vehicles_are_those_of_the_plan_or_of_its_suites, paths_may_have_any_letters,
           another_plan_in_the_folder_is_refused, two_plans_at_once_make_one_set, who_finishes_at_once_disturbs_nobody,
           what_is_damaged_is_made_again, temporaries_of_the_living_stay, one_failing_scene_stops_no_other,
           an_ego_may_have_any_letters_in_its_id, a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,
@@ -1025,7 +1048,7 @@ CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole
 # What a set is and that it is refused where it would mislead; the rest is about how it is made.
 IN_QUICK_RUN = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
                 tables_have_the_targets_of_their_lines, counts_add_up_at_the_edges, own_stages_stand_in_a_chain,
-                no_two_scenes_share_a_draw, leaks_are_refused, what_is_damaged_is_made_again]
+                no_two_scenes_share_a_draw, vehicles_are_those_of_the_plan_or_of_its_suites, leaks_are_refused, what_is_damaged_is_made_again]
 
 
 def use(programs):

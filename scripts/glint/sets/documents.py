@@ -126,13 +126,31 @@ def copies_of_suites(plan, plan_folder):
             raise Fault(BAD_DATA, f"{path}: expected a suite of sensors") from error
 
 
+def set_of_vehicles(plan, plan_folder):
+    """The word or path of the plan's vehicles, or else that of all its suites; without a word they are the paper's."""
+    suites = [whole_suite(path_of(word, "suite", plan_folder)) for word in plan["suites"]]
+    words = {plan["vehicles"]} if "vehicles" in plan else {suite.get("vehicles", "paper") for suite in suites}
+    refuse(len(words) > 1, "/vehicles", f"missing; the suites name {' and '.join(sorted(words))}")
+    return words.pop()
+
+
+def folder_of_vehicles(word, plan_folder):
+    """The folder that a word or path means."""
+    if not is_name(word):
+        folder = os.path.join(plan_folder, word)
+        if not os.path.isdir(folder):
+            raise Fault(NO_INPUT, f"/vehicles: {folder}: no such folder")
+        return folder
+    named = [os.path.join(folder, word if word != "paper" else "", "vehicles") for folder in data_folders()]
+    refuse(not any(map(os.path.isdir, named)), "/vehicles",
+           f'"{word}" is no set of vehicles; expected a word as detailed or paper, or the path of a folder: ./{word}')
+    return next(filter(os.path.isdir, named))
+
+
 def copies_of_vehicles(plan, plan_folder):
     """All of them, as traffic may have any class. The user's own stand before the shipped ones."""
     folders = [os.path.join(folder, "vehicles") for folder in reversed(data_folders())]
-    if "vehicles" in plan:
-        folders.append(os.path.join(plan_folder, plan["vehicles"]))
-        if not os.path.isdir(folders[-1]):
-            raise Fault(NO_INPUT, f"/vehicles: {folders[-1]}: no such folder")
+    folders.append(folder_of_vehicles(set_of_vehicles(plan, plan_folder), plan_folder))
     found = {name: os.path.join(folder, name) for folder in folders if os.path.isdir(folder)
              for name in os.listdir(folder) if name.endswith(".json")}
     for name, path in found.items():

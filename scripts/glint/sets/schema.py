@@ -63,7 +63,7 @@ PLAN = record(
         "chain": ("stages from objects to targets, with {suite} where the name of a suite belongs", TEXT),
         "suites": ("radars: names in data/sensors/, or paths from the plan's folder; each makes lists of all traffic",
                    several(TEXT, uniqueItems=True)),
-        "vehicles": ("a folder of vehicle documents, before the shipped ones, from the plan's folder", TEXT),
+        "vehicles": ("a set of vehicle documents, as detailed or paper, or the path of a folder from the plan's folder; absent: that of the suites, or paper", TEXT),
         "seeds": ("of the random numbers; each makes lists of all traffic; absent: 1",
                   several(whole(0, 2 ** 53 - 1), uniqueItems=True)),
         "tables": ("tables of glint-tables beside the lines of each shard: true for CSV, parquet for Parquet by DuckDB; absent: none",
