@@ -41,7 +41,7 @@ FROM read_csv(folder || '/detections.csv*', header = true, auto_detect = false, 
     "quality_existence": reals, -- probability of an echo, not noise alone
     "quality_range_rate_interval_mps": reals, -- m/s: range rates this far apart read alike
     "quality_ambiguity_number": 'BIGINT', -- true range rate less the reported one, in such intervals
-    "quality_looks_merged": 'BOOLEAN', -- do the channels show several echoes, beyond noise?
+    "quality_looks_merged": 'BOOLEAN', -- do the channels or elements show several echoes, beyond noise?
     "quality_merged_objects": 'BOOLEAN', -- are contributors of several objects?
     "quality_merged_reflectors": 'BOOLEAN', -- are contributors of several reflectors?
     "quality_range_rate_over_ground_mps": reals, -- m/s: 0 for what stands

@@ -196,7 +196,7 @@ struct quality {
     double existence;               /* probability of an echo */
     double range_rate_interval_mps; /* rates this far apart read alike */
     int64_t ambiguity_number;       /* label: true rate less reported one, in such intervals */
-    bool looks_merged;              /* do the pointers show several echoes? */
+    bool looks_merged;              /* do pointers or elements show several echoes? */
     bool merged_objects, merged_reflectors; /* labels: are contributors of several? */
     double range_rate_over_ground_mps;      /* without the sensor's own motion */
     double x_sensor_m, y_sensor_m, x_centre_m, y_centre_m;

@@ -235,7 +235,7 @@ static const struct field quality_fields[] = {
                       "true range rate less the reported one, in such intervals"),
      QUALITY_GROUP(FOLDS)},
     {FIELD_FLAG_OF(struct quality, looks_merged,
-                   "do the channels show several echoes, beyond noise?"),
+                   "do the channels or elements show several echoes, beyond noise?"),
      QUALITY_GROUP(POINTERS)},
     {QUALITY_FLAG(merged_objects, "are contributors of several objects?")},
     {QUALITY_FLAG(merged_reflectors, "are contributors of several reflectors?")},

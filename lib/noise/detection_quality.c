@@ -111,11 +111,34 @@ static void estimate_range(const struct detection_source *source,
  */
 static const double SINGLE = 3;
 
-double detection_quality_widening(struct effect_measurement *measurement, double noise)
+/* What several echoes do to the pointers, in standard deviations of noise; 0 for a single one. */
+static double several_in_pointers(const struct effect_measurement *measurement, double noise)
 {
     double quadrature = monopulse_quadrature(measurement->pointers, noise);
-    measurement->looks_merged = fabs(quadrature) > SINGLE;
-    return measurement->looks_merged ? elementary_hypot(1, quadrature) : 1;
+    return fabs(quadrature) > SINGLE ? quadrature : 0;
+}
+
+/* The amplitude of all that an array receives beside a beam's own echo, over the RMS of the noise
+ * in the beam; 0 if noise alone may be as strong. */
+static double several_in_elements(const struct array *array, const struct array_maximum *beam,
+                                  double noise)
+{
+    struct array_others expected = array_noise_beside(array, noise);
+    if (beam->others <= expected.mean + SINGLE * expected.sigma)
+        return 0;
+    return sqrt(beam->others - expected.mean) / noise;
+}
+
+double detection_quality_widening(const struct sensor *sensor,
+                                  struct effect_measurement *measurement, double noise)
+{
+    double several = 0;
+    if (sensor->beams.count == 0)
+        several = several_in_pointers(measurement, noise);
+    else if (measurement->cell->beam != NULL)
+        several = several_in_elements(&sensor->beams, measurement->cell->beam, noise);
+    measurement->looks_merged = several != 0;
+    return elementary_hypot(1, several);
 }
 
 /* The standard deviation is at most that of an azimuth anywhere in the field of view. */
@@ -130,7 +153,7 @@ static void estimate_azimuth(const struct detection_source *source,
     else if (noise > 0)
         sigma_rad = suite_azimuth_sigma_rad(sensor, measurement->azimuth_rad, ratio * ratio);
     if (source->channels)
-        sigma_rad *= detection_quality_widening(measurement, noise);
+        sigma_rad *= detection_quality_widening(sensor, measurement, noise);
     double floor_rad = suite_azimuth_floor_rad(sensor, measurement->azimuth_rad);
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         measurement->azimuth_sigma_rad = elementary_min(elementary_hypot(sigma_rad, floor_rad),
@@ -163,7 +186,7 @@ void detection_quality_estimate(struct detection_source *source, bool first_thre
         existence->least_echo = existence->weakest;
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         noise = source->noise * sqrt(existence->rise);
-    source->channels = noise > 0 && sensor->beams.count == 0;
+    source->channels = noise > 0;
     for (size_t i = 0; i < count; i++) {
         estimate_range(source, &measurements[i], noise);
         estimate_azimuth(source, &measurements[i], noise);

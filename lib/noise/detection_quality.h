@@ -35,7 +35,7 @@ struct detection_source {
     const struct effect_scan *scan; /* NULL: nothing is rounded */
     double noise;                   /* RMS of a channel's own noise; 0: none */
     struct existence existence;
-    bool channels; /* do measurements have noisy pointers of the sum and delta channels? */
+    bool channels; /* do measurements have noisy pointers, or noisy elements of an array? */
     double range_rate_interval_mps; /* range rates this far apart are ambiguous; 0: none are */
 };
 
@@ -49,10 +49,12 @@ struct detection_source detection_quality_source(const struct sensor *sensor,
                                                  struct cell_span cells,
                                                  const struct effect_scan *scan);
 
-/* Sets looks_merged if the pointers differ from those of a single echo by more than 3 standard
- * deviations of noise with this RMS > 0 on each channel. Returns the factor by which the standard
- * deviation of the azimuth grows: > 1 if looks_merged is set, and 1 otherwise. */
-double detection_quality_widening(struct effect_measurement *measurement, double noise);
+/* Sets looks_merged if the pointers, or the elements of an array at a beam, differ from those of a
+ * single echo by more than 3 standard deviations of noise with this RMS > 0 on each channel or in
+ * the beam. Returns the factor by which the standard deviation of the azimuth grows: > 1 if
+ * looks_merged is set, and 1 otherwise. */
+double detection_quality_widening(const struct sensor *sensor,
+                                  struct effect_measurement *measurement, double noise);
 
 /* For glint-noise: sets false alarms and thresholds of the source, and the standard deviations of
  * the measurements as the sensor estimates them: from the measured amplitude, not the exact one.

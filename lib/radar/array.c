@@ -230,6 +230,16 @@ static double bend_of(const struct beam *beam)
     return 2 * (product(beam->slope, beam->slope) + product(beam->value, beam->bend));
 }
 
+/* The mean power of the samples, weighted by the taper. It is that of the mean S, and that of what
+ * the samples have beside it. */
+static double power_of_samples(const struct array *array, const struct phasor *samples)
+{
+    double power = 0;
+    for (size_t n = 0; n < array->count; n++)
+        power += array->weight[n] * product(samples[n], samples[n]);
+    return power;
+}
+
 /* The maximum of |S| near this place; a Newton step that would lead down is not taken. */
 static struct array_maximum refined(const struct array *array, const struct phasor *samples,
                                     double turns)
@@ -245,8 +255,12 @@ static struct array_maximum refined(const struct array *array, const struct phas
     }
     double power = product(beam.value, beam.value);
     double noise = product(beam.slope, beam.slope) + power * array->noise_moment;
-    return (struct array_maximum){turns / array->spacing, sqrt(power),
-                                  sqrt(2 * noise) / (fabs(bend_of(&beam)) * array->spacing)};
+    return (struct array_maximum){
+        .sine = turns / array->spacing,
+        .amplitude = sqrt(power),
+        .sigma = sqrt(2 * noise) / (fabs(bend_of(&beam)) * array->spacing),
+        .others = elementary_max(0, power_of_samples(array, samples) - power),
+    };
 }
 
 /* Puts a maximum in its place among the count stronger and weaker ones. */
@@ -300,6 +314,12 @@ size_t array_keep(const struct array *array, double threshold, double noise,
             maxima[kept++] = maxima[i];
     }
     return kept;
+}
+
+struct array_others array_noise_beside(const struct array *array, double noise)
+{
+    double squares = array->noise * array->noise, element = noise * noise / squares;
+    return (struct array_others){(1 - squares) * element, array->noise * element};
 }
 
 double array_sigma(const struct array *array, double snr)

@@ -47,7 +47,8 @@ struct array {
 /* A maximum of |S|. */
 struct array_maximum {
     double sine, amplitude;
-    double sigma; /* standard deviation of the sine by noise of RMS 1 in a beam */
+    double sigma;  /* standard deviation of the sine by noise of RMS 1 in a beam */
+    double others; /* power in the samples beside one echo of this sine and amplitude */
 };
 
 /* The array of a layout with 1 to ARRAY_MOST_ELEMENTS virtual elements. */
@@ -72,6 +73,13 @@ size_t array_maxima(const struct array *array, const struct phasor *samples,
  * number that is kept. */
 size_t array_keep(const struct array *array, double threshold, double noise,
                   struct array_maximum *maxima, size_t count);
+
+/* The mean and the standard deviation of a maximum's `others` by noise of this RMS in a beam,
+ * beside one strong echo. */
+struct array_others {
+    double mean, sigma;
+};
+struct array_others array_noise_beside(const struct array *array, double noise);
 
 /* |S| of an echo of amplitude 1 at this distance of sines. */
 double array_response(const struct array *array, double distance);

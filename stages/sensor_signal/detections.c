@@ -34,10 +34,10 @@ static double azimuth_sigma_rad(const struct signal_cube *signal, double noise,
                                 struct effect_measurement *measurement)
 {
     double azimuth_rad = measurement->azimuth_rad;
-    if (signal->array->count > 0)
-        return measurement->cell->beam->sigma * noise / elementary_cos(azimuth_rad);
-    double widening = detection_quality_widening(measurement, noise);
+    double widening = detection_quality_widening(signal->sensor, measurement, noise);
     double snr = snr_of(measurement->amplitude, noise);
+    if (signal->array->count > 0)
+        return widening * measurement->cell->beam->sigma * noise / elementary_cos(azimuth_rad);
     return widening * suite_azimuth_sigma_rad(signal->sensor, azimuth_rad, snr);
 }
 
@@ -156,6 +156,7 @@ static void add_beam(struct detections *detections, const struct range_doppler_p
     struct array_maximum *beam = arena_get(arena, sizeof *beam);
     *beam = *maximum;
     beam->sigma *= peak->gain;
+    beam->others /= peak->gain * peak->gain;
     double azimuth_rad = elementary_asin(maximum->sine);
     add(detections, peak, &reading, amplitude, azimuth_rad, arena)->beam = beam;
 }
@@ -367,7 +368,7 @@ void detections_list(const struct detections *detections, struct frame *frame, c
         .scan = noise,
         .range_rate_interval_mps = detections->signal->fold_mps,
         .noise = detections->noise,
-        .channels = detections->noise > 0 && detections->signal->array->count == 0,
+        .channels = detections->noise > 0,
         .existence = existence_in(detections->signal),
     };
     target_list_make(frame, stage, &source, measurements, count);

@@ -1,6 +1,7 @@
 #include "support/effect_bench.h"
 
 #include "noise/detection_quality.h"
+#include "support/array_sensor.h"
 
 static struct contributor parts[] = {
     {.id = {.object = "a", .reflector = "r"}, .range_rate_mps = -40, .weight = 0.4},
@@ -189,6 +190,28 @@ EFFECT_TEST(an_azimuth_of_several_echoes_has_a_wider_deviation)
     assert_true(!alone.looks_merged && several.looks_merged);
     assert_near(several.azimuth_sigma_rad / alone.azimuth_sigma_rad,
                 sqrt(1 + 100 * 100 / (1.01 / 2) * 0.01), 1e-9);
+}
+
+/* 8 elements without a taper: noise of RMS 1 in a beam leaves 7 beside it, with a deviation of
+ * sqrt(8). */
+EFFECT_TEST(an_azimuth_of_a_beam_with_others_in_its_cell_has_a_wider_deviation)
+{
+    struct detection detection = detect(bench);
+    bench->sensor.beams = array_row(8, 0.5, TAPER_RECTANGULAR);
+    struct array_maximum beam = {.amplitude = 100, .sigma = 0.001, .others = 7 + 2.99 * sqrt(8)};
+    detection.cell.beam = &beam;
+    detection.measurement.cell = &detection.cell;
+    struct effect_measurement alone = detection.measurement, several = alone;
+    struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
+    struct detection_source source = {
+        .sensor = &bench->sensor, .scan = &scan, .noise = 1, .existence.rise = 1};
+    detection_quality_estimate(&source, true, &alone, 1);
+    assert_true(!alone.looks_merged);
+    assert_near(alone.azimuth_sigma_rad, 0.001 / cos(PI / 6), 1e-12);
+    beam.others = 7 + 24;
+    detection_quality_estimate(&source, true, &several, 1);
+    assert_true(several.looks_merged);
+    assert_near(several.azimuth_sigma_rad, 5 * 0.001 / cos(PI / 6), 1e-12);
 }
 
 EFFECT_TEST(noise_that_is_not_simulated_has_no_deviation)

@@ -112,6 +112,48 @@ TEST(noise_moves_the_maximum_as_far_as_its_sigma)
     }
 }
 
+/* Beams of 8 elements half a wavelength apart are orthogonal at sines of 1/4. */
+TEST(samples_have_beside_a_beam_the_power_of_other_echoes)
+{
+    struct array array = row(8, TAPER_RECTANGULAR);
+    struct phasor samples[8] = {{0, 0}};
+    struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
+    array_receive(&array, 0, (struct phasor){3, 0}, samples);
+    array_maxima(&array, samples, maxima);
+    assert_close(maxima[0].others, 0, 1e-12);
+    array_receive(&array, 0.5, (struct phasor){0.5, 0}, samples);
+    array_receive(&array, -0.5, (struct phasor){0.5, 0}, samples);
+    array_maxima(&array, samples, maxima);
+    assert_close(maxima[0].sine, 0, 1e-12);
+    assert_near(maxima[0].others, 0.5, 1e-12);
+}
+
+/* The fit of the beam takes a little of both. */
+TEST(noise_beside_a_strong_echo_has_its_mean_and_deviation)
+{
+    enum { DRAWS = 4000 };
+    struct array array = row(16, TAPER_HANN);
+    struct random_address address = {.seed = 5};
+    double noise = 0.1, sum = 0, squares = 0, draw[4];
+    for (address.item = 0; address.item < DRAWS; address.item++) {
+        struct phasor samples[ARRAY_MOST_ELEMENTS] = {{0, 0}};
+        struct array_maximum maxima[ARRAY_MOST_ELEMENTS];
+        array_receive(&array, 0.3, (struct phasor){10, 0}, samples);
+        for (uint32_t n = 0; n < 16; n++) {
+            random_gaussian(&address, RANDOM_ELEMENTS, n, draw);
+            samples[n].re += noise / array.noise * sqrt(0.5) * draw[0];
+            samples[n].im += noise / array.noise * sqrt(0.5) * draw[1];
+        }
+        array_maxima(&array, samples, maxima);
+        sum += maxima[0].others;
+        squares += maxima[0].others * maxima[0].others;
+    }
+    struct array_others expected = array_noise_beside(&array, noise);
+    double mean = sum / DRAWS;
+    assert_near(mean, expected.mean, 0.06);
+    assert_near(sqrt(squares / DRAWS - mean * mean), expected.sigma, 0.12);
+}
+
 TEST(side_lobes_of_a_strong_echo_are_no_echoes)
 {
     struct array array = row(16, TAPER_RECTANGULAR);
