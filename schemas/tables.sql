@@ -62,7 +62,6 @@ FROM read_csv(folder || '/detections.csv*', header = true, auto_detect = false, 
     "path": 'VARCHAR', -- path of the echo's wave
     "mirror": 'VARCHAR', -- id of the object that mirrors, on paths by a wall
     "number": 'BIGINT', -- from 1, if there may be several that are else alike
-    "elevation_rad": reals, -- rad: from the horizontal, positive upwards, exact
     "weight": reals, -- share of the cell's amplitude
     "sensor_x_m": reals, -- m: place of the sensor at the measurement, from the frame's origin
     "sensor_y_m": reals, -- m: place of the sensor at the measurement, from the frame's origin

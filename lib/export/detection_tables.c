@@ -157,8 +157,8 @@ static const char *const all[] = {NULL};
 /* Columns that stand elsewhere in the row, or say the same for every row. */
 static const char *const known_of_scan[] = {"name", "measured", "age_s", NULL};
 /* Of the label's echo its names and its weight. */
-static const char *const values[] = {"range_m", "azimuth_rad", "range_rate_mps",
-                                     "ercs",    "time_s",      NULL};
+static const char *const values[] = {
+    "range_m", "azimuth_rad", "elevation_rad", "range_rate_mps", "ercs", "time_s", NULL};
 
 /* The structs whose members make a row, in its order. */
 static const struct {
