@@ -75,6 +75,16 @@ bool frame_same_object(const struct echo_id *a, const struct echo_id *b)
            frame_same_name(a->object, b->object);
 }
 
+struct vec2 frame_target_place(const struct target *target)
+{
+    struct vec2 place_m = vec2_scale(target->range_m, vec2_heading(target->azimuth_rad));
+    if ((target->present & VALUE_ELEVATION) == 0)
+        return place_m;
+    double up_m = target->range_m * elementary_sin(target->elevation_rad);
+    double ahead_m = sqrt(elementary_max(place_m.x * place_m.x - up_m * up_m, 0));
+    return (struct vec2){copysign(ahead_m, place_m.x), place_m.y};
+}
+
 const struct contributor *frame_strongest(const struct target *target)
 {
     const struct contributor *strongest = NULL;

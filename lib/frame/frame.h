@@ -360,6 +360,10 @@ struct object *frame_object_of(const struct frame *frame, const struct echo_id *
 /* True if both echoes are of one object, or both of no object and named alike. */
 bool frame_same_object(const struct echo_id *a, const struct echo_id *b);
 
+/* The place of a target in the axes of its sensor: x along the boresight, y to the left, in the
+ * plane of the road. A measured elevation shortens x, as the azimuth is the angle of a cone. */
+struct vec2 frame_target_place(const struct target *target);
+
 /* The contributor of the greatest weight, the first of equals; NULL: the target has no label. */
 const struct contributor *frame_strongest(const struct target *target);
 

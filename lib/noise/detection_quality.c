@@ -274,7 +274,7 @@ static void add_places(const struct frame *frame, const struct target *target,
     const struct sensor_view *view = frame_view(frame, target->sensor);
     const struct object *ego = frame_object(frame, frame->ego);
     struct vec2 sight = vec2_heading(target->azimuth_rad);
-    struct vec2 place_m = vec2_scale(target->range_m, sight);
+    struct vec2 place_m = frame_target_place(target);
     struct vec2 centre_m = vec2_add((struct vec2){view->mount_x_m, view->mount_y_m},
                                     vec2_turn(place_m, vec2_heading(view->mount_yaw_rad)));
     quality->x_sensor_m = to_part(place_m.x, parts);

@@ -58,13 +58,14 @@ QUALITY = (lambda value: type(value) is dict and all(map(number(-1e9, 1e9, (int,
 PLACE, ANGLE, SPEED, ORIGIN = (number(-most, most) for most in (1e7, 1e6, 1e4, 1e9))
 OBJECT = {"id": NAME, "x_m": PLACE, "y_m": PLACE, "yaw_rad": ANGLE, "vx_mps": SPEED, "vy_mps": SPEED,
           "yaw_rate_radps": number(-1e3, 1e3)}
-SENSOR = {"name": NAME, "mount_x_m": PLACE, "mount_y_m": PLACE, "mount_yaw_rad": ANGLE, "age_s": number(0, 1e6)}
+SENSOR = {"name": NAME, "mount_x_m": PLACE, "mount_y_m": PLACE, "mount_z_m": number(0, 100), "mount_yaw_rad": ANGLE,
+          "age_s": number(0, 1e6)}
 TARGET = {"sensor": NAME, "range_m": number(0, 1e7), "azimuth_rad": number(-math.pi, math.pi),
-          "range_rate_mps": number(-1e6, 1e6), "amplitude_db": SPEED, "quality": QUALITY,
+          "range_rate_mps": number(-1e6, 1e6), "amplitude_db": SPEED, "elevation_rad": ANGLE, "quality": QUALITY,
           "contributors": [{"object": NAME, "reflector": NAME, "weight": number(0, 1)}]}
 FRAME = {"scene": NAME, "seed": SEED, "frame": WHOLE, "time_s": number(-1e10, 1e10), "ego": NAME, "origin_x_m": ORIGIN,
          "origin_y_m": ORIGIN, "objects": [OBJECT], "sensors": {"list": [SENSOR]}, "targets": [TARGET]}
-OPTIONAL = {*FRAME, "age_s", "quality"}
+OPTIONAL = {*FRAME, "age_s", "elevation_rad", "mount_z_m", "quality"}
 
 
 def fault(value, shape, optional=OPTIONAL):
@@ -252,9 +253,21 @@ def to_world(frame, x, y, carrier=None):
     return (x + carrier["x_m"] + frame.get("origin_x_m", 0), y + carrier["y_m"] + frame.get("origin_y_m", 0))
 
 
+def sight(target):
+    """The direction of a target in the sensor's axes: ahead, left and up. Its azimuth is the angle of a cone."""
+    c, s, up = math.cos(target["azimuth_rad"]), math.sin(target["azimuth_rad"]), math.sin(target.get("elevation_rad", 0))
+    return math.copysign(math.sqrt(max(c * c - up * up, 0)), c) if up else c, s, up
+
+
+def height(frame, target, system="world"):
+    """z of a target: over the road, or from the sensor; 0 from a sensor that measures no elevation."""
+    up_m = target["range_m"] * sight(target)[2]
+    return up_m if system == "sensor" else up_m + sensor(frame, target["sensor"]).get("mount_z_m", 0)
+
+
 def place(frame, target, system="world"):
     """x and y of a target in a coordinate system, when it was measured."""
-    x, y = turned(target["range_m"], 0, target["azimuth_rad"])
+    x, y = (target["range_m"] * part for part in sight(target)[:2])
     if system == "sensor":
         return x, y
     mount = sensor(frame, target["sensor"])
@@ -293,13 +306,16 @@ def owner(echo):
 def detections(frame, system="world"):
     """The targets of a frame as columns: numbers as arrays of doubles, `sensor`, `object`, `reflector` and `path` as
     lists of names. These are of the label; object is "" for clutter and false alarms, and path "" where the frame
-    has none. Frames that carry `quality` (`glint-ideal --sections quality`) give its numbers as well, NaN where a
-    target lacks one."""
+    has none. A sensor that measures elevation gives `elevation_rad` and `z_m`. Frames that carry `quality` (`glint-ideal
+    --sections quality`) give its numbers as well. Where a target lacks one of these, it is NaN."""
     targets = frame.get("targets", [])
     columns = {name: array.array("d", (one[name] for one in targets)) for name in MEASURED}
     places = [place(frame, one, system) for one in targets]
     columns["x_m"] = array.array("d", (x for x, _ in places))
     columns["y_m"] = array.array("d", (y for _, y in places))
+    if any("elevation_rad" in one for one in targets):
+        columns["elevation_rad"] = array.array("d", (one.get("elevation_rad", math.nan) for one in targets))
+        columns["z_m"] = array.array("d", (height(frame, one, system) if "elevation_rad" in one else math.nan for one in targets))
     columns["rate_over_ground_mps"] = array.array("d", (rate_over_ground(frame, one) for one in targets))
     columns["sensor"] = [one["sensor"] for one in targets]
     told = [one.get("quality", {}) for one in targets]

@@ -31,12 +31,14 @@ static void add_point(struct osi_trace *trace, const struct frame *frame,
 {
     const struct contributor *from = frame_strongest(target);
     const struct quality *quality = &target->quality;
-    struct vec2 place_m = vec2_scale(target->range_m, vec2_heading(target->azimuth_rad));
+    struct vec2 place_m = frame_target_place(target);
+    bool measured = (target->present & VALUE_ELEVATION) != 0;
+    double up_m = measured ? target->range_m * elementary_sin(target->elevation_rad) : 0;
     bool known = from != NULL && frame_object_of(frame, &from->id) != NULL;
     bool over_ground = (quality->present & QUALITY_EGO) != 0;
     const float reals[REALS] = {(float)place_m.x,
                                 (float)place_m.y,
-                                0,
+                                (float)up_m,
                                 (float)target->range_m,
                                 (float)target->azimuth_rad,
                                 (float)target->range_rate_mps,

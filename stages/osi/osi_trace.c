@@ -286,6 +286,8 @@ static Osi3__RadarDetection *detection_of(struct osi_trace *trace, const struct 
     own->object_id =
         known ? object_id(trace, from->id.object) : NUMBERS(trace, identifier, no_object);
     own->position = NUMBERS(trace, spherical3d, target->range_m, target->azimuth_rad);
+    if ((target->present & VALUE_ELEVATION) != 0)
+        SET(own->position, elevation, target->elevation_rad);
     SET(own, radial_velocity, 0 - target->range_rate_mps);
     own->ambiguity_id =
         NUMBERS(trace, identifier, (quality->present & QUALITY_FOLDS) != 0 ? number : 0);
@@ -299,6 +301,8 @@ static Osi3__RadarDetection *detection_of(struct osi_trace *trace, const struct 
     if ((quality->present & QUALITY_ERRORS) != 0) {
         own->position_rmse =
             NUMBERS(trace, spherical3d, quality->range_sd_m, quality->azimuth_sd_rad);
+        if ((quality->present & QUALITY_ELEVATION) != 0)
+            SET(own->position_rmse, elevation, quality->elevation_sd_rad);
         SET(own, radial_velocity_rmse, quality->range_rate_sd_mps);
     }
     return own;

@@ -256,6 +256,12 @@ function scanOfTarget(frame, target) {
     return -1;
 }
 
+// The row of a target's elevation; -1: its sensor measures none.
+function elevationRow(target) {
+    const begin = starts('target_elevations');
+    return begin[target + 1] > begin[target] ? begin[target] : -1;
+}
+
 // The range rate as reported, or compensated for the sensor's own motion. A compensated rate is null if
 // the rate is folded, or if the stream has no ego.
 function rateOf(scan, target, compensated) {

@@ -315,6 +315,12 @@ function tableRow(cells, tag) {
     return row;
 }
 
+function elevationRows(target) {
+    const row = elevationRow(target);
+    const words = name => `${round(column(name)[row] * degrees, 2)}°`;
+    return row < 0 ? [] : [tableRow(['elevation', words('elevation_reported_rad'), words('elevation_cell_rad')])];
+}
+
 function valuesTable(scan, target) {
     const table = make('table', null, 'values');
     const value = name => column(name)[target];
@@ -327,6 +333,7 @@ function valuesTable(scan, target) {
             `${round(value('target_cell_range_m'), 3)} m`]),
         tableRow(['azimuth off boresight', `${round(value('target_azimuth_rad') * degrees, 2)}°`,
             `${round(value('target_cell_azimuth_rad') * degrees, 2)}°`]),
+        ...elevationRows(target),
         tableRow(['range rate', `${round(value('target_range_rate_mps'), 3)} m/s`,
             `${round(value('target_cell_range_rate_mps'), 3)} m/s`]),
         tableRow(['… over ground', ground === null ? unknown : `${round(ground, 3)} m/s`, '']),
@@ -356,6 +363,7 @@ function qualityRows(target) {
         ['cross section', number('rcs_dbsm', 1, ' dBsm')],
         ['deviation of range', number('range_sd_m', 3, ' m')],
         ['… of azimuth', number('azimuth_sd_rad', 2, '°', degrees)],
+        ...Number.isNaN(value('elevation_sd_rad')) ? [] : [['… of elevation', number('elevation_sd_rad', 2, '°', degrees)]],
         ['… of range rate', number('range_rate_sd_mps', 3, ' m/s')],
         ['exists with', Number.isNaN(value('existence')) ? 'not known' : percent(value('existence'), 1)],
         ['rate less the sensor’s own', number('range_rate_over_ground_mps', 3, ' m/s')],

@@ -45,7 +45,7 @@ class Writer:
         x, y = glint.to_world(frame, sensor["mount_x_m"], sensor["mount_y_m"], carrier)
         yaw = carrier["yaw_rad"] + sensor["mount_yaw_rad"]
         focal = number(WIDTH / 2 / math.tan(min(sensor["field_of_view_rad"], WIDEST_RAD) / 2), 6)
-        points = [(*glint.place(frame, one, "sensor"), 0, one["quality"]["rcs_dbsm"], one["range_rate_mps"],
+        points = [(*glint.place(frame, one, "sensor"), glint.height(frame, one, "sensor"), one["quality"]["rcs_dbsm"], one["range_rate_mps"],
                    one["quality"]["range_rate_over_ground_mps"], 0) for one in targets]
         camera = f"{focal} 0 {WIDTH / 2} 0 0 {focal} {HEIGHT / 2} 0 0 0 1 0\n"
         c, s = math.cos(yaw), math.sin(yaw)  # the camera's x is right, y down and z ahead

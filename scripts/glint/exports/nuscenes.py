@@ -33,10 +33,10 @@ def rms_codes(along, along_sd, across_sd, angle):
 def point_of(fields, count, target):
     """The fields of a point. Its velocities are rates along the line of sight, as vectors."""
     quality, angle, r, rate = target["quality"], target["azimuth_rad"], target["range_m"], target["range_rate_mps"]
-    c, s, ground, angle_sd = math.cos(angle), math.sin(angle), quality["range_rate_over_ground_mps"], quality["azimuth_sd_rad"]
+    (c, s, up), ground, angle_sd = glint.sight(target), quality["range_rate_over_ground_mps"], quality["azimuth_sd_rad"]
     if len(fields) == 7:  # of TruckScenes
-        return r * c, r * s, 0, rate * c, rate * s, 0, quality["rcs_dbsm"]
-    return (r * c, r * s, 0, 1 if abs(ground) < MOVING_MPS else 0 if ground > 0 else 2, count, quality["rcs_dbsm"],
+        return r * c, r * s, r * up, rate * c, rate * s, rate * up or 0, quality["rcs_dbsm"]
+    return (r * c, r * s, r * up, 1 if abs(ground) < MOVING_MPS else 0 if ground > 0 else 2, count, quality["rcs_dbsm"],
             rate * c, rate * s, ground * c, ground * s, 1, 1 if quality.get("ambiguity_number") else 3,
             *rms_codes(r, quality["range_sd_m"], r * angle_sd, angle), 0, 1 + sum(1 - quality["existence"] >= limit for limit in PDH0),
             *rms_codes(rate, quality["range_rate_sd_mps"], abs(rate) * angle_sd, angle))
@@ -121,7 +121,7 @@ class Writer:
         path = f"samples/{channel}/{self.scene['token'][:8]}__{channel}__{at}.pcd"
         points = [point_of(self.fields, i, one) for i, one in enumerate(targets)]
         self.output.scan(path, radar_file(self.layout["point"], self.fields, points), frame, sensor, targets)
-        places, age_s = [(*glint.place(frame, one), sensor["mount_z_m"]) for one in targets], sensor.get("age_s", 0)
+        places, age_s = [(*glint.place(frame, one), glint.height(frame, one)) for one in targets], sensor.get("age_s", 0)
         return {"path": path, "at": at, "channel": channel, "sensor": sensor, "age_s": age_s,
                 "counts": {box["id"]: sum(inside(box, *place) for place in places) for box in boxes(frame, age_s)}}
 
