@@ -40,9 +40,12 @@ WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 # Contraction would let a compiler round a*b+c once instead of twice, and so change results.
 # gcc 12's vectorizer does it all the same where a subtraction and an addition stand side by side.
 EXACT = -ffp-contract=off -fno-fast-math -fno-tree-vectorize -fno-tree-slp-vectorize
-HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib -MMD -MP $(SANITIZE) $(CPPFLAGS)
+# Files that end in .zst are read and written where libzstd is there; make ZSTD= leaves it out.
+ZSTD ?= $(shell pkg-config --exists libzstd && echo yes)
+zstd_libs = $(if $(ZSTD),-lzstd)
+HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib -MMD -MP $(SANITIZE) $(if $(ZSTD),-DGLINT_ZSTD) $(CPPFLAGS)
 LINK = $(CC) $(SANITIZE) $(LDFLAGS)
-LIBS = -ljansson -lcsv -lz -lm
+LIBS = -ljansson -lcsv -lz $(zstd_libs) -lm
 
 # Plug-ins: folders of stages/ with what needs a library of its own or speaks a foreign format. The Makefile of each
 # says what it needs and which stages it has, and builds them (stages/plugin.mk). A plug-in is left out where what
@@ -315,7 +318,7 @@ install: all man
 	$(call install_as_one,$(full_programs))
 	install -m 644 $(BUILD)/libglint.a $(DESTDIR)$(LIBDIR)
 	strip -g $(DESTDIR)$(LIBDIR)/libglint.a
-	sed 's/@version@/$(version)/; s:@prefix@:$(pc_prefix):' stages/glint.pc >$(DESTDIR)$(LIBDIR)/pkgconfig/glint.pc
+	sed 's/@version@/$(version)/; s/@zstd@/$(zstd_libs)/; s:@prefix@:$(pc_prefix):' stages/glint.pc >$(DESTDIR)$(LIBDIR)/pkgconfig/glint.pc
 	$(Q)for header in $(headers:lib/%=%); do \
 	    install -D -m 644 lib/$$header $(DESTDIR)$(PREFIX)/include/glint/$$header || exit 1; done
 	$(Q)for page in $(BUILD)/man/*.1; do \

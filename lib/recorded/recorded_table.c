@@ -9,6 +9,7 @@
 #include "text/csv_table.h"
 #include "text/field.h"
 #include "text/file_format.h"
+#include "text/packing.h"
 
 static const struct csv_table_form form = {
     .names = recorded_layouts_ngsim_names, .preamble = "esmini ", .header = "Index "};
@@ -304,7 +305,7 @@ static struct input *open_beside(const char *table_path, const char *name, const
 {
     enum { LETTERS = sizeof "tracks" - 1 };
     const char *slash = strrchr(table_path, '/'), *base = slash != NULL ? slash + 1 : table_path;
-    size_t length = strcspn(base, "."), plain = strlen(base + length);
+    size_t length = strcspn(base, ".");
     const char *ending = base + length;
     *path = table_path;
     if (length < LETTERS || memcmp(ending - LETTERS, "tracks", LETTERS) != 0) {
@@ -312,19 +313,17 @@ static struct input *open_beside(const char *table_path, const char *name, const
                   "expected a table named NN_tracks.csv, to find NN_%s.csv beside it", name);
         return NULL;
     }
-    if (plain > 3 && strcmp(ending + plain - 3, ".gz") == 0)
-        plain -= 3;
     *path = arena_format(arena, "%.*s%s%.*s", (int)(ending - LETTERS - table_path), table_path,
-                         name, (int)plain, ending);
-    struct diag fault = {0};
+                         name, (int)packing_plain_length(ending), ending);
+    struct diag fault = {0}, other = {0};
     struct input *input = input_open(*path, &fault);
-    if (input != NULL)
-        return input;
-    const char *packed = arena_format(arena, "%s.gz", *path);
-    input = input_open(packed, diag);
+    for (enum packing each = PACKING_GZIP; input == NULL && each <= PACKING_ZSTD; each++) {
+        const char *packed = arena_format(arena, "%s%s", *path, packing_ending(each));
+        input = input_open(packed, &other);
+        *path = input != NULL ? packed : *path;
+    }
     if (input == NULL)
         *diag = fault;
-    *path = input != NULL ? packed : *path;
     return input;
 }
 

@@ -8,7 +8,8 @@
 static const struct field common_fields[] = {
     {OPTIONAL_NAME(
          struct common_options, output,
-         "write to this file instead of standard output, compressed if its name ends in .gz; the "
+         "write to this file instead of standard output, compressed if its name ends in .gz or "
+         ".zst; the "
          "file appears when it is complete; a file that it replaces gives it its mode and owner"),
      .word = "FILE"},
     {OPTIONAL_NAME(

@@ -11,6 +11,7 @@
 #include "run/suite_choice.h"
 #include "score/reference_stream.h"
 #include "text/data_folder.h"
+#include "text/packing.h"
 #include "text/path.h"
 #include "text/record_write.h"
 
@@ -341,17 +342,10 @@ static struct output *add_output(struct runner *runner, const char *path)
     return output;
 }
 
-/* The length of a name without ".gz" at its end. */
-static size_t plain_length(const char *name)
-{
-    size_t length = strlen(name);
-    return length > 3 && strcmp(name + length - 3, ".gz") == 0 ? length - 3 : length;
-}
-
 bool runner_output_ends(const struct runner *runner, const char *ending)
 {
     const char *path = runner->common.output != NULL ? runner->common.output : "";
-    size_t length = plain_length(path), end = strlen(ending);
+    size_t length = packing_plain_length(path), end = strlen(ending);
     return length > end && strncasecmp(path + length - end, ending, end) == 0;
 }
 
@@ -359,13 +353,13 @@ int runner_require_ending(struct runner *runner, const char *ending)
 {
     const char *path = runner->common.output != NULL ? runner->common.output : "";
     const char *name = strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path;
-    size_t length = plain_length(name);
+    size_t length = packing_plain_length(name);
     bool has_ending = length > 1 && memchr(name + 1, '.', length - 1) != NULL;
     if (!has_ending || runner_output_ends(runner, ending))
         return 0;
     return diag_fail(&runner->diag, DIAG_USAGE,
-                     "--output: the ending of \"%s\" is unknown; expected %s, with .gz behind it "
-                     "or without",
+                     "--output: the ending of \"%s\" is unknown; expected %s, with .gz or .zst "
+                     "behind it or without",
                      path, ending);
 }
 

@@ -115,11 +115,12 @@ int runner_write(struct runner *runner, const char *bytes, size_t length);
 int runner_write_text(struct runner *runner, struct text *text);
 int runner_write_record(struct runner *runner, const struct record *record, const void *base);
 
-/* True if the name that --output gives ends in this, or in this and .gz, in letters of any case. */
+/* True if the name that --output gives ends in this, or in this and .gz or .zst, in letters
+ * of any case. */
 bool runner_output_ends(const struct runner *runner, const char *ending);
 
-/* Refuses (64) a name that --output gives if it has another ending than this, with .gz behind it or
- * without. */
+/* Refuses (64) a name that --output gives if it has another ending than this, with .gz or .zst
+ * behind it or without. */
 int runner_require_ending(struct runner *runner, const char *ending);
 
 /* True if nothing is given by --output, and standard output is a terminal. */

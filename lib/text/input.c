@@ -7,9 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <zlib.h>
-
 #include "base/arena.h"
+#include "text/packing.h"
 
 enum { RAW_SIZE = 64 * 1024, LINE_STEP = 64 * 1024, HEAD_SIZE = 4096 };
 
@@ -18,9 +17,10 @@ struct input {
     const char *name;
     struct input_pause pause;
     size_t raw_at, raw_end;
-    bool sniffed, gzip, inside_member, damaged;
-    z_stream stream;
-    struct text line; /* bytes that were read; bytes from line_at on are not used yet */
+    bool sniffed;
+    enum packing packing;
+    struct unpacker *unpacker; /* NULL for plain bytes */
+    struct text line;          /* bytes that were read; bytes from line_at on are not used yet */
     size_t line_at;
     size_t head_length;
     char head[HEAD_SIZE];
@@ -53,8 +53,7 @@ void input_close(struct input *input)
 {
     if (input == NULL)
         return;
-    if (input->gzip)
-        inflateEnd(&input->stream);
+    unpacker_end(input->unpacker);
     if (input->fd != STDIN_FILENO)
         close(input->fd);
     text_free(&input->line);
@@ -107,34 +106,13 @@ static int fill(struct input *input, struct diag *diag)
     return got > 0;
 }
 
-/* Makes zlib ready for the member; Z_OK, or its reason not to be. */
-static int ready_stream(struct input *input)
-{
-    if (input->inside_member)
-        return Z_OK;
-    if (input->gzip)
-        return inflateReset(&input->stream);
-    return inflateInit2(&input->stream, 16 + MAX_WBITS);
-}
-
-static int start_member(struct input *input, struct diag *diag)
-{
-    int done = ready_stream(input);
-    if (done == Z_MEM_ERROR)
-        memory_get((size_t)-1);
-    if (done != Z_OK)
-        return diag_fail(diag, DIAG_INTERNAL, "zlib refuses to start");
-    input->gzip = input->inside_member = true;
-    return 0;
-}
-
-/* An empty file is an empty stream; but a name in .gz promises gzip data, which have a header. */
+/* An empty file is an empty stream; but the ending of a packed name promises bytes, a header. */
 static int check_empty(const struct input *input, struct diag *diag)
 {
-    size_t length = strlen(input->name);
-    if (length < 3 || strcmp(input->name + length - 3, ".gz") != 0)
+    enum packing promised = packing_of_name(input->name);
+    if (promised == PACKING_NONE)
         return 0;
-    return diag_fail(diag, DIAG_DATA, "0 bytes; expected gzip data");
+    return diag_fail(diag, DIAG_DATA, "0 bytes; expected %s data", packing_name(promised));
 }
 
 static int sniff(struct input *input, struct diag *diag)
@@ -143,14 +121,20 @@ static int sniff(struct input *input, struct diag *diag)
     int more = fill(input, diag);
     if (more <= 0)
         return more < 0 ? -1 : check_empty(input, diag);
-    if (input->raw_end == 1) {
-        long got = read_file(input, input->raw + 1, RAW_SIZE - 1, diag);
+    while (more > 0 && packing_may_begin(input->raw, input->raw_end)) {
+        long got = read_file(input, input->raw + input->raw_end, RAW_SIZE - input->raw_end, diag);
         if (got < 0)
             return -1;
         input->raw_end += (size_t)got;
+        more = got > 0;
     }
-    bool gzip = input->raw_end >= 2 && input->raw[0] == 0x1f && input->raw[1] == 0x8b;
-    return gzip ? start_member(input, diag) : 0;
+    input->packing = packing_of_bytes(input->raw, input->raw_end);
+    if (input->packing == PACKING_NONE)
+        return 0;
+    if (packing_check(input->packing, diag) != 0)
+        return -1;
+    input->unpacker = unpacker_begin(input->packing);
+    return 0;
 }
 
 static long read_plain(struct input *input, char *bytes, size_t size, struct diag *diag)
@@ -164,46 +148,41 @@ static long read_plain(struct input *input, char *bytes, size_t size, struct dia
     return (long)taken;
 }
 
-static long read_gzip(struct input *input, char *bytes, size_t size, struct diag *diag)
+static int refuse_damage(const struct input *input, struct diag *diag)
 {
-    z_stream *stream = &input->stream;
-    stream->next_out = (unsigned char *)bytes;
-    stream->avail_out = (unsigned)(size < (1u << 30) ? size : 1u << 30);
-    unsigned room = stream->avail_out;
-    while (stream->avail_out == room) {
+    return diag_fail(diag, DIAG_DATA, "damaged %s data: %s", packing_name(input->packing),
+                     unpacker_damage(input->unpacker));
+}
+
+/* What was unpacked before damage is given out first; the next call refuses the damage. */
+static long read_packed(struct input *input, char *bytes, size_t size, struct diag *diag)
+{
+    size_t made = 0;
+    while (made == 0) {
+        if (unpacker_damage(input->unpacker) != NULL)
+            return refuse_damage(input, diag);
         int more = fill(input, diag);
         if (more < 0)
             return -1;
-        if (more == 0 && !input->inside_member)
+        if (more == 0 && !unpacker_is_inside(input->unpacker))
             return 0;
-        if (input->damaged)
-            return diag_fail(diag, DIAG_DATA, "damaged gzip data: %s",
-                             stream->msg != NULL ? stream->msg : "no message");
-        if (more == 0)
-            return diag_fail(diag, DIAG_DATA, "the gzip data ends early");
-        if (start_member(input, diag) != 0)
-            return -1;
-        stream->next_in = input->raw + input->raw_at;
-        stream->avail_in = (unsigned)(input->raw_end - input->raw_at);
-        int done = inflate(stream, Z_NO_FLUSH);
-        input->raw_at = input->raw_end - stream->avail_in;
-        if (done == Z_MEM_ERROR)
-            memory_get((size_t)-1);
-        if (done == Z_STREAM_END)
-            input->inside_member = false;
-        else if (done != Z_OK)
-            input->damaged = true; /* refused in the next round or call, after the bytes that
-                                    * were unpacked */
+        const unsigned char *from = input->raw + input->raw_at;
+        size_t given = input->raw_end - input->raw_at;
+        made = unpacker_take(input->unpacker, &from, &given, bytes, size);
+        input->raw_at = input->raw_end - given;
+        if (more == 0 && made == 0 && unpacker_is_inside(input->unpacker))
+            return diag_fail(diag, DIAG_DATA, "the %s data ends early",
+                             packing_name(input->packing));
     }
-    return (long)(room - stream->avail_out);
+    return (long)made;
 }
 
 long input_read(struct input *input, char *bytes, size_t size, struct diag *diag)
 {
     if (!input->sniffed && sniff(input, diag) != 0)
         return -1;
-    long got =
-        input->gzip ? read_gzip(input, bytes, size, diag) : read_plain(input, bytes, size, diag);
+    long got = input->unpacker != NULL ? read_packed(input, bytes, size, diag)
+                                       : read_plain(input, bytes, size, diag);
     size_t room = HEAD_SIZE - input->head_length;
     if (got > 0 && room > 0) {
         size_t kept = (size_t)got < room ? (size_t)got : room;

@@ -1,11 +1,9 @@
-/* Bytes and lines from a file, plain or gzip. The first bytes tell which.
+/* Bytes and lines from a file, plain or packed (packing.h). The first bytes tell which.
  *
- * gzip is unpacked by an inflate loop that insists on the end mark of every member, because zlib's
- * gzread has been measured to accept truncated files silently. Anything after the last member is
- * refused. A directory, a missing file and the like are DIAG_NO_INPUT, damaged gzip is DIAG_DATA.
+ * A directory, a missing file and the like are DIAG_NO_INPUT, damaged packed bytes are DIAG_DATA.
  *
  * A line is given out as soon as its newline can be read, from pipes, sockets and terminals and out
- * of gzip alike. */
+ * of packed files alike. */
 #pragma once
 
 #include <stdbool.h>

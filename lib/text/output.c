@@ -16,9 +16,8 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include <zlib.h>
-
 #include "base/arena.h"
+#include "text/packing.h"
 #include "text/path.h"
 
 #define MARK ".glint-"
@@ -256,17 +255,20 @@ enum { PIECE_SIZE = 64 * 1024 }; /* bytes that a pipe takes at once */
 
 struct output {
     int fd;
-    gzFile gzip;             /* NULL for plain output */
+    struct packer *packer;   /* NULL for plain output */
     char *name;              /* as it was given, for messages */
     struct whole_file *file; /* NULL if the path is written directly */
     struct text held;        /* text that is not written yet */
+    struct text packed;      /* the same, packed */
     bool failed; /* something that was written is lost: the file must not take its name */
 };
 
 static void discard(struct output *output)
 {
+    packer_end(output->packer);
     free(output->name);
     text_free(&output->held);
+    text_free(&output->packed);
     free(output);
 }
 
@@ -289,7 +291,6 @@ static const char *shown_name(const struct output *output)
 static int cannot_write(struct output *output, struct diag *diag)
 {
     output->failed = true;
-    /* zlib allocates with its first write. */
     return diag_fail(diag, diag_code_by_errno(DIAG_IO), "%s: %s", shown_name(output),
                      strerror(errno));
 }
@@ -319,28 +320,15 @@ static int open_path(struct output *output, const char *path, struct diag *diag)
     return output->fd < 0 ? cannot_create(output->name, diag) : 0;
 }
 
-/* Level 1: at 116 MB/s it keeps up with the chain. A copy of the descriptor, because gzclose closes
- * it before the file can be synced. */
-static int pack(struct output *output, struct diag *diag)
-{
-    int copied = dup(output->fd);
-    if (copied < 0)
-        return cannot_create(output->name, diag);
-    output->gzip = gzdopen(copied, "wb1");
-    if (output->gzip == NULL)
-        memory_get((size_t)-1);
-    return 0;
-}
-
 struct output *output_open(const char *path, struct diag *diag)
 {
     struct output *output = memory_get(sizeof *output);
     *output = (struct output){.fd = -1, .name = copy(path)};
     char *target = path_target(path);
-    int result = open_path(output, target, diag);
-    size_t length = strlen(target);
-    if (result == 0 && length > 3 && strcmp(target + length - 3, ".gz") == 0)
-        result = pack(output, diag);
+    enum packing packing = packing_of_name(target);
+    int result = packing_check(packing, diag) == 0 ? open_path(output, target, diag) : -1;
+    if (result == 0 && packing != PACKING_NONE)
+        output->packer = packer_begin(packing);
     free(target);
     if (result == 0)
         return output;
@@ -365,18 +353,24 @@ int output_write_all(int fd, const char *bytes, size_t length)
     return 0;
 }
 
+/* Packs bytes and writes what comes out: 0, or -1 with errno. */
+static int write_packed(struct output *output, const char *bytes, size_t length, bool end)
+{
+    output->packed.length = 0;
+    packer_add(output->packer, bytes, length, end, &output->packed);
+    return output_write_all(output->fd, output->packed.bytes, output->packed.length);
+}
+
 /* Writes the first bytes that are held; the others move up. */
 static int send_first(struct output *output, size_t length, struct diag *diag)
 {
     struct text *held = &output->held;
-    errno = 0;
-    bool good = length == 0 ||
-                (output->gzip != NULL ? gzwrite(output->gzip, held->bytes, (unsigned)length) > 0
-                                      : output_write_all(output->fd, held->bytes, length) == 0);
+    int result = output->packer != NULL ? write_packed(output, held->bytes, length, false)
+                                        : output_write_all(output->fd, held->bytes, length);
     held->length -= length;
     if (held->length > 0)
         memmove(held->bytes, held->bytes + length, held->length);
-    return good ? 0 : cannot_write(output, diag);
+    return result == 0 ? 0 : cannot_write(output, diag);
 }
 
 struct text *output_text(struct output *output)
@@ -397,7 +391,7 @@ int output_send(struct output *output, struct diag *diag)
 
 int output_flush(struct output *output, struct diag *diag)
 {
-    bool awaited = output->file == NULL && output->gzip == NULL;
+    bool awaited = output->file == NULL && output->packer == NULL;
     return awaited ? send_first(output, output->held.length, diag) : 0;
 }
 
@@ -417,9 +411,10 @@ int output_write(struct output *output, const char *bytes, size_t length, struct
 int output_finish(struct output *output, struct diag *diag)
 {
     send_first(output, output->held.length, diag);
-    if (output->gzip != NULL && gzclose(output->gzip) != Z_OK)
+    if (output->packer != NULL && write_packed(output, NULL, 0, true) != 0)
         cannot_write(output, diag);
-    output->gzip = NULL;
+    packer_end(output->packer);
+    output->packer = NULL;
     if (output->file != NULL && !output->failed && fsync(output->fd) != 0)
         cannot_write(output, diag);
     return output->failed ? -1 : 0;

@@ -1,11 +1,11 @@
-/* Output to a file, plain or gzip, whole or nothing.
+/* Output to a file, plain or packed, whole or nothing.
  *
  * A named file is written without a name, in the folder where it will be, and takes its name only
  * when it is complete and on the disk: a run that fails or is killed leaves the old file or none.
  * It replaces the file that is there, and has its mode and, where the user may give it away, its
  * owner and its group; other names of the old file (hard links) keep the old bytes. A file that may
  * be written but not replaced is refused: the shell can write into it. A name ending in .gz
- * compresses, with bytes that depend on the content alone.
+ * or .zst compresses (packing.h).
  *
  * Links are followed, also one to a file that is not there, and never replaced. What is not a
  * regular file (a pipe, a device) is written directly, and so is a descriptor that is open:

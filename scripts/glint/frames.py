@@ -25,10 +25,12 @@ import os
 import re
 import select
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import zlib
 
@@ -150,13 +152,38 @@ def decoded(line):
     return value
 
 
+def _feed(file, pipe):
+    with contextlib.suppress(BrokenPipeError), pipe:  # a reader that has ended says why by its status
+        shutil.copyfileobj(file, pipe)
+
+
+def _unpacked_zstd(file):
+    """The lines that zstd(1) unpacks; ValueError where they are damaged or end early."""
+    try:
+        process = subprocess.Popen(["zstd", "-dcq"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    except FileNotFoundError:
+        raise ValueError("packed by zstd, and there is no program zstd") from None
+    with process:
+        threading.Thread(target=_feed, args=(file, process.stdin), daemon=True).start()
+        yield from process.stdout
+        if process.wait() != 0:
+            raise ValueError(process.stderr.read().decode(errors="replace").strip())
+
+
+def _unpacked(file, head):
+    """The lines of a file, by its first byte."""
+    if head == b"\x1f":
+        return gzip.GzipFile(fileobj=file)
+    return _unpacked_zstd(file) if head == b"(" else file
+
+
 def _parsed(file, name, needs):
     number_of_line = 1
     try:
         head = file.peek(1)[:1]
-        if not head and name.endswith(".gz"):
+        if not head and name.endswith((".gz", ".zst")):
             raise ValueError("0 bytes")
-        for line in gzip.GzipFile(fileobj=file) if head == b"\x1f" else file:
+        for line in _unpacked(file, head):
             frame = decoded(line)
             wrong = fault(frame, FRAME, OPTIONAL - {*needs}) or unjoined(frame)
             if wrong:
@@ -351,9 +378,9 @@ class Shards:
     """
 
     def __init__(self, folder, split="*", suite="*", worker=0, workers=1):
-        files = sorted(glob.glob(os.path.join(glob.escape(folder), split, suite, "*.jsonl.gz")))
+        files = sorted(glob.glob(os.path.join(glob.escape(folder), split, suite, "*.jsonl.*")))
         if not files:
-            raise FileNotFoundError(f"{folder}: no shards {split}/{suite}/*.jsonl.gz")
+            raise FileNotFoundError(f"{folder}: no shards {split}/{suite}/*.jsonl.gz or .zst")
         self.files = files[worker::workers]
 
     def __iter__(self):

@@ -324,8 +324,9 @@ def own_stage(folder):
         file.write(re.search(r"```c\n(.*?)```", page.read(), re.DOTALL)[1] + '#include "run/chain.h"\n'
                    "int main(int count, char **words)\n{\n    return chain_main(&stage_spray, count, words);\n}\n")
     library = os.path.join(ROOT, os.environ["BUILD"], "libglint.a")
+    zstd = ["-lzstd"] if run(["pkg-config", "--exists", "libzstd"]).returncode == 0 else []
     done = run(["cc", "-std=c11", "-O2", "-ffp-contract=off", f"-I{ROOT}/lib", "-o", "spray", "spray.c", library, "-ljansson", "-lcsv",
-                "-lz", "-lm"], cwd=folder)
+                "-lz", *zstd, "-lm"], cwd=folder)
     assert done.returncode == 0, done.stdout
 
 

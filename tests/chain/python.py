@@ -143,6 +143,10 @@ def bytes_that_glint_refuses_the_tracker_refuses(folder):
              "half": first(b'"objects":[', extra % b'"\\ud83d"'), "control": first(b'"objects":[', extra % b'"\1"'),
              "ego": first(b'"ego":"ego"', b'"ego":"who"'), "id": first(b'"id":"leader"', b'"id":"ego"'),
              "sensor": good.replace(b'"targets":[{"sensor":"', b'"targets":[{"sensor":"x')}
+    if shutil.which("zstd"):
+        frame = subprocess.run(["zstd", "-qc"], input=good, stdout=subprocess.PIPE, check=True).stdout
+        cases |= {"empty.zst": b"", "packed.zst": frame, "two.zst": frame + frame, "cut.zst": frame[:-9],
+                  "flipped.zst": frame[:-1] + bytes([frame[-1] ^ 1]), "more.zst": frame + b"more"}
     for name, data in cases.items():
         path = os.path.join(folder, name)
         with open(path, "wb") as file:

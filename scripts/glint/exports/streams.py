@@ -137,7 +137,8 @@ def streams_of(path):
         shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3]))
                   for one in document(manifest, "set")["resources"]}
     for split, place in sorted(shards, key=str):
-        place += ".jsonl.gz" * (split is not None and not glob.glob(os.path.join(glob.escape(place), "frames.csv*")))
+        if split is not None and not glob.glob(os.path.join(glob.escape(place), "frames.csv*")):
+            place = next(iter(glob.glob(glob.escape(place) + ".jsonl.*")), place + ".jsonl.gz")
         yield split, frames_of_tables(place) if os.path.isdir(place) else glint.frames(place)
 
 

@@ -128,7 +128,7 @@ def check_files(plan):
     for name in ("compression", "level"):
         refuse(lines == "none" and name in plan, f"/{name}", "a set without lines has none")
     if "exports" in plan:
-        refuse(plan.get("tables") is not True and (lines, compression) != ("whole", "gzip"), "/exports", "are made of tables of CSV, or of whole lines by gzip")
+        refuse(plan.get("tables") is not True and lines != "whole", "/exports", "are made of tables of CSV, or of whole lines")
         refuse("quality" not in plan["chain"], "/exports", "need the quality of targets; write glint-ideal --sections quality in the chain")
     highest = HIGHEST_LEVEL[compression]
     refuse(plan.get("level", 1) > highest, "/level", f"{plan.get('level')}; expected at most {highest} for {compression}")

@@ -9,6 +9,7 @@
 
 #include "sample.h"
 #include "text/input.h"
+#include "text/packing.h"
 
 static struct input *open_bytes(const struct scratch *scratch, const char *bytes, size_t length)
 {
@@ -141,6 +142,59 @@ TEST_OF(scratch, a_flipped_bit_in_gzip_is_refused_or_changes_nothing)
             else
                 assert_int_equal(diag.code, DIAG_DATA);
         }
+    }
+}
+
+/* Two frames of these bytes. */
+static void two_frames(const struct text *bytes, struct text *packed, size_t *first)
+{
+    struct diag diag = {0};
+    if (packing_check(PACKING_ZSTD, &diag) != 0)
+        skip_because(diag.text);
+    for (int i = 0; i < 2; i++) {
+        struct packer *packer = packer_begin(PACKING_ZSTD);
+        packer_add(packer, bytes->bytes, bytes->length, false, packed);
+        packer_add(packer, NULL, 0, true, packed);
+        packer_end(packer);
+        *first = i == 0 ? packed->length : *first;
+    }
+}
+
+TEST_OF(scratch, frames_of_zstd_are_read_whole_and_cut_anywhere_they_are_refused)
+{
+    struct text *bytes = repeatable_bytes(200000, 3), *packed = check_text();
+    size_t first;
+    two_frames(bytes, packed, &first);
+    for (size_t length = 4; length <= packed->length; length += length < 20 ? 1 : 997) {
+        struct text *text = check_text();
+        struct diag diag;
+        int result = read_bytes(scratch, packed->bytes, length, text, &diag);
+        assert_int_equal(result, length == first || length == packed->length ? 0 : -1);
+        assert_string_equal(diag.text, result == 0 ? "" : "the zstd data ends early");
+    }
+    struct text *whole = check_text();
+    assert_done(read_bytes, scratch, packed->bytes, packed->length, whole);
+    assert_int_equal(whole->length, 2 * bytes->length);
+    assert_memory_equal(whole->bytes + bytes->length, bytes->bytes, bytes->length);
+}
+
+TEST_OF(scratch, a_flipped_bit_in_zstd_is_refused_or_changes_nothing)
+{
+    struct text *bytes = repeatable_bytes(300, 4), *packed = check_text();
+    size_t first;
+    two_frames(bytes, packed, &first);
+    for (size_t i = 8 * 4; i < 8 * packed->length; i++) {
+        struct text *text = check_text();
+        struct diag diag;
+        packed->bytes[i / 8] = (char)(packed->bytes[i / 8] ^ 1 << i % 8);
+        int result = read_bytes(scratch, packed->bytes, packed->length, text, &diag);
+        packed->bytes[i / 8] = (char)(packed->bytes[i / 8] ^ 1 << i % 8);
+        if (result != 0)
+            continue;
+        /* zstd does not protect the size of its window, nor a bit that means nothing. */
+        assert_int_equal(text->length, 2 * bytes->length);
+        assert_memory_equal(text->bytes, bytes->bytes, bytes->length);
+        assert_memory_equal(text->bytes + bytes->length, bytes->bytes, bytes->length);
     }
 }
 
