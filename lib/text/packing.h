@@ -1,4 +1,4 @@
-/* Packed bytes: gzip, and zstd where libzstd was there at build.
+/* Packed bytes: gzip, and zstd where libzstd was there.
  *
  * gzip is unpacked by an inflate loop that insists on the end mark of every member, because zlib's
  * gzread has been measured to accept truncated files silently. Anything after the last member or

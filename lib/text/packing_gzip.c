@@ -1,3 +1,4 @@
+/* Bytes packed by zlib, as gzip. */
 #define ZLIB_CONST
 #include <limits.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* What packing.h asks of a library that packs bytes. */
+/* A library that packs bytes, as packing.h uses it. */
 #pragma once
 
 #include <stdbool.h>

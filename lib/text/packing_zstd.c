@@ -1,3 +1,4 @@
+/* Bytes packed by libzstd, where it was there at build. */
 #include "text/packing_library.h"
 
 #ifdef GLINT_ZSTD
