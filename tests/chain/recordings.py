@@ -431,7 +431,7 @@ def the_real_recording_shows_what_its_page_says():
 def cars_are_detected_as_often_as_measured(fit, recording):
     """Two radars have 1.0 to 1.1 detections of a car in a scan at 40 to 80 m; detailed vehicles have as many within 25 %."""
     part = beside.part(fit, recording.radar, recording.scans)
-    chain = next(one for one in chains.CHAINS if one.data == "data/detailed")
+    chain = next(one for one in chains.CHAINS if one.vehicles == "detailed")
     with tempfile.TemporaryDirectory() as folder:
         lists, _ = chains.run(chain, fitted.write_suite(fit, folder), fit, part)
     cars = [key for key, box in part.boxes.items() if box.kind == "car" and 40 <= geometry.look(part.radar, box).range_m < 80]

@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 from collections import namedtuple
 
-from glint.places import GLINT, ROOT
+from glint.places import DATA, GLINT
 from glint.recordings.readers import Box, Detection, refuse
 
 # With so many lists, one more of their law lies between their least and their largest statistic 38 times in 40.
@@ -16,14 +16,14 @@ SEEDS = 39
 PAPER = ("visibility,plane_reflection,rows,occlusion,ambiguity,merging,superposition,threshold,angle_noise,range_noise,"
          "final_threshold,list_limit")
 
-# data: the folder that vehicle documents come from; road: between the strips beside the road that were found; surface: what
+# vehicles: a set of documents; road: between the strips beside the road that were found; surface: what
 # the road is made of
-Chain = namedtuple("Chain", "name effects stages data road surface", defaults=("glint-sensor | glint-noise", "data", False, "unknown"))
+Chain = namedtuple("Chain", "name effects stages vehicles road surface", defaults=("glint-sensor | glint-noise", "paper", False, "unknown"))
 IDEAL = Chain("ideal echoes", PAPER, "glint-sensor-perfect | glint-noise-none")
 ALL = Chain("all effects", "auto")
 CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("without levels", "auto,-level"), ALL,
           Chain("smear", "auto", "glint-sensor-smear | glint-noise"),
-          Chain("with data/detailed", "auto", data="data/detailed"), Chain("with a roadside", "auto", road=True)]
+          Chain("with data/detailed", "auto", vehicles="detailed"), Chain("with a roadside", "auto", road=True)]
 
 
 def frames(scans, speeds, seed, strips, surface):
@@ -50,11 +50,10 @@ def run(chain, suite, fit, part, seeds=SEEDS, first=1):
             for frame in frames(part.scans, part.speeds, seed, fit.roadside if chain.road else [], chain.surface):
                 traffic.write(json.dumps(frame) + "\n")
         traffic.flush()
-        text = (f"glint-extract {traffic.name} | glint-ideal --sensors {shlex.quote(suite)} --effects {chain.effects} --sections none"
-                f" | {chain.stages}")
+        text = (f"glint-extract --vehicles {chain.vehicles} {traffic.name} | glint-ideal --sensors {shlex.quote(suite)}"
+                f" --effects {chain.effects} --sections none | {chain.stages}")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=os.path.join(ROOT, chain.data)),
-                              check=False, stdout=subprocess.PIPE)
+        done = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=DATA), check=False, stdout=subprocess.PIPE)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode:
         refuse(f"{text}: exit status {done.returncode}", done.returncode)
