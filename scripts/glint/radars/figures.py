@@ -31,8 +31,8 @@ WORDS = {"detected_object": ("car", "truck", "motorcycle", "pedestrian"), "fluct
 LISTS = ("detections", "range_limits", "azimuth_accuracies", "gains", "transmit_positions_wavelengths", "receive_positions_wavelengths")
 # What is no figure, with the levels on which it may stand.
 LEVELS = ("the sheet", "a radar", "a scan")
-ABOUT = {"origin": LEVELS[:1], "document": LEVELS[:1], "extends": LEVELS[:1], "radars": LEVELS[:1], "scans": LEVELS[1:2], "name": LEVELS[1:],
-         "sources": LEVELS, "members": LEVELS}
+ABOUT = {"origin": LEVELS[:1], "document": LEVELS[:1], "extends": LEVELS[:1], "vehicles": LEVELS[:1], "radars": LEVELS[:1],
+         "scans": LEVELS[1:2], "name": LEVELS[1:], "sources": LEVELS, "members": LEVELS}
 
 
 class Refused(ValueError):

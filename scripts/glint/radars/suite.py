@@ -428,7 +428,8 @@ def suite_of(sheet, beside, out):
             assumed.setdefault(sentence, []).append(scan.name)
     origin = sheet.get("origin", f"Made by scripts/make-radar from {sheet.get('document', 'a data sheet')}.")
     sentences = [f"{', '.join(names)}: {sentence}." for sentence, names in assumed.items()]
-    suite = base | {"origin": origin, "sensors": sensors, "assumed": sentences}
+    vehicles = sheet.get("vehicles") or base.get("vehicles", "detailed")  # of real radars' lists
+    suite = base | {"origin": origin, "vehicles": vehicles, "sensors": sensors, "assumed": sentences}
     files = {out: json.dumps(suite, indent=2, ensure_ascii=False) + "\n"} | tables
     for path in files:
         refuse(os.path.realpath(path) in kept, path, "the extended suite or the sheet's members need this file; expected another name after -o")
