@@ -29,6 +29,8 @@ static struct echo_span clutter_of(struct effect_bench *bench)
 EFFECT_TEST(points_lie_where_their_draws_put_them)
 {
     prepare(bench, 0.05);
+    bench->sensor.mount_z_m = 0.5;
+    bench->sensor.elevation_view_rad = 0.3;
     bench->frame.time_s = 3;
     struct echo_span points = clutter_of(bench);
     struct random_address address = frame_draw_address_of_scan(&bench->frame, "radar");
@@ -46,6 +48,7 @@ EFFECT_TEST(points_lie_where_their_draws_put_them)
         assert_string_equal(point->id.reflector, "ground");
         assert_int_equal(point->id.path, PATH_CLUTTER);
         assert_true(point->effects == EFFECT_BIT(EFFECT_CLUTTER));
+        assert_near(tan(point->elevation_rad), -0.5 / point->range_m, 1e-14);
         if (point->id.number % 16 != 2)
             continue;
         double uniform[4];

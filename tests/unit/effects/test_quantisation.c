@@ -47,6 +47,16 @@ EFFECT_TEST(a_change_of_any_value_is_in_the_label)
                     (cases[i].labelled ? EFFECT_BIT(EFFECT_QUANTISATION) : 0));
 }
 
+EFFECT_TEST(elevations_have_a_step_of_their_own)
+{
+    bench->sensor.elevation_step_rad = 0.125;
+    struct effect_measurement read =
+        reported(bench, (struct effect_measurement){.azimuth_rad = 0.26, .elevation_rad = -0.2});
+    assert_close(read.elevation_rad, -0.25, 0);
+    assert_close(read.azimuth_rad, 0.26, 0);
+    assert_true(read.effects == EFFECT_BIT(EFFECT_QUANTISATION));
+}
+
 EFFECT_TEST(a_value_without_a_step_stays)
 {
     bench->sensor.azimuth_step_rad = 0.125;

@@ -99,6 +99,23 @@ TEST(dropped_parts_are_as_if_they_had_never_been)
     assert_string_equal(frame_part_name(PART_TARGETS), "targets");
 }
 
+/* The azimuth of an elevated target is the angle of a cone: 12, 5 and 0.4 ahead, left and up are
+ * sqrt(169.16) away. */
+TEST(a_measured_elevation_shortens_the_way_ahead)
+{
+    double range_m = sqrt(169.16);
+    struct target target = {
+        .range_m = range_m, .azimuth_rad = asin(5 / range_m), .elevation_rad = asin(0.4 / range_m)};
+    assert_near(frame_target_place(&target).x, sqrt(169.16 - 25), 1e-14);
+    target.present = VALUE_ELEVATION;
+    assert_close(frame_target_place(&target).x, 12, 1e-13);
+    assert_close(frame_target_place(&target).y, 5, 1e-13);
+    target.azimuth_rad = acos(-1) - target.azimuth_rad;
+    assert_close(frame_target_place(&target).x, -12, 1e-13);
+    target.elevation_rad = acos(0);
+    assert_close(frame_target_place(&target).x, 0, 0);
+}
+
 /* An object may have the name that clutter has in its place. */
 TEST(clutter_and_noise_are_of_no_object)
 {

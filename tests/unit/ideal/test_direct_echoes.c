@@ -271,6 +271,39 @@ SCENE_TEST(an_echo_from_under_a_truck_can_change_in_two_ways)
     }
 }
 
+/* A pole whose reflector is 0.4 m over the road, 50 m from a sensor at 0.5 m. A van that stands
+ * between them from 0.2 m up leaves only the wave that the road mirrors. */
+SCENE_TEST(an_elevation_is_that_of_the_way_the_wave_takes)
+{
+    scene->sensor.mount_z_m = 0.5;
+    scene->sensor.elevation_view_rad = 0.3;
+    add_point(add_set(scene, "pole"))->z = 0.2;
+    struct reflector_set *van = add_set(scene, "van");
+    add_object(scene, "pole", 50, 0)->height_m = 2;
+    add_object(scene, "van", 27, 20)->height_m = 2;
+    look_at(scene, 10);
+    assert_near(scene->frame.echoes.items[0].elevation_rad, atan2(-0.1, 50), 1e-14);
+    assert_int_equal(scene->frame.echoes.items[0].present, VALUE_ELEVATION);
+    van->clearance_m = 0.2;
+    scene->frame.objects.items[2].y_m = 0;
+    scene->frame.echoes.count = 0;
+    look_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 1);
+    assert_near(scene->frame.echoes.items[0].elevation_rad, atan2(-0.9, 50), 1e-14);
+}
+
+/* A reflector without a height is at that of the sensor. */
+SCENE_TEST(a_reflector_without_a_height_has_the_elevation_0)
+{
+    scene->sensor.mount_z_m = 0.5;
+    scene->sensor.elevation_view_rad = 0.3;
+    add_point(add_set(scene, "pole"));
+    add_object(scene, "pole", 50, 0);
+    look_at(scene, 10);
+    assert_close(scene->frame.echoes.items[0].elevation_rad, 0, 0);
+    assert_int_equal(scene->frame.echoes.items[0].present, VALUE_ELEVATION);
+}
+
 SCENE_TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end)
 {
     scene->frame.sections |= CARRY_MARGINS;

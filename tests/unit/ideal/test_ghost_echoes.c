@@ -641,6 +641,12 @@ SCENE_TEST(heights_count_on_every_leg)
                 0.9 * sqrt(direct * image) * out->range_m * out->range_m / (direct_m * image_m),
                 1e-12);
     assert_true((out->effects & EFFECT_BIT(EFFECT_ELEVATION)) != 0);
+    assert_int_equal(out->present, 0);
+    scene->sensor.elevation_view_rad = 0.5;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    assert_near(ghost_of(scene, PATH_WALL_OBJECT)->elevation_rad, direct_rad, 1e-14);
+    assert_near(ghost_of(scene, PATH_OBJECT_WALL)->elevation_rad, image_rad, 1e-14);
+    assert_near(ghost_of(scene, PATH_WALL_OBJECT_WALL)->elevation_rad, image_rad, 1e-14);
     wall->height_m = 1.7 + 1e-9;
     scene->frame.sections |= CARRY_MARGINS;
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);

@@ -137,6 +137,22 @@ SCENE_TEST(scatterers_stand_and_have_labels_of_their_own)
                      echoes.count);
 }
 
+/* Their middle is at half the height of the strip's top. Places in the plane have d cos(elevation).
+ */
+SCENE_TEST(scatterers_have_the_elevation_of_their_middle)
+{
+    struct look look;
+    add_roadside(scene);
+    for (size_t i = 0; i < scene->frame.roadside.count; i++)
+        scene->frame.roadside.items[i].height_m = 3;
+    scene->sensor.mount_z_m = 0.5;
+    scene->sensor.elevation_view_rad = 0.6;
+    struct echo_span echoes = see_as(scene, &automatic, &look);
+    assert_true(echoes.count > 60);
+    for (size_t i = 0; i < echoes.count; i++)
+        assert_near(sin(echoes.items[i].elevation_rad), 1 / echoes.items[i].range_m, 1e-12);
+}
+
 /* A rail out of sight, before all others in the list, changes nothing but the numbers in the names.
  */
 SCENE_TEST(a_strip_out_of_sight_changes_no_echo_of_another_strip)

@@ -172,6 +172,27 @@ EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured)
     assert_near(known.range_sigma_m, 1.0, 1e-12);
 }
 
+/* 0.3 at a threshold of 2 is 0.06 at 10, and 0.1 with the floor. */
+EFFECT_TEST(the_deviation_of_the_elevation_is_by_the_amplitude_and_only_where_it_is_measured)
+{
+    struct sensor *sensor = &bench->sensor;
+    struct detection_source source;
+    struct detection detection = detect(bench);
+    assert_int_equal(quality_of(bench, &detection).present & QUALITY_ELEVATION, 0);
+    sensor->threshold_db = units_amplitude_db(2);
+    sensor->elevation_view_rad = 1;
+    sensor->elevation_sigma_rad = 0.3;
+    sensor->elevation_floor_rad = 0.08;
+    sensor->elevation_step_rad = 0.12;
+    detection.measurement = estimated(bench, &source, 10, EVERY_EFFECT);
+    assert_near(detection.measurement.elevation_sigma_rad, 0.1, 1e-12);
+    struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
+    detection.source.scan = &scan;
+    struct quality quality = quality_of(bench, &detection);
+    assert_int_equal(quality.present & QUALITY_ELEVATION, QUALITY_ELEVATION);
+    assert_near(quality.elevation_sd_rad, sqrt(0.01 + 0.0144 / 12), 1e-12);
+}
+
 /* A real delta/sum of 0.1 is 0.1 · 100/sqrt(1.01/2) standard deviations from that of one echo. */
 EFFECT_TEST(an_azimuth_of_several_echoes_has_a_wider_deviation)
 {

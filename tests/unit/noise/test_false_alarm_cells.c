@@ -20,6 +20,8 @@ static const struct sensor radar = {
 
 static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
 
+static double view_rad; /* of elevation; 0: it is not measured */
+
 static struct cell_span false_alarms_of(struct frame *frame, double mean, uint64_t number,
                                         bool measured)
 {
@@ -34,6 +36,7 @@ static struct cell_span false_alarms_of(struct frame *frame, double mean, uint64
         (struct sensor_view){.name = "s", .measured = measured};
     struct sensor sensor = radar;
     sensor.false_alarms = mean;
+    sensor.elevation_view_rad = view_rad;
     struct effect_scan context = effect_begin(frame, &sensor, &everything, EFFECT_HOME_NOISE);
     return false_alarm_cells_of(frame, &context);
 }
@@ -79,6 +82,35 @@ TEST(a_larger_mean_adds_to_the_same_false_alarms)
         for (size_t j = 0; j < few.count; j++)
             assert_close(few.items[j].range_m, many.items[j].range_m, 0);
     }
+}
+
+/* A uniform value in a view of 0.6 has the variance 0.03; n of them have a mean within
+ * 4 sqrt(0.03/n). */
+TEST(elevations_are_uniform_over_the_view_and_nothing_else_changes)
+{
+    double sum = 0, squares = 0, seen = 0;
+    for (uint64_t i = 0; i < 500; i++) {
+        struct frame frame, flat;
+        view_rad = 0.6;
+        struct cell_span alarms = false_alarms_of(&frame, 3, i, true);
+        view_rad = 0;
+        struct cell_span without = false_alarms_of(&flat, 3, i, true);
+        assert_int_equal(alarms.count, without.count);
+        for (size_t j = 0; j < alarms.count; j++) {
+            double elevation_rad = alarms.items[j].elevation_rad;
+            assert_int_equal(alarms.items[j].present, VALUE_ELEVATION);
+            assert_true(fabs(elevation_rad) < 0.3);
+            assert_close(alarms.items[j].members.items[0].elevation_rad, elevation_rad, 0);
+            assert_close(alarms.items[j].azimuth_rad, without.items[j].azimuth_rad, 0);
+            assert_int_equal(without.items[j].present, 0);
+            sum += elevation_rad;
+            squares += elevation_rad * elevation_rad;
+            seen++;
+        }
+    }
+    assert_true(seen > 1400);
+    assert_close(sum / seen, 0, 4 * sqrt(0.03 / seen));
+    assert_close(squares / seen, 0.03, 4 * sqrt(0.03 * 0.03 * 0.8 / seen));
 }
 
 TEST(without_a_mean_or_a_measurement_there_are_no_false_alarms)

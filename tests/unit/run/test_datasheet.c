@@ -326,6 +326,24 @@ TEST(a_sheet_has_limits_by_azimuth_a_span_of_rates_and_assumptions)
     assert_non_null(strstr(text, "\n\nassumed\n  The list is the nearest.\n  Noise is white.\n"));
 }
 
+TEST(a_sensor_that_measures_elevation_lacks_noise_on_it_or_states_it)
+{
+    struct sensor sensor = quiet_sensor();
+    const struct suite suite = {.sensors = {&sensor, 1, 1}};
+    suite_derive(&sensor);
+    uint64_t noise = EFFECT_BIT(EFFECT_ELEVATION_NOISE);
+    assert_true((datasheet_missing(&sensor) & noise) == 0);
+    assert_null(strstr(written(&suite), "elevation   "));
+    sensor.elevation_view_rad = PI / 6;
+    assert_true((datasheet_missing(&sensor) & noise) != 0);
+    sensor.elevation_sigma_rad = 4 * PI / 180;
+    sensor.elevation_floor_rad = 0.3 * PI / 180;
+    assert_true((datasheet_missing(&sensor) & noise) == 0);
+    assert_non_null(strstr(written(&suite),
+                           "\n  elevation          within +-15 degrees; 1 sigma: 4 "
+                           "degrees at the threshold, at best 0.3\n"));
+}
+
 TEST(levels_stand_for_fluctuation)
 {
     struct sensor sensor = {.level_fast_db = 1};

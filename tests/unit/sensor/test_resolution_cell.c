@@ -67,6 +67,28 @@ TEST(without_superposition_a_cell_is_one_echo_of_the_summed_strength)
     assert_near(hypot(cell.sum_re, cell.sum_im), 2.5 * 4 * (0.4 + 0.3 + 0.2 + 0.1), 1e-14);
 }
 
+/* Amplitudes 3, 2 and 1 have powers 9, 4 and 1: (9 0.01 - 4 0.02 + 0.03)/14. */
+TEST(the_elevation_of_a_cell_is_the_mean_of_its_echoes_by_power)
+{
+    static const double elevations_rad[] = {0.01, -0.02, 0.03};
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    struct received_echo echoes[3];
+    struct cell cell;
+    for (int i = 0; i < 3; i++) {
+        struct echo echo = echo_at(15, 0, 0, 0.1 * (3 - i));
+        echo.elevation_rad = elevations_rad[i];
+        echoes[i] = received_echo_in_free_space(&sensor, &echo, i);
+    }
+    resolution_cell_of(&sensor, echoes, 3, true, check_arena(), &cell);
+    assert_int_equal(cell.present, 0);
+    sensor.elevation_view_rad = 0.3;
+    resolution_cell_of(&sensor, echoes, 3, true, check_arena(), &cell);
+    assert_int_equal(cell.present, VALUE_ELEVATION);
+    assert_close(cell.elevation_rad, 0.04 / 14, 1e-15);
+    resolution_cell_of(&sensor, echoes + 1, 1, true, check_arena(), &cell);
+    assert_close(cell.elevation_rad, -0.02, 0);
+}
+
 static struct echo ghost_at(double azimuth_rad, double departure_azimuth_rad)
 {
     struct echo ghost = echo_at(15, azimuth_rad, 0, 0.5);
