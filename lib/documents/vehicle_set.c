@@ -7,6 +7,7 @@
 #include "base/sort.h"
 #include "base/suggestion.h"
 #include "text/data_folder.h"
+#include "text/path.h"
 
 #define PAPER "paper"
 
@@ -24,10 +25,13 @@ static bool is_listed(const struct document_names *sets, const char *word)
     return false;
 }
 
-/* Does the folder of data have the set, with a document of the class (NULL: of any)? */
+/* Does the folder of data have the set, with a document of the class (NULL: of any)? A link to the
+ * folder itself, as an installation has one, is no set. */
 static bool has_set(const char *data, const char *word, const char *class, struct arena *arena)
 {
     const char *folder = arena_format(arena, "%s%s/vehicles", data, word);
+    if (path_same_file(folder, arena_format(arena, "%svehicles", data)))
+        return false;
     return class == NULL ? is_folder(folder)
                          : access(arena_format(arena, "%s/%s.json", folder, class), F_OK) == 0;
 }

@@ -212,9 +212,13 @@ def check_names():
 
 
 def check_scripts(folder):
-    """Users' programs do their work without the pages, from any folder: a set is made, checked, exported and tracked, a data
-    sheet becomes a radar, and Python imports glint as stages/README.md says."""
+    """Users' programs do their work without the pages, from any folder: vehicles are found by the words of sets, a set is made,
+    checked, exported and tracked, a data sheet becomes a radar, and Python imports glint as stages/README.md says."""
     data = os.path.join(PREFIX, "share/glint")
+    for word, of_set in ("paper", "vehicles"), ("detailed", "detailed/vehicles"), ("surfaces", "surfaces/vehicles"):
+        run(f"glint-traffic cut-in | glint-extract --vehicles {word} >word && "
+            f"glint-traffic cut-in | glint-extract --vehicles {data}/{of_set} | cmp - word", folder)
+    assert "high; also --vehicles detailed, surfaces\n" in run("glint --list vehicles"), "sets of vehicles are not listed"
     run(f"BUILD=elsewhere glint-dataset {data}/sets/small.json --out set && make -s -C set && glint-check-set set", folder)
     run("cat set/*/*/*.jsonl.gz > list.jsonl.gz && glint-tracker list.jsonl.gz > tracks.jsonl", folder)
     score = json.loads(run("glint-score-tracks --tracks tracks.jsonl --summary list.jsonl.gz", folder))

@@ -13,6 +13,8 @@ static int make_data(void **state)
     mkdir(scratch_in(scratch, "own/vehicles"), 0777);
     mkdir(scratch_in(scratch, "empty"), 0777);
     scratch_write(scratch_in(scratch, "own/vehicles/car.json"), "{}");
+    mkdir(scratch_in(scratch, "vehicles"), 0777);
+    assert_int_equal(symlink(".", scratch_in(scratch, "itself")), 0);
     return setenv("GLINT_DATA", scratch->directory, 1);
 }
 
@@ -114,5 +116,5 @@ TEST_OF(scratch, sets_are_listed_by_the_classes_that_they_have)
     assert_done(vehicle_set_list, "van", &vans, &scratch->arena);
     assert_true(has(&all, "own") && has(&cars, "own") && !has(&vans, "own"));
     assert_true(has(&all, "detailed") && has(&cars, "detailed") && has(&vans, "detailed"));
-    assert_false(has(&all, "empty") || has(&all, "paper"));
+    assert_false(has(&all, "empty") || has(&all, "paper") || has(&all, "itself"));
 }
