@@ -1,0 +1,135 @@
+"""Elevations of the chain beside those that a row of elements, one above the other, reads of its samples.
+
+Usage: python3 tests/oracle/elevations.py BIN_DIR        exit status 1 if any check fails
+
+The row is simulated here alone: samples of its elements, and the phase from one to the next or the maximum of its beam.
+It shares nothing with the chain but the echoes. A mean over phases is one of readings weighted by their power, as a weak
+sum of echoes that cancel reads anything. Draws have fixed seeds.
+"""
+import cmath
+import math
+import random
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
+import model  # noqa: E402
+from model import echo, ego, frame, sensor, suite_of  # noqa: E402
+from sizes import quick  # noqa: E402
+
+ELEMENTS, SPACING = 8, 0.5  # wavelengths apart
+LOOKS = quick(1000, 10000)
+THRESHOLD = 10 ** (6 / 20)
+NOISE = THRESHOLD / 10 ** (13 / 20)
+HEIGHT_M = 0.5
+ROW = {"mount_z_m": HEIGHT_M, "elevation_view_rad": 0.4, "carrier_hz": 76.5e9, "range_max_m": 300, "cell_range_m": 2}
+
+
+# ---- the row -------------------------------------------------------------------------------------
+
+
+def samples(echoes, noise=0.0, draw=None):
+    """Of each element: echoes are pairs of a complex amplitude and an elevation; noise is the RMS in a beam."""
+    sigma = noise * math.sqrt(ELEMENTS / 2)
+    return [sum(a * cmath.exp(2j * math.pi * SPACING * n * math.sin(e)) for a, e in echoes)
+            + (complex(draw.gauss(0, sigma), draw.gauss(0, sigma)) if noise else 0) for n in range(ELEMENTS)]
+
+
+def by_phase(found):
+    """The sine by the phase from an element to the next, and the power."""
+    turn = sum(b * a.conjugate() for a, b in zip(found, found[1:]))
+    return cmath.phase(turn) / (2 * math.pi * SPACING), abs(turn)
+
+
+def by_beam(found, sine):
+    """The sine of the beam's maximum near one, by steps over the curvature that a single echo has."""
+    curvature = (2 * math.pi * SPACING) ** 2 * (ELEMENTS ** 2 - 1) / 12
+    for _ in range(6):
+        beam = [x * cmath.exp(-2j * math.pi * SPACING * n * sine) for n, x in enumerate(found)]
+        whole, slope = sum(beam), sum(-2j * math.pi * SPACING * n * x for n, x in enumerate(beam))
+        sine += (whole.conjugate() * slope).real / (abs(whole) ** 2 * curvature)
+    return sine
+
+
+def mean_over_phases(echoes, draw):
+    """The mean of readings weighted by their power, and its standard error."""
+    told = []
+    for _ in range(LOOKS):
+        told.append(by_phase(samples([(a * cmath.rect(1, draw.uniform(0, math.tau)), e) for a, e in echoes])))
+    weight = sum(power for _, power in told)
+    mean = sum(sine * power for sine, power in told) / weight
+    return mean, math.sqrt(sum((power * (sine - mean)) ** 2 for sine, power in told)) / weight
+
+
+# ---- beside the chain ----------------------------------------------------------------------------
+
+
+def seen(bench, lists, suite, *stages, **members):
+    """What stages make of hand-made echoes of the suite's only sensor, a frame for each list."""
+    first = dict(frame([ego()]), **members)
+    [empty] = bench.through([first], ["glint-extract"], ["glint-ideal", "--sensors", bench.write_suite(suite), "--sections", "quality"])
+    return bench.through([dict(empty, scene=f"s{i}", echoes=echoes) for i, echoes in enumerate(lists)], ["glint-sensor"], *stages)
+
+
+def amplitude(ercs, range_m):
+    return THRESHOLD / 0.8 * (30 / range_m) ** 2 * ercs
+
+
+def at(name, range_m, ercs, elevation_rad, **rest):
+    return dict(echo(name, range_m, 0, 0, ercs), elevation_rad=elevation_rad, **rest)
+
+
+def two_echoes_of_a_cell(bench):
+    draw = random.Random(4)
+    pairs = [[(name, draw.uniform(0.3, 3), draw.uniform(-0.04, 0.04)) for name in "ab"] for _ in range(12)]
+    lists = [[at(name, 20, ercs, elevation) for name, ercs, elevation in pair] for pair in pairs]
+    for pair, one in zip(pairs, seen(bench, lists, suite_of(sensor(**ROW)), ["glint-noise-none"])):
+        [cell] = one["targets"]
+        mean, error = mean_over_phases([(ercs, elevation) for _, ercs, elevation in pair], draw)
+        bench.check(abs(cell["elevation_rad"] - mean) < 5 * error + 1e-5,
+                    f"{pair}: {cell['elevation_rad']} rad, the row reads {mean} +- {error}")
+        bench.check(cell["elevation_rad"] == cell["cell_elevation_rad"], "without noise a target has the elevation of its cell")
+        label = {part["reflector"]: part["elevation_rad"] for part in cell["contributors"]}
+        bench.check(label == {name: elevation for name, _, elevation in pair}, f"label {label}")
+
+
+def an_echo_and_its_image(bench):
+    """Over asphalt, whose coefficient is written a second time here. The way from 60 to 200 m turns the phase often."""
+    draw, wave_m = random.Random(5), 299792458 / 76.5e9
+    for range_m in 60, 120, 200:
+        height_m = 0.6
+        sine = (HEIGHT_M + height_m) / math.hypot(range_m, HEIGHT_M + height_m)
+        bent = cmath.sqrt(5 - 0.25j - 1 + sine * sine)
+        coefficient = ((5 - 0.25j) * sine - bent) / ((5 - 0.25j) * sine + bent) * math.exp(-8 * (math.pi * 1e-3 * sine / wave_m) ** 2)
+        part = abs(coefficient) * math.hypot(range_m, 0.1) / math.hypot(range_m, 1.1)
+        point, image = math.atan(0.1 / range_m), -math.atan(1.1 / range_m)
+        [one] = seen(bench, [[at("a", range_m, 100, point, height_m=height_m)]], suite_of(sensor(**ROW)), ["glint-noise-none"],
+                     conditions={"road": "asphalt"})
+        mean, error = mean_over_phases([(1, point), (part, image)], draw)
+        told = one["targets"][0]["elevation_rad"]
+        bench.check(abs(told - mean) < 5 * error + 1e-6, f"{range_m} m: {told} rad, the row reads {mean} +- {error}")
+
+
+def deviations(bench):
+    """At the threshold, 13 dB over the noise, where the law of first order is 6 % short, and above it."""
+    draw, at_threshold = random.Random(6), math.sqrt(6) / (2 * math.pi) / (ELEMENTS * SPACING) * NOISE / THRESHOLD
+    suite = suite_of(sensor(**ROW, elevation_sigma_rad=at_threshold, pointer_sigma=0, final_threshold=False))
+    for above_db in 0.1, 7, 17:
+        ercs = 0.8 * (20 / 30) ** 2 * 10 ** (above_db / 20)
+        frames = seen(bench, [[at("a", 20, ercs, 0.02)]] * LOOKS, suite, ["glint-noise"])
+        errors = [one["targets"][0]["elevation_rad"] - 0.02 for one in frames]
+        row = [by_beam(samples([(amplitude(ercs, 20), 0.02)], NOISE, draw), math.sin(0.02)) - math.sin(0.02) for _ in range(LOOKS)]
+        chain, own = (math.sqrt(sum(x * x for x in told) / LOOKS) for told in (errors, row))
+        bench.check(abs(chain / own - 1) < 5 / math.sqrt(LOOKS) + 0.04, f"{above_db} dB: {chain} rad, that of the row {own}")
+        bench.check(abs(sum(errors) / LOOKS) < 5 * chain / math.sqrt(LOOKS), f"{above_db} dB: errors have the mean {sum(errors) / LOOKS}")
+        stated = frames[0]["targets"][0]["quality"]["elevation_sd_rad"]
+        bench.check(abs(chain / stated - 1) < 5 / math.sqrt(2 * LOOKS), f"{above_db} dB: {chain} rad, stated {stated}")
+
+
+CHECKS = [("the elevation of a cell is the mean of what a row reads over phases", two_echoes_of_a_cell),
+          ("the road's image pulls it as it pulls the row's", an_echo_and_its_image),
+          ("its deviation is that of the row's beam", deviations)]
+
+if __name__ == "__main__":
+    model.run(__doc__, lambda bench: None, CHECKS)
