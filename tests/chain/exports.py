@@ -291,6 +291,26 @@ def an_approaching_car(folder, mirror=1):
         near(sum(read_pose(place, name), []), (0, 0, 1, 2.25, -1, 0, 0, 0, 0, -1, 0, 0.4, 0, 0, 0, 1))
 
 
+def an_elevation_is_a_height(folder):
+    """A point 12 m ahead, 5 to the left and 0.6 up, whose azimuth is that of a cone, comes by 12, 5 and 0.6 m/s. It is 1 m over
+    the road, in the box of a car of 1.5 m; twice as far up it is above it."""
+    objects = [body("ego"), body("other", x=14.25, y=5)]
+    for up, count in (0.6, 1), (1.2, 0):
+        r = math.sqrt(169 + up * up)
+        high = target(range_m=r, azimuth_rad=math.asin(5 / r), rate=-r) | {"elevation_rad": math.asin(up / r)}
+        frames = [frame_of(objects, [high])]
+        for form, velocity in ("nuscenes", 6), ("truckscenes", 3):
+            tables = Tables(by_hand(folder, frames, form), form)
+            point, = tables.points(tables.rows["sample_data"][0])
+            near(point[:3], (12, 5, up))
+            near(point[velocity:velocity + 2], (-12, -5))
+            assert tables.rows["sample_annotation"][0]["num_radar_pts"] == count
+        near([point[5]], [-up])  # of TruckScenes
+        for form, root in (("kitti", "front"), ("vod", "front/radar")):
+            points = read_kitti(os.path.join(by_hand(folder, frames, form), root), "000000" if form == "kitti" else "00000", form)[0]
+            near(points[0][:3], (12, 5, up))
+
+
 def a_mirrored_scene_mirrors(folder):
     an_approaching_car(folder, mirror=-1)
 
@@ -894,7 +914,7 @@ def pcl_reads_the_radar_files(folder):
 
 def main():
     chosen = sys.argv[2:]
-    for test in (an_approaching_car, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
+    for test in (an_approaching_car, an_elevation_is_a_height, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
                  every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
                  every_option_of_a_source_is_exported, scenes_may_be_played_at_once, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
                  a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,

@@ -46,6 +46,20 @@ def places_are_in_the_system_that_is_asked_for(folder):
     near([glint.rate_over_ground(TURNING_FRAME, AHEAD)], [0])
 
 
+def an_elevation_is_a_height_and_shortens_the_way_ahead(folder):
+    """12 m ahead, 5 to the left and 0.4 up of a sensor at 0.5 m; the azimuth is that of a cone."""
+    r = math.sqrt(169.16)
+    high = {"sensor": "left", "range_m": r, "azimuth_rad": math.asin(5 / r), "elevation_rad": math.asin(0.4 / r), "range_rate_mps": -1,
+            "amplitude_db": 3, "contributors": []}
+    frame = {**TURNING_FRAME, "sensors": {"list": [{**TURNING_FRAME["sensors"]["list"][0], "mount_z_m": 0.5}]}}
+    near((*glint.place(frame, high, "sensor"), glint.height(frame, high, "sensor"), glint.height(frame, high)), (12, 5, 0.4, 0.9))
+    flat = {name: value for name, value in high.items() if name != "elevation_rad"}
+    both = glint.detections({**frame, "targets": [high, flat]}, "sensor")
+    near((both["x_m"][0], both["z_m"][0], both["elevation_rad"][0], both["x_m"][1]), (12, 0.4, math.asin(0.4 / r), math.sqrt(r * r - 25)))
+    assert math.isnan(both["z_m"][1]) and math.isnan(both["elevation_rad"][1])
+    assert "z_m" not in glint.detections({**frame, "targets": [flat]})
+
+
 def detections_are_placed_from_where_the_ego_was(folder):
     """As the quality of targets says, of a car in a bend whose radar has a latency."""
     with open(os.path.join(ROOT, "data/sensors/corner77.json"), encoding="utf-8") as file:
@@ -299,7 +313,7 @@ def false_alarms_make_few_tracks(folder):
 def main():
     for test in (places_are_in_the_system_that_is_asked_for, what_stands_has_no_rate_over_ground,
                  frames_are_read_from_files_of_both_kinds, a_stage_that_changes_nothing_changes_no_byte_of_the_list,
-                 columns_have_the_numbers_of_quality, detections_are_placed_from_where_the_ego_was,
+                 columns_have_the_numbers_of_quality, an_elevation_is_a_height_and_shortens_the_way_ahead, detections_are_placed_from_where_the_ego_was,
                  what_glint_refuses_the_tracker_refuses, bytes_that_glint_refuses_the_tracker_refuses,
                  faults_outside_the_input_have_a_line_and_a_status, scenes_of_two_seeds_share_no_tracks,
                  frames_py_works_alone_as_a_copy_called_glint_py, workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected,

@@ -324,9 +324,10 @@ def compare_osi(lines):
                 known = value_of(one, "object_id", "value")
                 check(names.get(known) == part["object"] or (known == float(NOBODY) and path in PATHS[6:]), f"object of {part}")
                 for key, place, sign in (("range_m", ("position", "distance"), 1), ("azimuth_rad", ("position", "azimuth"), 1),
-                                         ("range_rate_mps", ("radial_velocity",), -1)):
-                    check(value_of(one, *place) == sign * target[key], f"{key} of a detection")
+                                         ("elevation_rad", ("position", "elevation"), 1), ("range_rate_mps", ("radial_velocity",), -1)):
+                    check(value_of(one, *place) == sign * target.get(key, 0), f"{key} of a detection")
                 for key, place in (("range_sd_m", ("position_rmse", "distance")), ("azimuth_sd_rad", ("position_rmse", "azimuth")),
+                                   ("elevation_sd_rad", ("position_rmse", "elevation")),
                                    ("range_rate_sd_mps", ("radial_velocity_rmse",)), ("rcs_dbsm", ("rcs",)), ("snr_db", ("snr",)),
                                    ("existence", ("existence_probability",))):
                     check(value_of(one, *place) == quality.get(key, 0), f"{key} of a detection")
@@ -366,13 +367,17 @@ def compare_mcap(lines):
                 values = {**target, **target["quality"]}
                 for key in ("range_m", "azimuth_rad", "range_rate_mps", "range_rate_over_ground_mps", "amplitude_db", "rcs_dbsm"):
                     check(point[key] == struct.unpack("<f", struct.pack("<f", values[key]))[0], f"{key} of a point")
+                near(point["z"], target["range_m"] * math.sin(target.get("elevation_rad", 0)), "height of a point", 1e-5)
         check(next(clouds, None) is None, "a cloud for each scan")
     return file
 
 
-def every_number():
-    sums = {}
-    for name, radars in STREAMS:
+def every_number(folder):
+    sums, elevated = {}, os.path.join(folder, "elevated.json")
+    with open(elevated, "w", encoding="utf-8") as file:
+        json.dump({"extends": "lrr77-full", "origin": "for tests", "sensors": [{"name": "front", "elevation_view_rad": 0.3,
+                                                                             "elevation_sigma_rad": 0.02}]}, file)
+    for name, radars in (*STREAMS, ("wet-road", elevated)):
         lines = pipe(f"glint-traffic {name}" + CHAIN.format(radars))
         for key, count in compare_osi(lines).items():
             sums[key] = sums.get(key, 0) + count
@@ -581,7 +586,7 @@ with tempfile.TemporaryDirectory() as place_of_files:
         print("skipped  glint-osi and glint-mcap: they, or protoc, are not there")
     else:
         scenes_by_hand(place_of_files)
-        every_number()
+        every_number(place_of_files)
         metadata_of_osi()
         ids_and_times(place_of_files)
         refusals(place_of_files)
