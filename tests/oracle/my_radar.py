@@ -219,6 +219,8 @@ def chances(bench):
             chance, kind = line["probability"], f"rcs_{line['dbsm']}"
             share = len(data_sheet.look(bench, sensor, kind, line["at_m"] - 0.01, 0, DRAWS)) / DRAWS
             bench.check(abs(share - chance) < 5 * math.sqrt(chance * (1 - chance) / DRAWS) + 0.002, f"{law}, {line}: {share} detected")
+    for sheet in ({"detected_at_m": 140}, {"detections": [{"object": "car", "at_m": 140}]}):
+        hold(bench, f"0 dBsm with {sheet}, at 25 dB a decade", reach_m(printed(bench, PLAIN | sheet)[0]["front"], 0, 0)[0], 140 * 10 ** (-10 / 25), 0.02)
     part = printed(bench, PLAIN | {"detections": [{"object": "car", "at_m": 140}, {"object": "pedestrian", "at_m": 60}]})[0]["front"]
     for dbsm in (0, 10):  # 13 dB are lg(140/60) decades
         hold(bench, f"{dbsm} dBsm between two lines", reach_m(part, 0, dbsm)[0], 140 * (140 / 60) ** ((dbsm - 10) / 13), 0.02)
@@ -481,7 +483,7 @@ REFUSED = [
     ({"azimuth_resolution_deg": 0.15}, "azimuth_resolution_deg 0.15 takes more than 256 elements 1 wavelengths apart"),
     ({"receding_max_kmh": 100}, "receding_max_kmh and approaching_max_kmh belong together"),
     ({"speed_resolution": 1}, "speed_resolution: unknown figure; did you mean speed_resolution_"),
-    ({"detection_probability": 0.4}, "detection_probability 0.4 is not reached; an echo at the threshold has 0.538"),
+    ({"members": {"final_threshold": False}}, "a detection_probability of 0.9 is not reached; the weakest echo that is detected has 1"),
     ({"fluctuation": "rayleigh"}, 'fluctuation is "rayleigh"; expected one of none, swerling_1, swerling_3'),
     ({"false_alarm_rate": 1}, "false_alarm_rate is 1; expected a number from 1e-15 to 0.1"),
     ({"false_alarms_per_scan": 9000}, "false_alarms_per_scan 9000 in 2.62e+04 cells is a rate of 0.3433 in each; expected 0.1 or less"),

@@ -238,7 +238,7 @@ def thresholds(scan):
     scan.follow("false_alarms", alarms or rate * count)
     if waveform:
         scan.follow("waveform", waveform | {"cfar_false_alarm": rate})
-    if not scan.base and "range_curve" not in members and "detections" not in figures and "exponent" not in scan.own:
+    if not scan.base and not members.keys() & {"exponent", "range_curve"} and len(figures.detections()) < 2:
         members["exponent"], scan.sources["exponent"] = EXPONENT, SLOPE
         scan.assumed.append(f"echoes fall by {20 * EXPONENT:g} dB a decade of range (exponent {EXPONENT}), as measured of radars")
     if not scan.own.keys() & set(LEVEL):
@@ -292,8 +292,8 @@ def calibrate(scan, threshold):
     strong = [law.amplitude(chance, threshold) for *_, chance in lines]
     for amplitude, (*_, chance) in zip(strong, lines):
         if abs(law.probability(amplitude, threshold) - chance) > 0.01:
-            raise Refused(f"{scan.name}: detection_probability {chance:g} is not reached; an echo at the threshold has "
-                          f"{law.probability(threshold, threshold):.3g}")
+            raise Refused(f"{scan.name}: a detection_probability of {chance:g} is not reached; the weakest echo that is detected has "
+                          f"{law.probability(amplitude, threshold):.3g}")
     if len(lines) == 2:
         scan.put("exponent", exponent_of(scan, lines, strong), "detections")
     likely = law.amplitude(0.9, threshold)
