@@ -1,4 +1,4 @@
-"""Vehicles of data/detailed/ tell where their figures come from, hardly fade over a road, and are seen under.
+"""Vehicles of data/detailed/ and data/surfaces/ tell where their figures come from, hardly fade over a road, and are seen under.
 
 Usage: python3 tests/chain/vehicles.py BIN_DIR        exit status 1 if any check fails
 """
@@ -42,15 +42,15 @@ def source_of(path, sources):
 
 
 def every_figure_has_two_sources_or_is_assumed():
-    for place in sorted((ROOT / "data" / "detailed" / "vehicles").glob("*.json")):
+    for place in sorted((ROOT / "data").glob("*/vehicles/*.json")):
         document = json.loads(place.read_text())
         paper = figures(json.loads((ROOT / "data" / "vehicles" / place.name).read_text()))
         sources, own = document["sources"], {path: value for path, value in figures(document).items()
                                              if paper.get(path) != value}
-        check(len(own) > 10 and sources["others"].startswith("[A]"), f"{place.name}: {len(own)} figures of its own")
+        check(len(own) > 5 and sources["others"].startswith("[A]"), f"{place.name}: {len(own)} figures of its own")
         for path in own:
             text = source_of(path, sources) or ""
-            check(text.startswith("[A]") or text.startswith("[F]") and ";" in text, f"{place.name}: {path}: {text or 'no source'}")
+            check(text.startswith("[A]") or text.startswith("[F]") and ";" in text, f"{place}: {path}: {text or 'no source'}")
 
 
 def scene_of(name, bodies, **more):

@@ -23,7 +23,8 @@ IDEAL = Chain("ideal echoes", PAPER, "glint-sensor-perfect | glint-noise-none")
 ALL = Chain("all effects", "auto")
 CHAINS = [IDEAL, Chain("the paper's model", PAPER), Chain("without levels", "auto,-level"), ALL,
           Chain("smear", "auto", "glint-sensor-smear | glint-noise"),
-          Chain("with data/detailed", "auto", vehicles="detailed"), Chain("with a roadside", "auto", road=True)]
+          Chain("with data/detailed", "auto", vehicles="detailed"), Chain("with data/surfaces", "auto", vehicles="surfaces"),
+          Chain("with a roadside", "auto", road=True)]
 
 
 def frames(scans, speeds, seed, strips, surface):
@@ -53,10 +54,11 @@ def run(chain, suite, fit, part, seeds=SEEDS, first=1):
         text = (f"glint-extract --vehicles {chain.vehicles} {traffic.name} | glint-ideal --sensors {shlex.quote(suite)}"
                 f" --effects {chain.effects} --sections none | {chain.stages}")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=DATA), check=False, stdout=subprocess.PIPE)
+        done = subprocess.run([GLINT, "-c", text], env=dict(os.environ, GLINT_DATA=DATA), check=False, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode:
-        refuse(f"{text}: exit status {done.returncode}", done.returncode)
+        refuse(f"{text}: exit status {done.returncode}: {done.stderr}", done.returncode)
     spent_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     lists = [[detection(target, fit.curve) for target in json.loads(line)["targets"]] for line in done.stdout.splitlines()]
     return ([lists[i:i + len(part.scans)] for i in range(0, len(lists), len(part.scans))], 1e6 * spent_s / len(lists))
