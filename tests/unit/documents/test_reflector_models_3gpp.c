@@ -79,6 +79,5 @@ TEST(the_points_replace_the_reflectors_of_the_document)
     assert_true(set.blocks);
     assert_string_equal(corner.name, "corner");
     assert_null(reflectors_name_twice(&set, check_arena()));
-    struct diag diag = {0};
-    assert_int_equal(record_write_check(&reflector_set_record, &set, ~0U, &diag), 0);
+    assert_done(record_write_check, &reflector_set_record, &set, ~0U);
 }

@@ -22,8 +22,7 @@ static void assert_fault(const struct waveform *waveform, const char *member)
 
 static void assert_fine(const struct waveform *waveform, double cell_range_m, double range_max_m)
 {
-    struct diag diag = {0};
-    assert_int_equal(waveform_check(waveform, cell_range_m, range_max_m, &diag), 0);
+    assert_done(waveform_check, waveform, cell_range_m, range_max_m);
 }
 
 TEST(absent_members_mean_hanns_window_and_the_twelfth_of_sixteen)

@@ -24,8 +24,7 @@ TEST(a_request_names_what_may_be_simulated)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct selection selection;
-        struct diag diag = {0};
-        assert_int_equal(effects_read(cases[i].text, &selection, &diag), 0);
+        assert_done(effects_read, cases[i].text, &selection);
         assert_int_equal(selection.allowed, cases[i].allowed);
         assert_int_equal(selection.automatic, cases[i].automatic);
     }

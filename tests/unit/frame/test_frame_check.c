@@ -7,10 +7,9 @@
 TEST(a_frame_without_contradictions_passes)
 {
     struct frame frame = accounted_frame(check_arena());
-    struct diag diag = {0};
     frame_order(&frame);
-    assert_int_equal(frame_check(&frame, &diag), 0);
-    assert_int_equal(frame_check_parts(&frame, (struct frame_parts){~0U, NULL}, &diag), 0);
+    assert_done(frame_check, &frame);
+    assert_done(frame_check_parts, &frame, (struct frame_parts){~0U, NULL});
 }
 
 static void name_one_twice(struct frame *frame)
@@ -122,12 +121,9 @@ TEST(frames_that_contradict_themselves_are_refused)
         {report_with_no_sensor, "targets[1].sensor: \"top\" is not in sensors.list"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct frame frame = accounted_frame(check_arena());
-        struct diag diag = {0};
         cases[i].plant(&frame);
         frame_order(&frame);
-        assert_int_equal(frame_check(&frame, &diag), -1);
-        assert_string_equal(diag.text, cases[i].message);
-        assert_int_equal(diag.code, DIAG_DATA);
+        assert_refused(DIAG_DATA, cases[i].message, frame_check, &frame);
     }
 }
 

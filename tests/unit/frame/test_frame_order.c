@@ -9,8 +9,7 @@
 static struct text written(const struct frame *frame)
 {
     struct text text = {0};
-    struct diag diag = {0};
-    assert_int_equal(frame_text_write(frame, &text, &diag), 0);
+    assert_done(frame_text_write, frame, &text);
     return text;
 }
 
@@ -50,8 +49,7 @@ TEST(every_order_of_a_frame_becomes_the_canonical_one)
     }
     frame.present |= PART_ECHOES | PART_CELLS | PART_REFLECTORS;
     frame_order(&frame);
-    struct diag diag = {0};
-    assert_int_equal(frame_check(&frame, &diag), 0);
+    assert_done(frame_check, &frame);
     for (size_t i = 1; i < frame.echoes.count; i++)
         assert_true(strcmp(frame.echoes.items[i - 1].sensor, frame.echoes.items[i].sensor) <= 0);
     assert_string_equal(frame.cells.items[0].members.items[0].id.object, "B");

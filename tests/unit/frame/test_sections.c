@@ -133,9 +133,8 @@ TEST(margins_that_are_left_out_go_at_once)
                           .echoes = {&echo, 1, 1},
                           .lost = {&group, 1, 1}};
     struct sections_change change;
-    struct diag diag = {0};
-    assert_int_equal(sections_read("-margins", &change, &diag), 0);
-    assert_int_equal(sections_apply(&change, &frame, &diag), 0);
+    assert_done(sections_read, "-margins", &change);
+    assert_done(sections_apply, &change, &frame);
     assert_int_equal(echo.margins.present, 0);
     assert_int_equal(lost.margins.present, 0);
 }
@@ -145,10 +144,9 @@ TEST(quality_that_is_left_out_goes_at_once)
     struct target target = {.quality = {.snr_db = 20, .present = QUALITY_NOISE}};
     struct frame frame = {.sections = CARRY_QUALITY};
     struct sections_change change;
-    struct diag diag = {0};
     frame.targets.items = &target;
     frame.targets.count = 1;
-    assert_int_equal(sections_read("-quality", &change, &diag), 0);
-    assert_int_equal(sections_apply(&change, &frame, &diag), 0);
+    assert_done(sections_read, "-quality", &change);
+    assert_done(sections_apply, &change, &frame);
     assert_int_equal(target.quality.present, 0);
 }

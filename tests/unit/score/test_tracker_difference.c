@@ -32,14 +32,12 @@ TEST(the_interval_is_students_over_scenes)
 
 TEST(fewer_than_five_scenes_are_refused)
 {
-    struct diag diag = {0};
     struct tracker_scenes scenes = {0};
     struct tracker_difference difference;
     for (int scene = 0; scene < 4; scene++)
         add(&scenes, scene, 1, check_arena());
-    assert_int_equal(tracker_difference_of(&scenes, &difference, &diag), -1);
-    assert_int_equal(diag.code, DIAG_DATA);
-    assert_string_equal(diag.text, "--against: number of scenes: 4; expected at least 5");
+    assert_refused(DIAG_DATA, "--against: number of scenes: 4; expected at least 5",
+                   tracker_difference_of, &scenes, &difference);
 }
 
 /* Scenes differ by a Gaussian number, and by the square of one, which is skewed, less its mean. */
