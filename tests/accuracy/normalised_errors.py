@@ -1,9 +1,10 @@
 """Squared errors of targets divided by the variances in their quality, for people who write trackers.
 
-    python3 tests/accuracy/normalised_errors.py [--scenes 20] [--suites srr24-signal,lrr77-full]
+    python3 tests/accuracy/normalised_errors.py [--scenes 20] [--suites srr24-signal,lrr77-full] [--signal | --rows]
 
 Random scenes of dense traffic move for 2 s each at 25 Hz. Each suite detects them by its cells (glint-sensor,
-glint-noise), a suite with a waveform also by its signal (glint-sensor-signal). The error of a target is its
+glint-noise), with --signal a suite with a waveform also by its signal (glint-sensor-signal). --rows prints the table of
+schemas/README.md: means by suite. The error of a target is its
 difference from the echo of its greatest weight; false alarms have none. Misalignment is left out, as the quality does
 not contain it. The groups are targets of one echo and of several, unmarked and marked by `looks_merged`, and all
 unmarked and all marked targets, which a tracker can tell apart. A range rate is compared in its true fold; targets
@@ -26,7 +27,8 @@ import suites  # noqa: E402
 from glint.progress import Progress, say  # noqa: E402
 
 GLINT = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin", "glint")
-SUITES = "srr24-pair,srr24-signal,corner77,lrr77,lrr77-full,lrr77-coherent,lrr77-signal-small,radarscenes77-full"
+SUITES = ",".join(sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "data", "sensors"))
+                         if name.endswith(".json") and not name.endswith("-every-frame.json")))
 CELLS, SIGNAL = "glint-sensor | glint-noise", "glint-sensor-signal"
 COMPONENTS = {"range": ("range_m", "range_sd_m"), "rate": ("range_rate_mps", "range_rate_sd_mps"),
               "azimuth": ("azimuth_rad", "azimuth_sd_rad")}
@@ -49,6 +51,11 @@ def normalised(target):
         nees = sum(squares.values())
         errors["NEES"] = nees / len(squares), nees <= REGION[len(squares)]
     return errors
+
+
+def source_of(scenes):
+    """The traffic of so many scenes."""
+    return f"glint-traffic-random --density dense --seconds 2 --rate-hz 25 --scenes 0:{scenes} --seed 27"
 
 
 def scenes_of(source, suite, chain):
@@ -98,20 +105,44 @@ def report(title, scenes):
             say(f"{title:27}{group:17}{name:9}{sum(map(len, own)):6}  {share:23}{mean:28}{inside}")
 
 
+def mean_of(scenes, groups, name):
+    """The mean of a component over groups, with its interval."""
+    errors = [[one[name] for group in groups for one in scene.get(group, []) if name in one] for scene in scenes]
+    return ratio([(sum(square for square, _ in of), len(of)) for of in errors])
+
+
+def row(title, scenes):
+    """The row of one chain in the table of a page."""
+    unmarked, every = (sum(len(scene.get(total, [])) for scene in scenes for total in totals)
+                       for totals in ((TOTALS[False],), TOTALS.values()))
+    figures = [mean_of(scenes, [GROUPS[False, False]], name) for name in COMPONENTS]
+    figures += [mean_of(scenes, [TOTALS[marked]], "azimuth") for marked in (False, True)]
+    share = f"{100 * unmarked / every:.0f} %"
+    return f"| `{title}` | " + " | ".join([*figures[:3], share, *figures[3:]]) + " |"
+
+
 def main():
     asked = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     asked.add_argument("--scenes", type=int, default=20, help="number of random scenes; absent: 20")
     asked.add_argument("--suites", default=SUITES, help="names of suites with commas")
+    asked.add_argument("--signal", action="store_true", help="by the signal as well")
+    asked.add_argument("--rows", action="store_true", help="rows of the page's table")
     asked = asked.parse_args()
-    source = f"glint-traffic-random --density dense --seconds 2 --rate-hz 25 --scenes 0:{asked.scenes} --seed 27"
     chains = []
     for suite in asked.suites.split(","):
         chains.append((suite, suite, CELLS))
-        if all("waveform" in one for one in suites.whole(suite)["sensors"]):
+        if asked.signal and all("waveform" in one for one in suites.whole(suite)["sensors"]):
             chains.append((f"{suite}, signal", suite, SIGNAL))
-    say(f"{'suite':27}{'echoes':17}{'':9}{'count':>6}  {'% of targets':23}{'mean squared error/variance':28}% inside 95 %")
+    if asked.rows:
+        say("| suite | range | range rate | azimuth | unmarked | their azimuth | marked, azimuth |\n" + "|---" * 7 + "|")
+    else:
+        say(f"{'suite':27}{'echoes':17}{'':9}{'count':>6}  {'% of targets':23}{'mean squared error/variance':28}% inside 95 %")
     for title, suite, chain in Progress("chains").over(chains):
-        report(title, scenes_of(source, suite, chain))
+        scenes = scenes_of(source_of(asked.scenes), suite, chain)
+        if asked.rows:
+            say(row(title, scenes))
+        else:
+            report(title, scenes)
 
 
 if __name__ == "__main__":
