@@ -185,6 +185,8 @@ def antennas(bench):
         hold(bench, f"deviation by elements at {degrees} degrees", value, expected, 0.06)
     hold(bench, "virtual elements", numbers(part, "array")[2], 8)
     hold(bench, "their steps", numbers(part, "array")[3], 0.5)
+    done, _ = made(bench, PLAIN | {"accuracy_snr_db": 8})
+    bench.check(done.returncode == 0, f"an accuracy is assumed that one pair of beams does not have: {done.stderr}")
     for view_deg, degrees in ((9, 1.6), (60, 1.2), (60, 3.2), (60, 14), (85, 10)):
         part = printed(bench, PLAIN | {"view_half_width_deg": view_deg, "azimuth_resolution_deg": degrees})[0]["front"]
         hold(bench, "azimuth resolution", numbers(part, "cell")[2], degrees)

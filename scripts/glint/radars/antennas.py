@@ -134,7 +134,8 @@ def tables(scan):
         scan.follow("angle_estimator", "beams")
         made = {"azimuth_curve": [(at, level(at)) for at in places]}
     else:
-        scan.assume("azimuth_sigma_rad", half_rad / 50, "a hundredth of the field of view")
+        finest_rad = 1.02 * half_rad / max(MOST * math.sqrt(2 * snr) - 5, 1)  # of one pair of beams
+        scan.assume("azimuth_sigma_rad", max(half_rad / 50, finest_rad), "a hundredth of the field of view, or what one pair of beams has")
         antenna = [min(map(stated, places)) if stated else members["azimuth_sigma_rad"]] * len(places)
         scan.follow("antenna_pattern", "table")
         scan.follow("angle_estimator", "ratio")
