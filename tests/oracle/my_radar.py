@@ -485,7 +485,7 @@ REFUSED = [
     ({"azimuth_resolution_deg": 0.15}, "azimuth_resolution_deg 0.15 takes more than 256 elements 1 wavelengths apart"),
     ({"receding_max_kmh": 100}, "receding_max_kmh and approaching_max_kmh belong together"),
     ({"speed_resolution": 1}, "speed_resolution: unknown figure; did you mean speed_resolution_"),
-    ({"members": {"final_threshold": False}}, "a detection_probability of 0.9 is not reached; the weakest echo that is detected has 1"),
+    ({"detection_probability": 0.4}, "detection_probability 0.4 is not reached; an echo at the threshold has 0.538"),
     ({"fluctuation": "rayleigh"}, 'fluctuation is "rayleigh"; expected one of none, swerling_1, swerling_3'),
     ({"false_alarm_rate": 1}, "false_alarm_rate is 1; expected a number from 1e-15 to 0.1"),
     ({"false_alarms_per_scan": 9000}, "false_alarms_per_scan 9000 in 2.62e+04 cells is a rate of 0.3433 in each; expected 0.1 or less"),

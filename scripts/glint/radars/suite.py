@@ -292,8 +292,8 @@ def calibrate(scan, threshold):
     strong = [law.amplitude(chance, threshold) for *_, chance in lines]
     for amplitude, (*_, chance) in zip(strong, lines):
         if abs(law.probability(amplitude, threshold) - chance) > 0.01:
-            raise Refused(f"{scan.name}: a detection_probability of {chance:g} is not reached; the weakest echo that is detected has "
-                          f"{law.probability(amplitude, threshold):.3g}")
+            raise Refused(f"{scan.name}: detection_probability {chance:g} is not reached; an echo at the threshold has "
+                          f"{law.probability(threshold, threshold):.3g}")
     if len(lines) == 2:
         scan.put("exponent", exponent_of(scan, lines, strong), "detections")
     likely = law.amplitude(0.9, threshold)
