@@ -374,7 +374,8 @@ def read_back(bench, sheet, out):
     part = text.partition(" at x ")[2]
     for figure, line, i, unit in (("range_max_m", "range", 1, 1), ("range_resolution_m", "resolution", 0, 1), ("speed_resolution_kmh", "resolution", 1, 3.6),
                                   ("view_half_width_deg", "field of view", 0, -1), ("cycle_ms", "update", 0, 1), ("carrier_ghz", "carrier", 0, 1),
-                                  ("list_limit", "list", 0, 1), ("azimuth_resolution_deg", "cell", 2, 1)):
+                                  ("list_limit", "list", 0, 1), ("azimuth_resolution_deg", "cell", 2, 1),
+                                  ("range_accuracy_percent", "range: at least", 0, 1), ("elevation_view_half_width_deg", "elevation", 0, -1)):
         if figure in sheet:
             hold(bench, f"{figure} of {sheet}", unit * numbers(part, line)[i], sheet[figure])
     if "azimuth_accuracy_deg" in sheet:
