@@ -9,6 +9,9 @@
 #   make CPPFLAGS=-DNDEBUG        for packages: without asserts, which check preconditions in all other builds
 #   make CPPFLAGS=-DPLAIN_POSIX   without the calls that Linux alone has; LDFLAGS=-static also works
 
+#   make release    a faster build with the same bytes, into build-release: optimised for what tests/tools/train runs,
+#                   and as a whole (gcc). `make install` takes it where it was made
+
 # No built-in rules: one of them would try to make a.d from a.d.o.
 MAKEFLAGS += -r
 
@@ -86,8 +89,9 @@ test_stage_objects := $(addprefix $(BUILD)/tests/soundness/,traffic_adversarial.
 test_programs := $(BUILD)/tests/glint $(BUILD)/tests/glint-traffic-adversarial
 soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
 
+programs: $(programs)
 # Programs of an older tree go.
-all: $(programs) $(test_programs)
+all: programs $(test_programs)
 	$(Q)rm -f $(filter-out $(programs),$(wildcard $(BUILD)/bin/*))
 
 $(BUILD)/lib/%.c.o: lib/%.c
@@ -205,7 +209,7 @@ $(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) 
 # For scripts/bench: our functions beside libm's, the machine's floors, what a command spends. For
 # tests/tools/accuracy-cost: angles by table.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ $(SPEED_LIBS) -lz -lm
+	$(Q)$(LINK) -o $@ $^ $(SPEED_LIBS) -lz $(zstd_libs) -lm
 # glint with clocks around what its chain calls.
 $(BUILD)/tests/speed/timed: $(BUILD)/tests/speed/timed.o $(stage_objects) $(BUILD)/registry.o $(archives)
 	$(Q)$(LINK) $(call wraps,tests/speed/timed.c) -o $@ $^ $(plugin_libs) $(LIBS)
@@ -254,6 +258,21 @@ bench: all
 # What accuracy costs, into data/accuracy: half an hour at most.
 accuracy: all
 	$(Q)tests/tools/accuracy-cost
+
+# The program counts how often each of its lines runs, and is compiled again with the counts. Objects have machine code
+# beside what the linker optimises as a whole, so that the library serves any compiler.
+counting = -fprofile-generate
+counted = -fprofile-use -fprofile-partial-training -flto=auto -ffat-lto-objects -Wno-missing-profile -Wno-alloc-size-larger-than
+release_make = $(MAKE) BUILD=build-release AR=gcc-ar CC=gcc
+release_sources = $(wildcard Makefile lib/*/*.[ch] lib/*/*.def $(page)/* stages/*.[ch] stages/*/*.* stages/*/Makefile) tests/tools/train
+release: build-release/made
+build-release/made: $(release_sources)
+	rm -rf build-release
+	$(release_make) CFLAGS='$(CFLAGS) $(counting)' LDFLAGS='$(LDFLAGS) $(counting)' programs
+	tests/tools/train build-release/bin
+	find build-release ! -type d ! -name '*.gcda' -delete
+	$(release_make) CFLAGS='$(CFLAGS) $(counted)' LDFLAGS='$(LDFLAGS) $(CFLAGS) $(counted)' all
+	touch $@
 
 schemas: all
 	$(Q)$(BUILD)/bin/glint-schema schemas
@@ -312,11 +331,13 @@ headers = $(wildcard lib/*/*.h lib/*/*.def)
 # The prefix from the folder of glint.pc, so that an installation can be moved; absolute if LIBDIR lies elsewhere.
 pc_prefix = $(if $(filter $(PREFIX)/%,$(LIBDIR)),$${pcfiledir}/../$(shell echo $(LIBDIR:$(PREFIX)/%=%) | sed 's:[^/]\{1,\}:..:g'),$(PREFIX))
 version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
-install: all man
+# What `make release` made, anew if a source has changed since.
+made = $(if $(wildcard build-release/made),build-release,$(BUILD))
+install: all man $(wildcard build-release/made)
 	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin share/man/man1) $(share) $(DESTDIR)$(LIBDIR)/pkgconfig
-	$(call install_as_one,$(plain_programs))
-	$(call install_as_one,$(full_programs))
-	install -m 644 $(BUILD)/libglint.a $(DESTDIR)$(LIBDIR)
+	$(call install_as_one,$(plain_programs:$(BUILD)/%=$(made)/%))
+	$(call install_as_one,$(full_programs:$(BUILD)/%=$(made)/%))
+	install -m 644 $(made)/libglint.a $(DESTDIR)$(LIBDIR)
 	strip -g $(DESTDIR)$(LIBDIR)/libglint.a
 	sed 's/@version@/$(version)/; s/@zstd@/$(zstd_libs)/; s:@prefix@:$(pc_prefix):' stages/glint.pc >$(DESTDIR)$(LIBDIR)/pkgconfig/glint.pc
 	$(Q)for header in $(headers:lib/%=%); do \
@@ -357,7 +378,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all printed unit hard soundness fuzz test check bench accuracy schemas format lint man install uninstall clean FORCE
+.PHONY: all programs release printed unit hard soundness fuzz test check bench accuracy schemas format lint man install uninstall clean FORCE
 .PRECIOUS: $(BUILD)/tests/%.o
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)

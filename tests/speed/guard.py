@@ -10,6 +10,7 @@ those without. Leaving out effects saves as much at the intersection as the page
 """
 import json
 import os
+import re
 import subprocess
 
 import counts
@@ -31,6 +32,9 @@ CHAINS = [("highway", 20, 1, "default"), ("highway", 20, 1, "account"),
           ("intersection", 20, 4, "default"), ("in-view", 100, 1, "default"),
           ("highway", 20, 1, "full"), ("highway", 20, 1, "full, all")]
 PIPED = CHAINS[0]
+RELEASE = os.path.join("build-release", "bin", "glint")
+RELEASE_CHAINS = [CHAINS[i] for i in (0, 1, 2, 4)]
+RELEASE_SHARE = 0.97
 KINDS = ("instructions_per_frame", "bytes_per_frame")
 
 
@@ -85,6 +89,27 @@ def ghosts_share(glint):
     texts = [" | ".join(scenes.commands("highway", 1000, 1, counts.FIRST + 3, labels)) for labels in ("full", "default")]
     full, plain = counts.side_by_side(lambda text: counts.instructions(glint, (text, os.devnull))["all"], texts)
     return full / plain
+
+
+def whole(glint, text):
+    """Instructions of a whole run, whatever functions its compiler has joined."""
+    told = counts.run("cachegrind", glint, (text, os.devnull), "--cache-sim=no", "--cachegrind-out-file=/dev/null")
+    return int(re.search(r"I +refs: +([\d,]+)", told)[1].replace(",", ""))
+
+
+def release(glint):
+    """Prints what the build of `make release` takes of the instructions of this one; the exit status is 1 where it takes
+    more than RELEASE_SHARE."""
+    if not counts.available():
+        return 0
+    shares = []
+    for scene in RELEASE_CHAINS:
+        texts = [" | ".join(scenes.commands(*scene[:3], frames, scene[3])) for frames in (counts.FIRST, counts.FIRST + FRAMES)]
+        few, many, fast_few, fast_many = counts.side_by_side(
+            lambda job: whole(*job), [(binary, text) for binary in (glint, RELEASE) for text in texts])
+        shares.append((fast_many - fast_few) / (many - few))
+        say("{:16.3f}   {}-{}x{}, {}".format(shares[-1], *scene))
+    return 1 if max(shares) > RELEASE_SHARE else 0
 
 
 def size(glint, job):
