@@ -362,6 +362,43 @@ def marks(bench):
         print(f"  {apart} degrees apart, {snr_db} dB: {share:.4f} +- {error:.4f} look merged")
 
 
+def beside(samples):
+    """What 8 elements half a wavelength apart receive beside their largest beam: the least power that one wave leaves."""
+    def beam(sine):
+        return abs(sum(one * cmath.rect(1 / 8, -math.pi * n * sine) for n, one in enumerate(samples)))
+    best = max((step / 64 for step in range(-64, 65)), key=beam)
+    step = 1 / 64
+    while step > 1e-5:
+        step /= 2
+        best = max((best - step, best, best + step), key=beam)
+    return sum(abs(one) ** 2 for one in samples) / 8 - beam(best) ** 2
+
+
+def marks_of_arrays(bench):
+    """1 % of single echoes at most look merged; of pairs with uniform phases as many as in an independent Monte Carlo."""
+    sigma, count = 0.5, quick(1000, 4000)
+    suite = suite_of(radar(pointer_sigma=sigma, list_limit=0, **signal.row_of(8)))
+    least = 7 * sigma ** 2 + 3 * math.sqrt(8) * sigma ** 2
+
+    def received(draw, apart):
+        echoes = [(cmath.rect(10 * sigma, draw.uniform(0, math.tau)), side * apart / 2) for side in (-1, 1)[:1 + (apart > 0)]]
+        return [sum(echo * cmath.rect(1, math.pi * (n - 3.5) * sine) for echo, sine in echoes) for n in range(8)]
+    for apart, low, high in ((0, 0, 0.01), (0.06, 0.3, 0.7), (0.12, 0.6, 0.95)):
+        draw = random.Random(str(apart))
+        own = sum(beside([one + noisy(draw, sigma * math.sqrt(8)) for one in received(draw, apart)]) > least
+                  for _ in range(count)) / count
+        cells = [cell_of(n, 50, 0, 0, 10 * sigma, elements=[{"re": one.real, "im": one.imag} for one in received(draw, apart)])
+                 for n in range(count)]
+        targets = targets_of(heard(bench, suite, [cells[n:n + BATCH] for n in range(0, count, BATCH)]))
+        targets.sort(key=lambda one: one["amplitude_db"])
+        largest = {one["contributors"][0]["object"]: one["quality"]["looks_merged"] for one in targets}
+        share, error = mean_of(list(largest.values()))
+        wide = 3 * math.sqrt(2) * max(error, 0.002)
+        bench.check(len(largest) == count and abs(share - own) < wide and low <= share < high,
+                    f"{apart} apart: {share:.4f} of {len(largest)} look merged, expected {own:.4f}")
+        print(f"  an array, sines {apart} apart, 20 dB: {share:.4f} +- {error:.4f} look merged, expected {own:.4f}")
+
+
 SIGNALS = {
     "chirp, hann": {"waveform": {"window": "hann"}},
     "chirp, rectangular": {"waveform": {"window": "rectangular"}},
@@ -407,6 +444,7 @@ CHECKS = [
     ("so they are through the chain of shipped suites, with both thresholds", existence_of_shipped),
     ("places and the rate over ground are those of the ego and the mount", places),
     ("a mark of merged echoes comes with its probability", marks),
+    ("so does a mark of other echoes beside an array's beam", marks_of_arrays),
     ("labels of folds and merged echoes are exact", labels),
     ("the other noise stages tell their own errors", other_stages),
     ("the signal's errors are as large as their deviations say", of_the_signal),
