@@ -7,15 +7,21 @@ It shares nothing with the chain but the echoes. A mean over phases is one of re
 sum of echoes that cancel reads anything. Draws have fixed seeds.
 """
 import cmath
+import json
 import math
+import os
 import random
+import re
+import struct
 import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
+sys.path += [str(Path(__file__).resolve().parents[1] / "support"), str(Path(__file__).resolve().parents[2] / "scripts")]
+import glint  # noqa: E402
 import model  # noqa: E402
-from model import echo, ego, frame, sensor, suite_of  # noqa: E402
+from glint.recordings import readers  # noqa: E402
+from model import echo, ego, frame, sensor, suite_of, thing  # noqa: E402
 from sizes import quick  # noqa: E402
 
 ELEMENTS, SPACING = 8, 0.5  # wavelengths apart
@@ -127,9 +133,66 @@ def deviations(bench):
         bench.check(abs(chain / stated - 1) < 5 / math.sqrt(2 * LOOKS), f"{above_db} dB: {chain} rad, stated {stated}")
 
 
+# ---- beside a recording --------------------------------------------------------------------------
+
+NEAR_M, PAGE = 25, r"the elevations of a car at 9 to 14 m\s+spread by ([\d.]+) degrees as measured, and by ([\d.]+) simulated"
+IMAGING = {**ROW, "mount_z_m": 0.6, "cell_range_m": 0.107, "cell_range_rate_mps": 0.136, "calibration_ercs": 1, "calibration_range_m": 350,
+           "exponent": 0.7, "cell_phase": "random", "angle_estimator": "ratio", "pointer_sigma": 1, "elevation_sigma_rad": 0.0088,
+           "elevation_floor_rad": 0.0017}
+
+
+def spread(scans):
+    """The deviation of elevations, in rad, within a car in a scan, pooled over all scans, in degrees."""
+    told = [scan for scan in scans if len(scan) > 1]
+    squares = sum((one - sum(scan) / len(scan)) ** 2 for scan in told for one in scan)
+    return math.degrees(math.sqrt(squares / sum(len(scan) - 1 for scan in told)))
+
+
+def inside(box, points):
+    """The elevations of points, triples with x and y, in the outline of a box."""
+    turned = [(*glint.turned(x - box.x_m, y - box.y_m, -box.yaw_rad), up) for x, y, up in points]
+    return [up for ahead, left, up in turned if abs(ahead) <= box.length_m / 2 and abs(left) <= box.width_m / 2]
+
+
+def near_cars(folder):
+    """The cars of the recording nearer than NEAR_M that have detections, and the elevations in their outlines; the recording counts downwards."""
+    names = [readers.numbered(folder, one).values() for one in ("calib/*.txt", "label_2/*.txt", "velodyne/*.bin")]
+    for calibration, labels, points in zip(*names, strict=True):
+        line = next(one for one in Path(calibration).read_text().splitlines() if one.startswith("Tr_velo"))
+        rows = [(x, y, -math.radians(beta)) for x, y, *_, beta in struct.iter_unpack("<8f", Path(points).read_bytes())]
+        for one in Path(labels).read_text().splitlines():
+            box = readers.kitti_box(one.split(), list(map(float, line.split()[1:])))
+            seen_there = inside(box, rows)
+            if math.hypot(box.x_m, box.y_m) < NEAR_M and seen_there:
+                yield box, seen_there
+
+
+def beside_a_recording(bench):
+    """The page has both spreads."""
+    folder = os.path.join(os.environ.get("GLINT_TEST_DATA", ""), "tj4d-first")
+    if not os.path.isdir(folder):
+        print("skipped  elevations beside a recording: GLINT_TEST_DATA has no tj4d-first")
+        return
+    boxes, measured = zip(*near_cars(folder))
+    for name in "car", "ego":
+        bench.add_vehicle(name, json.loads((model.ROOT / "data/surfaces/vehicles/car.json").read_text()))
+    frames = [dict(frame([ego(), dict(thing("other", "car", box.x_m, box.y_m, box.yaw_rad), length_m=box.length_m, width_m=box.width_m,
+                                      height_m=box.height_m)]), frame=i, last=i + 1 == len(boxes)) for i, box in enumerate(boxes)]
+    lists = model.parsed(bench.fused(f"glint-extract | glint-ideal --sensors {bench.write_suite(suite_of(sensor(**IMAGING)))} | glint-sensor"
+                                     " | glint-noise", frames))
+    simulated = [inside(box, [(*glint.place(one, target, "sensor"), target["elevation_rad"]) for target in one["targets"]])
+                 for box, one in zip(boxes, lists)]
+    print(f"a car at {min(math.hypot(box.x_m, box.y_m) for box in boxes):.1f} to {max(math.hypot(box.x_m, box.y_m) for box in boxes):.1f} m: "
+          f"{sum(map(len, measured))} detections measured, {sum(map(len, simulated))} simulated in {len(boxes)} scans")
+    found = re.search(PAGE, (model.ROOT / "data/measured/README.md").read_text())
+    for what, value, printed in zip(("measured", "simulated"), (spread(measured), spread(simulated)), found.groups()):
+        bench.check_printed(value, printed, f"the spread that is {what}")
+
+
 CHECKS = [("the elevation of a cell is the mean of what a row reads over phases", two_echoes_of_a_cell),
           ("the road's image pulls it as it pulls the row's", an_echo_and_its_image),
-          ("its deviation is that of the row's beam", deviations)]
+          ("its deviation is that of the row's beam", deviations),
+          ("elevations of a near car spread as a page says", beside_a_recording)]
 
 if __name__ == "__main__":
     model.run(__doc__, lambda bench: None, CHECKS)
