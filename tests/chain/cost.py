@@ -20,6 +20,9 @@ import tempfile
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 from glint.progress import Progress  # noqa: E402
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import suites  # noqa: E402
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SEEDS = 6
 REFERENCE = range(1, 2 * SEEDS, 2)
@@ -53,10 +56,10 @@ class Bench:
 
     def lists(self, frames, suite, effects, programs, ks):
         """Target lists of all seeds: s + (16 f + k) 2^32 of frame f with seed s, written as s + k 2^32; s if k is 0."""
-        made = b""
+        made, extract = b"", suites.extraction(self.run(["glint", "--datasheet", suite]).decode())
         for k in ks:
             seeded = moved(frames, k, 16 if k else 0)
-            listed = self.glint(f"glint-extract | glint-ideal --sensors {suite} --effects {effects} | " + " | ".join(programs), seeded)
+            listed = self.glint(f"{extract} | glint-ideal --sensors {suite} --effects {effects} | " + " | ".join(programs), seeded)
             made += moved(listed, 0, -16 if k else 0)
         return made
 

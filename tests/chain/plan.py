@@ -14,6 +14,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import suites  # noqa: E402
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 QUIET = {"pointer_sigma": 0, "azimuth_floor_rad": 0, "range_sigma_m": 0, "range_rate_sigma_mps": 0,
          "final_threshold": False, "list_limit": 250}
@@ -35,7 +38,8 @@ class Bench:
         return self.run(["bash", "-o", "pipefail", "-c", text], data)
 
     def whole(self, scenes, suite, effects):
-        return self.chain(f"glint-extract | glint-ideal --sensors '{suite}' --effects {effects} | "
+        extract = suites.extraction(self.run(["glint", "--datasheet", suite]).decode())
+        return self.chain(f"{extract} | glint-ideal --sensors '{suite}' --effects {effects} | "
                           f"glint-sensor --sensors '{suite}' | glint-noise --sensors '{suite}'", scenes)
 
     def plan(self, frames, suite, options):
