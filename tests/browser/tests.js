@@ -127,6 +127,21 @@ const tests = {
         });
     },
 
+    async 'a target has its elevation in panel and tooltip, if its sensor measures it'() {
+        const frame = {...structuredClone(corner.find(one => one.frame === 114))};
+        const [high, flat] = frame.targets.filter(one => one.sensor === 'left');
+        Object.assign(high, {elevation_rad: 0.05, cell_elevation_rad: -0.02});
+        await withPage(view([frame]), async page => {
+            const words = target => page.evaluate(number => targetWords(0, number), frame.targets.indexOf(target));
+            assert.match(await words(high), /° off boresight, 2\.9° up, /);
+            assert.doesNotMatch(await words(flat), /° up/);
+            await page.evaluate(number => chooseTarget(number), frame.targets.indexOf(high));
+            assert.match(await panelText(page), /elevation\s+2\.86°\s+-1\.15°/);
+            await page.evaluate(number => chooseTarget(number), frame.targets.indexOf(flat));
+            assert.doesNotMatch(await panelText(page), /elevation/);
+        });
+    },
+
     async 'the first look says what to click, the click tells the cell and puts the target on top'() {
         await withPage(view(corner, '--frame', '114'), async page => {
             assert.match(await panelText(page), /Click a target to see what it is made of/);

@@ -117,6 +117,18 @@ def an_echo_and_its_image(bench):
         bench.check(abs(told - mean) < 5 * error + 1e-6, f"{range_m} m: {told} rad, the row reads {mean} +- {error}")
 
 
+def beams_of_a_cell(bench):
+    """Two beams of an array along the bumper, each of an echo of its own."""
+    array = {"antenna_pattern": "array", "angle_estimator": "beams", "array": {
+        "transmit": [{"place": 0}], "receive": [{"place": 0.5 * n} for n in range(8)], "taper": "rectangular"}, "pointer_sigma": 0.01}
+    pair = [dict(at("a", 20, 2, 0.03), azimuth_rad=-0.5), dict(at("b", 20, 1.5, -0.02), azimuth_rad=0.4)]
+    [one] = seen(bench, [pair], suite_of(sensor(**ROW, **array)), ["glint-noise-none"])
+    found = {target["contributors"][0]["reflector"]: target["elevation_rad"] for target in one["targets"]}
+    bench.check(found.keys() == {"a", "b"}, f"beams of {found}")
+    for wanted in pair:
+        bench.check(abs(found.get(wanted["reflector"], 0) - wanted["elevation_rad"]) < 1e-12, f"{wanted['reflector']}: {found}")
+
+
 def deviations(bench):
     """At the threshold, 13 dB over the noise, where the law of first order is 6 % short, and above it."""
     draw, at_threshold = random.Random(6), math.sqrt(6) / (2 * math.pi) / (ELEMENTS * SPACING) * NOISE / THRESHOLD
@@ -185,11 +197,12 @@ def beside_a_recording(bench):
     print(f"a car at {min(math.hypot(box.x_m, box.y_m) for box in boxes):.1f} to {max(math.hypot(box.x_m, box.y_m) for box in boxes):.1f} m: "
           f"{sum(map(len, measured))} detections measured, {sum(map(len, simulated))} simulated in {len(boxes)} scans")
     found = re.search(PAGE, (model.ROOT / "data/measured/README.md").read_text())
-    for what, value, printed in zip(("measured", "simulated"), (spread(measured), spread(simulated)), found.groups()):
-        bench.check_printed(value, printed, f"the spread that is {what}")
+    bench.check_printed(spread(measured), found.group(1), "the spread that is measured")
+    bench.check(abs(spread(simulated) - float(found.group(2))) < 0.1, f"{spread(simulated)} degrees simulated, the page has {found.group(2)}")
 
 
 CHECKS = [("the elevation of a cell is the mean of what a row reads over phases", two_echoes_of_a_cell),
+          ("beams of one cell have the elevations of their own echoes", beams_of_a_cell),
           ("the road's image pulls it as it pulls the row's", an_echo_and_its_image),
           ("its deviation is that of the row's beam", deviations),
           ("elevations of a near car spread as a page says", beside_a_recording)]

@@ -37,13 +37,16 @@
 #define SIGHT ",\"margins\":{\"sight_m\":0}"
 #define ECHOES "\"echoes\":[{\"sensor\":\"f\"," NAMES IDEAL SIGHT ",\"extra\":null}],"
 #define CELLS                                                                                      \
-    "\"cells\":[{\"sensor\":\"f\",\"range_m\":1,\"azimuth_rad\":0,\"range_rate_mps\":0,"           \
+    "\"cells\":[{\"sensor\":\"f\",\"range_m\":1,\"azimuth_rad\":0,\"elevation_rad\":0,\"range_"    \
+    "rate_mps\":0,"                                                                                \
     "\"amplitude\":2,\"sum_re\":1,\"sum_im\":-1e+308,\"delta_re\":0,\"delta_im\":3,"               \
     "\"sign_undecided\":true,\"members\":" MEMBER ",\"margins\":{\"cell_edge\":2.5,\"sign\":1},"   \
     "\"extra\":\"x\"}],"
 #define TARGETS                                                                                    \
-    "\"targets\":[{\"sensor\":\"f\",\"range_m\":1,\"azimuth_rad\":0,\"range_rate_mps\":0,"         \
+    "\"targets\":[{\"sensor\":\"f\",\"range_m\":1,\"azimuth_rad\":0,\"elevation_rad\":-0.25,"      \
+    "\"range_rate_mps\":0,"                                                                        \
     "\"amplitude_db\":-10.5,\"sign_undecided\":true,\"cell_range_m\":1,\"cell_azimuth_rad\":0,"    \
+    "\"cell_elevation_rad\":0,"                                                                    \
     "\"cell_range_rate_mps\":0,\"cell_amplitude\":2,\"contributors\":" MEMBER ",\"margins\":{"     \
     "\"sight_m\":1e-09,\"threshold_db\":3,\"leader_db\":0,\"cell_edge\":0.5,\"sign\":1e-14,"       \
     "\"limit_db\":10000,\"limit_m\":2},\"extra\":[]}],"
