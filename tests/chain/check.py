@@ -34,6 +34,8 @@ SOUND = [
      + CHAIN.format("radarscenes77-full --sections account,reflectors"), ""),
     ("glint-traffic-random --frames 60 --density dense | glint-extract --vehicles data/detailed/vehicles --sections "
      "reflectors | glint-ideal --sensors corner77-uncompensated | glint-sensor | glint-noise", ""),
+    ("glint-traffic-random --frames 30 --density medium | glint-extract --vehicles surfaces | glint-ideal --sensors "
+     "corner77 --sections account,visibility | glint-sensor | glint-noise", ""),
 ]
 PLANTED = "glint-traffic side-crossing | " + CHAIN.format("srr24-pair --sections account,visibility")
 FLIPS = quick(100, 300)
