@@ -150,7 +150,7 @@ static double probability_at(const struct echo_law *echo, double power_db)
 static double integral(const struct echo_law *echo, double from, double to)
 {
     double sum = 0;
-    int steps = 32 + (int)(to - from);
+    int steps = 48 + (int)(to - from);
     for (int i = 1; i < steps; i++) {
         double part = (double)i / steps, rest = 1 - part;
         double way = part * part * part * (10 - 15 * part + 6 * part * part);

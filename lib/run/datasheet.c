@@ -60,7 +60,7 @@ static void add_ranges(const struct sensor *sensor, struct datasheet *sheet)
     struct detection_law detection = {
         .fluctuation = sensor->fluctuation,
         .fluctuation_sigma_db = sensor->fluctuation_sigma_db,
-        .threshold = sensor->threshold,
+        .threshold = sensor->lowered_threshold,
         .final_threshold = sensor->final_threshold ? sensor->threshold : 0,
         .noise = sensor->pointer_sigma,
         .level_mean_db = level_centre_db(sensor->level_keeps, level_db),

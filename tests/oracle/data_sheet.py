@@ -36,6 +36,7 @@ RADARS = {
     "swerling_1": radar(fluctuation="swerling_1"),
     "swerling_3": radar(fluctuation="swerling_3", exponent=1.3),
     "log_normal": radar(fluctuation="log_normal", fluctuation_sigma_db=5),
+    "full first threshold": radar(first_threshold="full", level_constant_db=4),
     "no final threshold": radar(fluctuation="swerling_1", final_threshold=False),
     "levels": radar(level_constant_db=4, level_slow_db=2, level_fast_db=3, level_keeps="median"),
     "levels and swerling_1": radar(fluctuation="swerling_1", level_constant_db=5),

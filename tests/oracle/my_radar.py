@@ -208,7 +208,9 @@ def chances(bench):
     """As many echoes are detected as stated, and false alarms are as many as stated."""
     detected = {"detected_dbsm": 10, "detected_at_m": 80, "false_alarm_rate": 1e-5}
     levels = {"extends": "radarscenes77-full", "detected_dbsm": 10, "detected_at_m": 80}
-    for sheet, law, chance in ((PLAIN | detected, "none", 0.9), (PLAIN | detected, "swerling_1", 0.6), (PLAIN | detected, "swerling_3", 0.8),
+    full = PLAIN | detected | {"members": {"first_threshold": "full"}}
+    for sheet, law, chance in ((PLAIN | detected, "none", 0.9), (PLAIN | detected, "none", 0.3), (full, "swerling_1", 0.6),
+                               (PLAIN | detected, "swerling_1", 0.6), (PLAIN | detected, "swerling_3", 0.8),
                                (levels, "none", 0.7), (levels, "swerling_1", 0.9)):
         sensor = sensors_of(bench, sheet | {"fluctuation": law, "detection_probability": chance})[0]
         share = len(data_sheet.look(bench, sensor, "rcs_10", 79.99, 0, DRAWS)) / DRAWS
@@ -486,7 +488,7 @@ REFUSED = [
     ({"azimuth_resolution_deg": 0.15}, "azimuth_resolution_deg 0.15 takes more than 256 elements 1 wavelengths apart"),
     ({"receding_max_kmh": 100}, "receding_max_kmh and approaching_max_kmh belong together"),
     ({"speed_resolution": 1}, "speed_resolution: unknown figure; did you mean speed_resolution_"),
-    ({"detection_probability": 0.4}, "detection_probability 0.4 is not reached; an echo at the threshold has 0.538"),
+    ({"detection_probability": 0.4, "members": {"first_threshold": "full"}}, "detection_probability 0.4 is not reached; an echo at the threshold has 0.538"),
     ({"fluctuation": "rayleigh"}, 'fluctuation is "rayleigh"; expected one of none, swerling_1, swerling_3'),
     ({"false_alarm_rate": 1}, "false_alarm_rate is 1; expected a number from 1e-15 to 0.1"),
     ({"false_alarms_per_scan": 9000}, "false_alarms_per_scan 9000 in 2.62e+04 cells is a rate of 0.3433 in each; expected 0.1 or less"),

@@ -1,8 +1,10 @@
-"""Probability of detection of one echo in noise of power 1, as glint detects it: its amplitude meets the threshold, and so does
-its amplitude with noise (MODEL 14.14)."""
+"""Probability of detection of one echo in noise of power 1, as glint detects it: its amplitude meets a first threshold, and with
+noise the final one (MODEL 8.4, 14.14)."""
 import math
 
 STEPS = 100
+DECIDES = 5  # noise decides so far from the threshold; beyond with less than 1e-10
+LOWERED_BY = 1.75  # the first threshold, where a final one follows
 ORDERS = {"swerling_1": 1, "swerling_3": 2}  # of the gamma law of the power
 
 
@@ -14,6 +16,7 @@ class Law:
         if members.get("fluctuation") == "log_normal":
             levels.append((members.get("fluctuation_sigma_db", 3.41), "mean"))
         self.order, self.final = ORDERS.get(members.get("fluctuation")), members.get("final_threshold", True)
+        self.lowered = self.final and members.get("first_threshold") != "full"
         self.sigma_db = math.hypot(*(sigma_db for sigma_db, _ in levels))
         self.mean_db = sum(-math.log(10) / 20 * sigma_db ** 2 for sigma_db, keeps in levels if keeps != "median")
 
@@ -28,14 +31,23 @@ class Law:
 
     def alone(self, mean, threshold):
         """Without levels."""
+        first = max(threshold - LOWERED_BY, 0) if self.lowered else threshold
         if self.order is None:
-            return self.noisy(mean, threshold) if mean >= threshold * (1 - 1e-12) else 0
-        least, total, width, order = (threshold / mean) ** 2, 0, 20 / STEPS, self.order
-        for i in range(STEPS if least < 40 else 0):
-            power = least + ((i + 0.5) / STEPS) ** 2 * 20
-            density = order ** order * power ** (order - 1) * math.exp(-order * power) / math.factorial(order - 1)
-            total += density * self.noisy(mean * math.sqrt(power), threshold) * 2 * (i + 0.5) / STEPS * width
+            return self.noisy(mean, threshold) if mean >= first * (1 - 1e-12) else 0
+        low, high = max(first, threshold - DECIDES), max(first, threshold + DECIDES if self.final else 0)
+        step, total = (high - low) / STEPS, self.tail((high / mean) ** 2)
+        for i in range(STEPS if high > low else 0):
+            amplitude = low + (i + 0.5) * step
+            total += self.density((amplitude / mean) ** 2) * 2 * amplitude / mean ** 2 * self.noisy(amplitude, threshold) * step
         return total
+
+    def density(self, power):
+        order = self.order
+        return order ** order * power ** (order - 1) * math.exp(-order * power) / math.factorial(order - 1)
+
+    def tail(self, power):
+        """How likely a power is above this one."""
+        return math.exp(-self.order * power) * sum((self.order * power) ** k / math.factorial(k) for k in range(self.order))
 
     def noisy(self, amplitude, threshold):
         return in_noise(amplitude, threshold) if self.final else 1
