@@ -62,9 +62,10 @@ const struct stage stage_noise_gauss = {
         "Stands in for glint-noise: every cell becomes a target; its range, azimuth, elevation\n"
         "and range rate get noise of the sensor's range_sigma_m, or its range_sigma_share of\n"
         "the range where that is larger, azimuth_sigma_rad, elevation_sigma_rad and\n"
-        "range_rate_sigma_mps, whatever its sigma_law. No threshold and no list limit is\n"
-        "applied, nothing is rounded or misaligned, and there are no false alarms. A cell of\n"
-        "zero amplitude is lost. A range below zero is reported as zero.",
+        "range_rate_sigma_mps, whatever its sigma_law. No list limit is applied, nothing is\n"
+        "rounded or misaligned, and there are no false alarms. A cell of zero amplitude is\n"
+        "lost, and one that glint-sensor found below the threshold. A range below zero is\n"
+        "reported as zero.",
     .options = &suite_choice_record,
     .reads = PART_SENSORS | PART_CELLS,
     .writes = PART_TARGETS | PART_LOST | PART_VISIBILITY,

@@ -53,8 +53,8 @@ const struct stage stage_sensor = {
     .details =
         "Gives every echo its amplitude, adds echoes of wheels, limbs and clutter, puts echoes\n"
         "that the radar cannot resolve into one cell, loses cells whose summed amplitude is\n"
-        "below the detection threshold, and writes the pointers of the other cells in the sum\n"
-        "and delta channels, without noise.",
+        "below the first threshold, and writes the pointers of the other cells in the sum and\n"
+        "delta channels, without noise.",
     .options = &suite_choice_record,
     .reads = PART_SENSORS | PART_ECHOES,
     .writes = PART_CELLS | PART_LOST | PART_COUNTS,

@@ -47,7 +47,7 @@ const struct stage stage_sensor_smear = {
         "pointers. The way uphill from an echo ends at a peak of the sum, which becomes a cell. "
         "Its "
         "range, rate and amplitude are interpolated between bins; its angle is that of the sum and "
-        "the delta channel. A peak below the detection threshold is lost; a peak of side lobes "
+        "the delta channel. A peak below the first threshold is lost; a peak of side lobes "
         "alone is not listed. So echoes merge gradually and shift each other's peaks, apart if "
         "they are out of phase; cell_phase sets their phases. Merging and superposition are one "
         "effect here: with --effects=-merging every echo is a cell of its own.",

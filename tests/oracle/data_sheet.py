@@ -27,7 +27,7 @@ CROSS_SECTIONS_DBSM = [0, 10, 20]
 
 def radar(**changes):
     return sensor("radar", **{"range_max_m": 500, "calibration_range_m": 60, "angle_estimator": "ratio",
-                              "phase_reference": "centre", "pointer_sigma": 0.4 * THRESHOLD,
+                              "phase_reference": "centre", "pointer_sigma": 0.4 * THRESHOLD, "first_threshold": "lowered",
                               "range_sigma_m": 0.02, "range_rate_sigma_mps": 0.05, **changes})
 
 

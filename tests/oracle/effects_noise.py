@@ -396,6 +396,50 @@ def final_threshold(bench):
     bench.check(len(targets_of(without, "twice")) == 100, "the final threshold is not off")
 
 
+def marcum(amplitude, threshold):
+    """Marcum's Q1(sqrt 2 A, sqrt 2 T) for noise of power 1, by its series of Poisson terms."""
+    x, y = amplitude ** 2, threshold ** 2
+    weight, term = math.exp(-x), math.exp(-y)
+    below, total = term, weight * term
+    for k in range(1, 3000):
+        weight, term = weight * x / k, term * y / k
+        below += term
+        total += weight * below
+    return total
+
+
+ROW = {"antenna_pattern": "array", "angle_estimator": "beams",
+       "array": {"transmit": [{"place": 0}], "receive": [{"place": n / 2} for n in range(8)]}}
+
+
+def detection_in_noise(bench):
+    """MODEL 8.4: a steady echo is detected with Marcum's probability, or never below the lowered threshold, by the sum channel or
+    by the beams of an array. Without a final threshold, without noise or with a full first threshold, T decides."""
+    frames = frames_of([pole()], DRAWS)
+    for over_db in (4, 6, 10, 13.2, 18.1, 26):
+        threshold = 10 ** (over_db / 20)
+        lowered = max(threshold - 1.75, 0)
+        amplitudes = {"weak": 1.01 * lowered + 0.05, "near": threshold * 10 ** (-0.25 / 20), "at": threshold * 1.0001,
+                      "strong": threshold + 0.8}
+
+        def one(name, amplitude, **changes):  # the pole has the amplitude, in units of the noise
+            at_m = 10 * math.sqrt(amplitude / threshold)
+            return snr_sensor(name, 0, **{"pointer_sigma": THRESHOLD / threshold, "sigma_law": "fixed", "calibration_range_m": at_m,
+                                          "first_threshold": "lowered", "final_threshold": True, **changes})
+
+        near = amplitudes["near"]
+        noisy = [one(name, amplitude) for name, amplitude in amplitudes.items()]
+        noisy += [one(f"array {name}", amplitudes[name], **ROW) for name in ("near", "strong")]
+        silent = [one("full", near, first_threshold="full"), one("once", near, final_threshold=False), one("silent", near, pointer_sigma=0)]
+        silent += [one("below", 0.99 * lowered)] if lowered > 0 else []
+        out = listen(bench, frames, noisy + silent)
+        for radar in noisy:
+            expected = marcum(amplitudes[radar["name"].split()[-1]], threshold)
+            check_share(bench, len(targets_of(out, radar["name"])), DRAWS, expected, f"{over_db} dB over the noise, {radar['name']}")
+        for radar in silent:
+            bench.check(not targets_of(out, radar["name"]), f"{over_db} dB over the noise: {radar['name']} is detected")
+
+
 def quantisation(bench):
     """MODEL 9: the error of rounding is even within a step."""
     steps = {"range_step_m": 0.2, "range_rate_step_mps": 0.25, "azimuth_step_rad": math.radians(0.1)}
@@ -464,6 +508,7 @@ CHECKS = [
     ("false alarms of shipped suites are as strong as noise above a threshold", shipped_false_alarms),
     ("false alarms are labelled and accounted for", false_alarm_labels),
     ("the final threshold lets through what theory says", final_threshold),
+    ("a steady echo is detected as often as Marcum's function says", detection_in_noise),
     ("rounding errors are even within a step", quantisation),
     ("a short list keeps the nearest or the strongest", list_limit),
     ("other models of noise have none of this", alternatives),

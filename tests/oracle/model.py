@@ -160,7 +160,7 @@ def sensor(name="radar", **changes):
                 "cell_range_m": 0.3, "cell_range_rate_mps": 0.5, "cell_extent": "width",
                 "antenna_pattern": "dipole_pair", "phase_reference": "element", "angle_estimator": "magnitude",
                 "pointer_sigma": 0.5, "range_sigma_m": 0.02, "range_rate_sigma_mps": 0.05,
-                "azimuth_sigma_rad": 0.04, "final_threshold": True, "list_order": "strongest", "list_limit": 0}
+                "azimuth_sigma_rad": 0.04, "final_threshold": True, "first_threshold": "full", "list_order": "strongest", "list_limit": 0}
     document.update(changes)
     return document
 
@@ -506,7 +506,8 @@ def random_sensor(draw, n):
                "cell_range_m": draw.choice([0.3, 0.3, 2, 6]), "cell_range_rate_mps": draw.choice([0.5, 0.5, 4, 10]),
                "cell_extent": draw.choice(["width", "width", "half_width"]),
                "phase_reference": draw.choice(["centre", "element"]),
-               "angle_estimator": draw.choice(["magnitude", "magnitude", "ratio"])}
+               "angle_estimator": draw.choice(["magnitude", "magnitude", "ratio"]),
+               "first_threshold": draw.choice(["full", "lowered"])}
     document = sensor(f"s{n}", **changes)
     if draw.random() < 0.3:
         document.pop("cell_extent")
@@ -633,8 +634,10 @@ def compare_scene(bench, title, answer, item, views, exact):
         if not bench.check(alike, f"{where} cells differ: program {sorted(cells)}, oracle {sorted(expected)}"):
             continue
         targets = [t for t in answer["targets"] if t["sensor"] == name]
-        bench.check(len(targets) == len(cells), f"{where}: {len(cells)} cells, {len(targets)} targets")
+        steady = sum(not cell["below_threshold"] for cell in expected.values())
+        bench.check(len(targets) == steady, f"{where}: {steady} of {len(cells)} cells at the threshold, {len(targets)} targets")
         for key, cell in cells.items():
+            bench.check(cell.get("below_threshold", False) == expected[key]["below_threshold"], f"{where} cell {key} below the threshold")
             compare_cell(bench, f"{where} cell {key}", cell, expected[key])
         for target in targets:
             first = target["contributors"][0]

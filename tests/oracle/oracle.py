@@ -265,6 +265,12 @@ def threshold(sensor):
     return 10.0 ** (sensor["threshold_db"] / 20.0)
 
 
+def first_threshold(sensor):
+    """The threshold on cells without noise (MODEL 8.4)."""
+    lowered = sensor["final_threshold"] and sensor.get("first_threshold") != "full"
+    return max(threshold(sensor) - 1.75 * sensor["pointer_sigma"], 0) if lowered else threshold(sensor)
+
+
 def reference_amplitude(sensor, distance):
     """A_ref of equation (3): calibration_ercs just meets the threshold at calibration_range_m."""
     q = sensor.get("exponent", 2.0)
@@ -331,7 +337,7 @@ def cluster(view, sensor):
         remaining.append(dict(echo, key=key, amplitude=amplitude))
     remaining.sort(key=lambda m: (-m["amplitude"], m["range_m"], m["range_rate_mps"], m["azimuth_rad"], m["key"]))
     half_range, half_rate = half_cells(sensor)
-    limit = threshold(sensor)
+    limit = first_threshold(sensor)
     while remaining:
         leader, rest = remaining[0], remaining[1:]
         if rest and close(rest[0]["amplitude"], leader["amplitude"], leader["amplitude"]):
@@ -344,9 +350,9 @@ def cluster(view, sensor):
             (members if far <= half_range and fast <= half_rate else others).append(m)
         remaining = others
         amplitude = math.fsum(m["amplitude"] for m in members)
-        view.doubtful_cells |= close(amplitude, limit, limit)
+        view.doubtful_cells |= any(close(amplitude, one, one) for one in (limit, threshold(sensor)))
         if amplitude >= limit:
-            view.cells.append(make_cell(sensor, members))
+            view.cells.append(make_cell(sensor, members) | {"below_threshold": amplitude < threshold(sensor)})
 
 
 def look(frame, vehicles, suite):

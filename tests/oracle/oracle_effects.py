@@ -881,8 +881,8 @@ def scan(frame, vehicles, sensor, effects, rows=None):
     made.doubtful_cells |= fold_doubtful(sensor, rays, effects)
     made.interference = interference(scene, frame, antenna)
     # The floor, and with it the threshold, rise by what other radars add.
-    limit = oracle.threshold(sensor) * math.sqrt(1 + made.interference)
-    made.threshold = limit
-    resolve(made, sensor, antenna, rays, limit)
-    list_targets(made, sensor, limit, effects)
+    rise = math.sqrt(1 + made.interference)
+    made.threshold = oracle.threshold(sensor) * rise
+    resolve(made, sensor, antenna, rays, oracle.first_threshold(sensor) * rise)
+    list_targets(made, sensor, made.threshold, effects)
     return made

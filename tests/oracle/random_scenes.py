@@ -71,11 +71,11 @@ def check_laws(bench, frames):
 
 
 def near_threshold(frame, sensor):
-    limit = oracle.threshold(sensor)
+    limit = oracle.first_threshold(sensor)
     sums = [c["amplitude"] for c in frame["cells"] if c["sensor"] == sensor["name"]]
     for group in frame.get("lost", []):
         if group["sensor"] == sensor["name"] and group["reason"] == "below_threshold":
-            sums += [limit * 10 ** (-e.get("shortfall_db", 0) / 20) for e in group["echoes"]]
+            sums += [oracle.threshold(sensor) * 10 ** (-e.get("shortfall_db", 0) / 20) for e in group["echoes"]]
     return any(abs(s / limit - 1) <= 1e-3 * (1 + 1e-9) for s in sums)
 
 

@@ -163,7 +163,8 @@ static void build_threshold(struct builder *builder)
             builder->sensor->half_range_m * random_sequence_between(&builder->sequence, -0.4, 0.4);
         spots[i].range_rate_mps = spots[0].range_rate_mps;
     }
-    double wanted = builder->sensor->threshold *
+    double first = builder->sensor->lowered_threshold;
+    double wanted = (first > 0 ? first : builder->sensor->threshold) *
                     (1 + adversarial_traffic_margin(&builder->sequence, AMPLITUDE_MARGIN));
     for (int i = 0; i < 8 && !move_to_sum(builder, spots, count, wanted); i++)
         for (int k = 0; k < count; k++)

@@ -2,7 +2,7 @@
  *
  * Each case draws a sensor of the suite and places a few objects in its view:
  *
- *     threshold   one to three points in one cell whose amplitudes sum to the threshold
+ *     threshold   one to three points in one cell whose amplitudes sum to the first threshold
  *     tie         two points of equal amplitude, near enough for one cell or far apart
  *     range, rate two or three points half a cell apart from one to the next
  *     symmetry    two points at mirrored azimuths, in one cell
