@@ -311,9 +311,9 @@ def a_roadside_is_found_again():
     with tempfile.TemporaryDirectory() as folder:
         suite = fitted.write_suite(truth(), folder)
         part = beside.Part(RADAR, [scan._replace(boxes=scan.boxes[:len(VEHICLES)]) for scan in world(40)], [EGO_MPS] * 40, {})
-        lists, _ = chains.run(chains.CHAINS[-1], suite, truth()._replace(roadside=planted), part, 1)
+        lists, _ = chains.run(chains.ROADSIDE, suite, truth()._replace(roadside=planted), part, 1)
         seen = part._replace(scans=[scan._replace(detections=own) for scan, own in zip(part.scans, lists[0])])
-        found = {one["from_y_m"]: one for one in roadside.strips(chains.CHAINS[-1], suite, truth(), seen)}
+        found = {one["from_y_m"]: one for one in roadside.strips(chains.ROADSIDE, suite, truth(), seen)}
     for strip in planted:
         own = found.get(strip["from_y_m"], {"per_m2": 0, "rcs_dbsm": 0})
         check(0.5 < own["per_m2"] / strip["per_m2"] < 2 and abs(own["rcs_dbsm"] - strip["rcs_dbsm"]) < 4, f"{strip}: {own} is found")

@@ -11,34 +11,43 @@ from collections import namedtuple
 
 from glint.places import GLINT
 from glint.progress import Progress
-from glint.recordings import chains, fitted, geometry, marginals, readers, roadside, score, statics
+from glint.recordings import chains, dense, fitted, geometry, marginals, readers, roadside, score, statics
 
 FAR, NEAR = 10, (1, 2, 3)  # scans away, of predictors that the recording itself gives
 MOUNT_Z_M = 0.5  # assumed, as lrr77-full
+ROUNDS, LEVELLED = 3, 6  # of levels beside dense lists, and the lists of each
 
 
-class Part(namedtuple("Part", "radar scans speeds boxes")):
-    """Scans with boxes where the lists saw them, the ego's speeds, and {(id, scan): box} of road users in view."""
+class Part(namedtuple("Part", "radar scans speeds boxes scale coarse", defaults=(score.COARSE, frozenset()))):
+    """Scans with boxes where the lists saw them, the ego's speeds, {(id, scan): box} of road users in view, units of scores,
+    and the numbers of scans whose far lists are of coarse cells."""
 
-    def of(self, lists):
-        """{(id, scan): detections} of lists of these scans."""
-        return {key: geometry.gated(self.radar, box, lists[key[1]]) for key, box in self.boxes.items()}
+    def of(self, lists, peaks=False):
+        """{(id, scan): detections} of lists of these scans, or their peaks alone."""
+        gate = geometry.WIDE if self.scale is score.COARSE else geometry.BARE
+        seen = {key: geometry.gated(self.radar, box, lists[key[1]], gate) for key, box in self.boxes.items()}
+        return {key: dense.peaks(own, self.peak_m(key)) for key, own in seen.items()} if peaks else seen
 
-    def observed(self):
-        return self.of([scan.detections for scan in self.scans])
+    def peak_m(self, key):
+        """The least distance in range of two peaks of a road user: a unit, or three where cells are coarse."""
+        is_far = geometry.look(self.radar, self.boxes[key]).range_m >= dense.NEAR_M
+        return self.scale.range_m * (3 if is_far and key[1] in self.coarse else 1)
 
-    def scores(self, lists):
+    def observed(self, peaks=False):
+        return self.of([scan.detections for scan in self.scans], peaks)
+
+    def scores(self, lists, peaks=False):
         """{(id, scan): S} of lists by seed and scan."""
-        gated = [self.of(one) for one in lists]
-        return {key: score.energy_score([one[key] for one in gated], seen) for key, seen in self.observed().items()}
+        gated = [self.of(one, peaks) for one in lists]
+        return {key: score.energy_score([one[key] for one in gated], seen, self.scale) for key, seen in self.observed(peaks).items()}
 
-    def scores_of_itself(self, away):
+    def scores_of_itself(self, away, peaks=False):
         """{(id, scan): S} of what the same body gave in other scans, moved to where it is now, if there are two or more.
         away: does this distance in scans count?"""
-        seen, looks = self.observed(), {key: geometry.look(self.radar, box) for key, box in self.boxes.items()}
+        seen, looks = self.observed(peaks), {key: geometry.look(self.radar, box) for key, box in self.boxes.items()}
         others = {key: [moved(seen[other], looks[other], look) for other in seen if other[0] == key[0]
                         and away(abs(other[1] - key[1]))] for key, look in looks.items()}
-        return {key: score.energy_score(own, seen[key]) for key, own in others.items() if len(own) > 1}
+        return {key: score.energy_score(own, seen[key], self.scale) for key, own in others.items() if len(own) > 1}
 
 
 def moved(detections, there, here):
@@ -55,7 +64,8 @@ def part(fit, radar, scans):
     scans = [scan._replace(boxes=own) for scan, own in zip(fitted.completed(scans, fit.curve), boxes)]
     return Part(radar, scans, statics.ego_speeds(radar, scans),
                 {(box.id, i): box for i, own in enumerate(boxes) for box in own
-                 if box.kind not in readers.STANDING and geometry.in_view(fit.sensor, radar, box)})
+                 if box.kind not in readers.STANDING and geometry.in_view(fit.sensor, radar, box)},
+                fit.scale, frozenset() if fit.scale is score.COARSE else dense.coarse_scans(radar, scans, fit.sensor["cell_range_m"]))
 
 
 def halves(recording):
@@ -96,21 +106,32 @@ def gains(scores, others, ideal, scans, without=None):
     return [100 * one for one in score.share(better, ideal, scans)]
 
 
-def print_skills(second, results, scores):
-    scans, ideal = len(second.scans), scores[chains.IDEAL]
-    rows = [("an empty list", None, second.scores([[[]] * scans])),
-            *((chain.name, us, scores[chain]) for chain, (_, us) in results.items()),
-            (f"the same body at least {FAR} scans away", None, second.scores_of_itself(FAR.__le__)),
-            ("the same body 1 to 3 scans away", None, second.scores_of_itself(NEAR.__contains__))]
-    print(f"{'predictor':38} {'us a frame':>10} {'skill':>8} {'interval':>13}")
-    for name, us, own in (row for row in rows if row[2]):
-        skill, least, most = gains(own, ideal, ideal, scans)
-        print(f"{name:38} {'' if us is None else f'{us:.1f}':>10} {skill:6.0f} % {least:6.0f} to {most:3.0f}")
+def scored(own, results, kinds):
+    """{name of a skill: {chain: {(id, scan): S}}} of the lists of chains; kinds: {name of a skill: of peaks alone?}."""
+    return {kind: {chain: own.scores(lists, peaks) for chain, (lists, _) in results.items()} for kind, peaks in kinds.items()}
+
+
+def print_skills(own, results, scores, kinds):
+    scans, far = len(own.scans), FAR if own.scale is score.COARSE else dense.FAR
+    rows = [("an empty list", None, {kind: own.scores([[[]] * scans], peaks) for kind, peaks in kinds.items()}),
+            *((chain.name, us, {kind: of[chain] for kind, of in scores.items()}) for chain, (_, us) in results.items()),
+            *((name, None, {kind: own.scores_of_itself(away, peaks) for kind, peaks in kinds.items()}) for name, away in (
+                (f"the same body at least {far} scans away", far.__le__), ("the same body 1 to 3 scans away", NEAR.__contains__)))]
+    print(f"{'predictor':38} {'us a frame':>10}", *(f"{kind:>8} {'interval':>13}" for kind in kinds))
+    for name, us, found in (row for row in rows if all(row[2].values())):
+        cells = [gains(found[kind], of[chains.IDEAL], of[chains.IDEAL], scans) for kind, of in scores.items()]
+        print(f"{name:38} {'' if us is None else f'{us:.1f}':>10}",
+              *(f"{skill:6.0f} % {least:6.0f} to {most:3.0f}" for skill, least, most in cells))
     blocks = scans / score.block_length(scans)
     if blocks < score.LONG_BLOCKS:
         print(f"too short: intervals of {blocks:.0f} blocks of scans; {score.LONG_BLOCKS} are needed")
-    for chain, before in zip(chains.CHAINS[1:], [*chains.CHAINS[:4], chains.ALL, chains.ALL]):
-        points, least, _ = gains(scores[chain], scores[before], ideal, scans)
+
+
+def print_gains(scans, scores, ways):
+    """How many points of skill chains gain over others, {chain: other}, and without each body."""
+    ideal = scores[chains.IDEAL]
+    for chain, before in ways.items():
+        points, least, _ = gains(scores[chain], scores[before], ideal, scans) if before else (0, 0, 0)
         if least > 0:
             bodies = sorted({key[0] for key in ideal})
             left = {body: gains(scores[chain], scores[before], ideal, scans, body) for body in bodies if len(bodies) > 1}
@@ -124,12 +145,28 @@ def kept(recording, folder):
     scans, lost = recording.scans, dict.fromkeys(("median", "mean") if any(scan.boxes for scan in recording.scans) else (), 0)
     blocks = max(len(scans) // score.block_length(len(scans)), 2)
     for begin, end in itertools.pairwise(len(scans) * i // blocks for i in range(blocks + 1)):
-        fit = fitted.fit(recording._replace(scans=scans[:begin] + scans[end:]))
+        fit = fit_of(recording._replace(scans=scans[:begin] + scans[end:]), folder)
         block = part(fit, recording.radar, scans[begin:end])
         for word in lost:
-            lists, _ = chains.run(chains.ALL, fitted.write_suite(fit, folder, level_keeps=word), fit, block)
+            lists, _ = chains.run(chains.ALL, fitted.write_suite(fit, folder, level_keeps=word), fit, block, block.scale.lists)
             lost[word] += sum(block.scores(lists).values())
     return lost
+
+
+def fit_of(recording, folder, keeps="median"):
+    """What the scans of a recording say; beside dense lists without cross sections, with the level at which lists of all effects
+    have strongest detections as strong as the recorded ones."""
+    fit = fitted.fit(recording, keeps)
+    if fit.scale is score.COARSE or any(one.rcs_dbsm is not None for scan in recording.scans for one in scan.detections):
+        return fit
+    scans = [scan._replace(time_s=dense.INTERVAL_S * i) for i, scan in enumerate(recording.scans)]  # also of drawn ones
+    for _ in range(ROUNDS):
+        own = part(fit, recording.radar, scans)
+        lists, _ = chains.run(chains.ALL, fitted.write_suite(fit, folder), fit, own, LEVELLED)
+        seen, made = ([level for of in lists for _, level in dense.strongest(own.of(of).items())] for lists in (
+            [[scan.detections for scan in own.scans]], lists))
+        fit = fit._replace(curve=fit.curve.raised(statistics.fmean(seen) - statistics.fmean(made)) if made else fit.curve)
+    return fit
 
 
 def fits(recording, folder, keeps="median", **changed):
@@ -137,15 +174,15 @@ def fits(recording, folder, keeps="median", **changed):
     All have the roadside of the first. Lists of all effects under the first tell what the estimates add: their echoes lie
     behind the nearest points of boxes, and merged ones spread wider than the noise of range. All fits are without it. Of n
     blocks n - 3 are drawn: fits then vary by n/(n - 3) times the bootstrap's variance, as Student's t of n blocks does."""
-    found = fitted.fit(recording, keeps)
+    found = fit_of(recording, folder, keeps)
     own = part(found, recording.radar, recording.scans)
-    lists, _ = chains.run(chains.ALL, fitted.write_suite(found, folder, **changed), found, own)
+    lists, _ = chains.run(chains.ALL, fitted.write_suite(found, folder, **changed), found, own, own.scale.lists)
     made = [[scan._replace(detections=seen) for scan, seen in zip(own.scans, one)] for one in lists]
     behind = [statistics.fmean(of) for of in zip(*(fitted.annotation(recording._replace(scans=scans)) for scans in made))]
     noises_m = [fitted.noise(recording.radar, scans, 1e-3)[0].get("range_sigma_m") for scans in made]
     wider = 1 if None in noises_m or not fitted.is_found(found, "range_sigma_m") else statistics.fmean(noises_m) / found.sensor["range_sigma_m"]
     drawn = Progress("fits").over([*score.resampled(len(recording.scans), chains.SEEDS, 3)])
-    told = [found, *(fitted.fit(recording._replace(scans=[recording.scans[i] for i in one]), keeps) for one in drawn)]
+    told = [found, *(fit_of(recording._replace(scans=[recording.scans[i] for i in one]), folder, keeps) for one in drawn)]
     return [one._replace(annotation=fitted.Annotation(*map(operator.sub, one.annotation, behind)),
                          sensor=one.sensor | {"range_sigma_m": one.sensor["range_sigma_m"] / wider}) for one in told]
 
@@ -180,7 +217,7 @@ def print_components(second, fit, folder, scores):
                for law in ("log_normal", "swerling_1", "swerling_3")]
     mirrored = (f"over asphalt, {MOUNT_Z_M} m high", best._replace(surface="asphalt"), fitted.write_suite(fit, folder, mount_z_m=MOUNT_Z_M))
     for name, chain, document in Progress("components").over([*trials, mirrored]):
-        lists, _ = chains.run(chain, document, fit, second)
+        lists, _ = chains.run(chain, document, fit, second, second.scale.lists)
         lost.append((gains(scores[best], second.scores(lists), scores[chains.IDEAL], scans), name))
     print(f"\n{best.name}, these cost most skill")
     for (points, least, most), name in [*sorted(lost[:-1], reverse=True)[:3], lost[-1]]:
@@ -199,20 +236,27 @@ def compare(folder, suite_folder=None):
         lost = kept(first, place)
         fit, *others = fits(first, place, min(lost, key=lost.get, default="median"))
         suite = fitted.write_suite(fit, suite_folder or place)
-        strips = roadside.strips(chains.CHAINS[-1], suite, fit, part(fit, first.radar, first.scans))
+        is_dense = fit.scale is not score.COARSE
+        kinds, ways = (dense.SKILLS, chains.DENSE) if is_dense else ({"skill": False}, chains.CHAINS)
+        strips = [] if is_dense else roadside.strips(chains.ROADSIDE, suite, fit, part(fit, first.radar, first.scans))
         fit, *others = (one._replace(roadside=strips) for one in (fit, *others))
         print_found(recording, fit, lost)
-        second = part(fit, rest.radar, rest.scans)
-        results = {chain: chains.run(chain, suite, fit, second) for chain in Progress("chains").over(chains.CHAINS)}
+        for name, scans in (("all scans, also those of the fit", recording.scans), ("the second half alone", rest.scans))[not is_dense:]:
+            second = part(fit, rest.radar, scans)
+            results = {chain: chains.run(chain, suite, fit, second, second.scale.lists) for chain in Progress("chains").over(ways)}
+            if second.boxes:
+                scores = scored(second, results, kinds)
+                print(*[f"{name}:"] * is_dense, end="\n" * is_dense)
+                print_skills(second, results, scores, kinds)
         if second.boxes:
-            scores = {chain: second.scores(lists) for chain, (lists, _) in results.items()}
-            print_skills(second, results, scores)
+            first_kind = next(iter(scores.values()))
+            print_gains(len(second.scans), first_kind, ways)
         elif any(scan.boxes for scan in recording.scans):
             print("no road user is in view in the second half: skill and the marginals of road users are left out")
         print_marginals(second, {chain: drawn_lists(chain, others, rest, place)
-                                 for chain in Progress("chains").over(chains.CHAINS[1:])}, fit.sensor["threshold_db"])
+                                 for chain in Progress("chains").over([*ways][1:])}, fit.sensor["threshold_db"])
         if second.boxes:
-            print_components(second, fit, place, scores)
+            print_components(second, fit, place, first_kind)
     if suite_folder:
         print(f"written: {os.path.relpath(suite)} and {os.path.relpath(write_found(fit, recording, suite_folder))}")
 

@@ -1,5 +1,6 @@
 """What the first half of a recording says of its annotation and of its radar; the latter as a suite with sources."""
 import bisect
+import itertools
 import json
 import math
 import os
@@ -7,14 +8,15 @@ import statistics
 from collections import namedtuple
 
 from glint.places import DATA
-from glint.recordings import geometry, statics
-from glint.recordings.readers import STANDING, json_of
+from glint.recordings import dense, geometry, statics
+from glint.recordings.readers import STANDING, is_dense, json_of
+from glint.recordings.score import COARSE
 
 # A list is lag_s older than its boxes, and near faces lie inset_m inside them.
 Annotation = namedtuple("Annotation", "lag_s inset_m")
 # azimuth_noise: standard deviation in rad at a signal as strong as the noise; sensor: members of a suite's sensor;
-# roadside: strips of a scene.
-Fit = namedtuple("Fit", "annotation curve azimuth_noise sensor roadside", defaults=([],))
+# scale: units of scores; roadside: strips of a scene.
+Fit = namedtuple("Fit", "annotation curve azimuth_noise sensor scale roadside", defaults=(COARSE, []))
 SLOWEST = 24  # dB a decade, the lesser of two 77 GHz radars on roads: few near detections are as weak as the threshold
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
 STEEPEST = 8  # extent of the view in noise of azimuth: delta is at most 140 times sum
@@ -35,6 +37,9 @@ ASSUMED = {"cell_phase": ("by_path", "[A] as lrr77-coherent"), "cell_extent": ("
 class Curve(namedtuple("Curve", "over_range over_azimuth")):
     """Signal-to-noise ratio in dB of 0 dBsm on boresight, rows (range in m, dB), straight over lg R between them; and what
     is lost aside, rows (azimuth in rad, dB)."""
+
+    def raised(self, by_db):
+        return self._replace(over_range=[(range_m, level + by_db) for range_m, level in self.over_range])
 
     def snr_db(self, range_m, azimuth_rad):
         rows = [(math.log10(row_m), level) for row_m, level in self.over_range]
@@ -92,15 +97,15 @@ def annotation(recording):
     return Annotation(-line.slope, line.intercept)
 
 
-def curve(detections, threshold_db):
+def curve(detections, threshold_db, fall_db=40):
     """By least squares where lists have both figures. With cross sections alone, the weakest tenth of each sixth of the
-    ranges meets the threshold, or is above it where levels would fall by less than SLOWEST. Without cross sections 40 dB a
-    decade are assumed."""
+    ranges meets the threshold, or is above it where levels would fall by less than SLOWEST. Without cross sections
+    levels fall by so many dB a decade."""
     ordered, aside = sorted(detections), 1.01 * max(0.01, *(abs(one.azimuth_rad) for one in detections))
     azimuths = [aside * i / 4 for i in range(-4, 5)]
     flat = [(azimuth, 0) for azimuth in azimuths]
     if any(one.rcs_dbsm is None for one in detections):
-        return Curve([(1, threshold_db + 40 * math.log10(ordered[-1].range_m)), (ordered[-1].range_m, threshold_db)], flat)
+        return Curve([(1, threshold_db + fall_db * math.log10(ordered[-1].range_m)), (ordered[-1].range_m, threshold_db)], flat)
     if any(one.snr_db is None for one in detections):
         sixths = [ordered[len(ordered) * i // 6:len(ordered) * (i + 1) // 6] for i in range(6)]
         rows = [(one[len(one) // 2].range_m, threshold_db - quantile([one.rcs_dbsm for one in one], 0.1)) for one in sixths]
@@ -127,7 +132,7 @@ def completed(scans, law):
 def edge(values):
     """Where values begin to be dense, of few or many, some of which may lie below by mistake: of all places where a step of their
     density is most likely, by their numbers up to it and up to three times as far."""
-    values, best, most = sorted(values), 0, 0
+    values, best, most = sorted(one for one in values if one > 0), 0, 0
     for i, value in enumerate(values):
         count = bisect.bisect_left(values, 3 * value)
         below = i / count
@@ -203,23 +208,26 @@ def least_noise_rad(law):
 def fit(recording, level_keeps="median"):
     """What the scans of a recording say, for its annotation and its radar; level_keeps is chosen elsewhere."""
     detections, radar = [one for scan in recording.scans for one in scan.detections], recording.radar
-    told = [one.snr_db for one in detections if one.snr_db is not None]
+    is_fine, seen = is_dense(recording.scans), dense.of_road_users(radar, recording.scans)
+    told = [one.snr_db for one in (itertools.chain(*itertools.chain(*seen)) if is_fine else detections) if one.snr_db is not None]
     threshold_db = quantile(told, LEAST) if told else 14.0
-    law = curve(detections, threshold_db)
+    law = curve(detections, threshold_db, dense.slope(radar, recording.scans) if is_fine else 40)
     scans = completed(recording.scans, law)
     scatter, azimuth_noise = noise(radar, scans, least_noise_rad(law))
     found = {"mount_x_m": radar.x_m, "mount_y_m": radar.y_m, "mount_yaw_rad": radar.yaw_rad, "carrier_hz": radar.carrier_hz,
              "range_max_m": max(one.range_m for one in detections), "threshold_db": threshold_db,
              "field_of_view_rad": 2 * law.over_azimuth[-1][0],
              "range_curve": "range.csv", "azimuth_curve": "azimuth.csv", "antenna_table": "antenna.csv",
-             "level_keeps": level_keeps, **cells(scans), **scatter}
+             "level_keeps": level_keeps, **(dense.cells(seen) if is_fine else cells(scans)), **scatter}
     shipped = json_of(os.path.join(DATA, "sensors", "lrr77-full.json"))["sensors"][0]
     members = {name: (shipped[name], shipped["sources"][name]) for name in SHIPPED} | {
-        name: (shipped[name] / 2, f"[A] not found in the recording; as lrr77-full, {shipped[name]} wide") for name in CELLS} | ASSUMED | {
+        name: (shipped[name] / 2, f"[A] not found in the recording; as lrr77-full, {shipped[name]} wide") for name in CELLS} | ASSUMED | (
+        dense.ASSUMED if is_fine else {}) | {
         name: (value, FOUND) for name, value in found.items()}
-    return Fit(annotation(recording), law, azimuth_noise,
-               {"name": "radar", **{name: value for name, (value, _) in members.items()},
-                "sources": {name: source for name, (_, source) in members.items()}})
+    sensor = {name: value for name, (value, _) in members.items()}
+    return Fit(Annotation(0, 0) if is_fine else annotation(recording), law, azimuth_noise,
+               {"name": "radar", **sensor, "sources": {name: source for name, (_, source) in members.items()}},
+               dense.scale(sensor) if is_fine else COARSE)
 
 
 def write_suite(of, folder, **changed):
@@ -232,7 +240,8 @@ def write_suite(of, folder, **changed):
                              ("antenna", "azimuth_rad,sum,delta", ratios)):
         with open(os.path.join(folder, name + ".csv"), "w", encoding="ascii") as out:
             out.write("\n".join([head] + [",".join(map(repr, map(float, row))) for row in rows]) + "\n")
+    sensor = of.sensor | changed
     place = os.path.join(folder, "-".join(["recorded", *map(str, changed.values())]) + ".json")
     with open(place, "w", encoding="utf-8") as out:
-        json.dump({"origin": "Made by scripts/realism --recordings.", "sensors": [{**of.sensor, **changed}]}, out, indent=2)
+        json.dump({"origin": "Made by scripts/realism --recordings.", "sensors": dense.with_coarse(sensor) if of.scale is not COARSE else [sensor]}, out, indent=2)
     return place

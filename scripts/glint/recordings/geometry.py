@@ -3,7 +3,9 @@ import math
 from collections import namedtuple
 
 Look = namedtuple("Look", "range_m azimuth_rad range_rate_mps")
-BEHIND_M, ASIDE_M, ASIDE_RAD, OFF_MPS = 2.9, 1.5, math.radians(1), 1.5  # of the gate around a box
+# The gate around a box: so much longer and wider at each end, wider with range, and off its range rate.
+Gate = namedtuple("Gate", "behind_m aside_m aside_rad off_mps")
+WIDE, BARE = Gate(2.9, 1.5, math.radians(1), 1.5), Gate(0, 0, 0, 1.5)
 
 
 def look(radar, box):
@@ -20,15 +22,15 @@ def in_box(box, x, y):
     return c * x + s * y, c * y - s * x
 
 
-def gated(radar, box, detections):
-    """The detections of a box: half its size and a little more around it, at about its range rate."""
+def gated(radar, box, detections, gate=WIDE):
+    """The detections of a box: half its size and the gate's margin around it, at about its range rate."""
     seen, kept = look(radar, box), []
     for one in detections:
-        if abs(one.range_rate_mps - seen.range_rate_mps) <= OFF_MPS:
+        if abs(one.range_rate_mps - seen.range_rate_mps) <= gate.off_mps:
             angle = one.azimuth_rad + radar.yaw_rad
             ahead, left = in_box(box, radar.x_m + one.range_m * math.cos(angle), radar.y_m + one.range_m * math.sin(angle))
-            if (abs(ahead) <= box.length_m / 2 + BEHIND_M
-                    and abs(left) <= box.width_m / 2 + ASIDE_M + ASIDE_RAD * seen.range_m):
+            if (abs(ahead) <= box.length_m / 2 + gate.behind_m
+                    and abs(left) <= box.width_m / 2 + gate.aside_m + gate.aside_rad * seen.range_m):
                 kept.append(one)
     return kept
 

@@ -1,9 +1,10 @@
 """Recordings of real radars: target lists, and boxes of the road users around.
 
 In memory a recording is as data/measured/README.md has `recording.json`; each reader turns one layout of files into it.
-Places and velocities of boxes are relative to the ego, x ahead and y left. Either figure of a level may be None.
+Places and velocities of boxes are relative to the ego, x ahead and y left. Either figure of a level may be None, and the elevation.
 """
 import glob
+import itertools
 import json
 import math
 import os
@@ -16,7 +17,7 @@ from collections import namedtuple
 from glint import command_line
 from glint.recordings import statics
 
-Detection = namedtuple("Detection", "range_m azimuth_rad range_rate_mps snr_db rcs_dbsm", defaults=(None, None))
+Detection = namedtuple("Detection", "range_m azimuth_rad range_rate_mps snr_db rcs_dbsm elevation_rad", defaults=(None, None, None))
 Box = namedtuple("Box", "id kind x_m y_m yaw_rad vx_mps vy_mps length_m width_m height_m")
 Scan = namedtuple("Scan", "time_s detections boxes")
 Radar = namedtuple("Radar", "x_m y_m yaw_rad carrier_hz")
@@ -29,13 +30,15 @@ CLASSES = {"car": "car", "van": "van", "truck": "truck", "truck/bus": "truck", "
 STANDING = {"post", "guardrail", "wall"}  # classes that are no road users
 KINDS = STANDING | {"articulated_truck", *CLASSES.values()}
 # Bounds of numbers, (-FARTHEST, FARTHEST) of others: glint's objects, and fields of view below 180 degrees.
-BOUNDS = {"range_m": (0, 1e4), "azimuth_rad": (-1.55, 1.55), "yaw_rad": (-10, 10), "carrier_hz": (1e9, 1e12), "time_s": (-1e11, 1e11),
+BOUNDS = {"range_m": (0, 1e4), "azimuth_rad": (-1.55, 1.55), "elevation_rad": (-1.6, 1.6), "yaw_rad": (-10, 10), "carrier_hz": (1e9, 1e12), "time_s": (-1e11, 1e11),
           **dict.fromkeys(("length_m", "width_m", "height_m"), (0, 100)), **dict.fromkeys(("snr_db", "rcs_dbsm"), (-300, 300))}
 FARTHEST = 1e4
 MOST = 400  # scans, so that 39 lists of each fit into memory
 ARTICULATED_M = 12  # longer trucks are articulated
 LONGEST_GAP_S = 5  # between lists of one sequence
 KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
+FOLLOWED_M = 4  # from scan to scan, of a box without an id: less than from one car to the next
+BEYOND_M = 25  # the farthest box, of detections that are kept of a dense list
 
 
 def refuse(text, code=os.EX_DATAERR):
@@ -82,7 +85,7 @@ def check(radar, scans):
             least, most = BOUNDS.get(name, (-FARTHEST, FARTHEST))
             if name in ("id", "kind"):
                 expect(isinstance(value, str) and value.isprintable() and 0 < len(value) < 256, f"{path}.{name}", value, "a short word")
-            elif value is not None or name not in ("snr_db", "rcs_dbsm"):
+            elif value is not None or name not in ("snr_db", "rcs_dbsm", "elevation_rad"):
                 expect(type(value) in (int, float) and least < value < most, f"{path}.{name}", value,
                        f"a number above {least:g} and below {most:g}")
         expect("snr_db" not in row or {row["snr_db"], row["rcs_dbsm"]} != {None}, path, row, "snr_db, rcs_dbsm or both")
@@ -95,6 +98,11 @@ def check(radar, scans):
         expect(sum(len(scan.detections) for scan in half) >= 4, "detections of a half", "fewer than four", "four or more")
 
 
+def is_dense(scans):
+    """Are there detections with elevations, and road users? The radar is taken for an imaging one then."""
+    return any(scan.boxes for scan in scans) and any(one.elevation_rad is not None for scan in scans for one in scan.detections)
+
+
 def lacks(scans):
     found, detections = [], [one for scan in scans for one in scan.detections]
     if not any(scan.boxes for scan in scans):
@@ -102,7 +110,8 @@ def lacks(scans):
     if any(one.snr_db is None for one in detections):
         found.append("no signal-to-noise ratio: the weakest tenth of the cross sections at a range stands for the threshold")
     if any(one.rcs_dbsm is None for one in detections):
-        found.append("no cross section: 40 dB a decade are assumed, and 0 dBsm at the threshold at the farthest range")
+        found.append("no cross section: " + ("levels fall and are as strong as those of road users" if is_dense(scans) else
+                                             "40 dB a decade are assumed, and 0 dBsm at the threshold at the farthest range"))
     return found
 
 
@@ -169,21 +178,26 @@ def aimotive_box(told):
 
 
 def kitti(folder, clouds):
-    """View-of-Delft: points of seven floats, labels in the camera's axes. Only labels of a folder
-    label_2_with_track_ids have ids, in the second column. Boxes move with the slope of their places over five scans."""
-    matrices = numbered(os.path.dirname(clouds), "calib/*.txt") or numbered(folder, "calib/*.txt")
-    labels = numbered(folder, "label_2_with_track_ids/*.txt")
-    scans, tracks = [], {}
-    for number, name in list(numbered(clouds, "*.bin").items())[:MOST + 1]:
+    """Labels in the camera's axes, and points: of seven floats in View-of-Delft, of eight in TJ4DRadSet. Only labels of a folder
+    label_2_with_track_ids have ids, in the second column; TJ4DRadSet has none. Boxes move with the slope of their places over
+    five scans."""
+    names, place = numbered(clouds, "*.bin"), os.path.dirname(clouds)
+    sizes = list(map(os.path.getsize, names.values()))
+    of_eight = all(size % 32 == 0 for size in sizes) and any(size % 28 for size in sizes)
+    matrices = numbered(place, "calib/*.txt") or numbered(folder, "calib/*.txt")
+    labels = numbered(place, "label_2/*.txt") if of_eight else numbered(folder, "label_2_with_track_ids/*.txt")
+    scans, tracks, boxes, unused = [], {}, [], itertools.count(1)
+    for number, name in list(names.items())[:MOST + 1]:
         with open(name, "rb") as file:
-            points = [Detection(math.hypot(x, y, z), math.atan2(y, x), rate, None, rcs)
-                      for x, y, z, rcs, rate, _, when in struct.iter_unpack("<7f", file.read()) if when == 0]
+            points = (points_of_eight if of_eight else points_of_seven)(file.read())
         scans.append(Scan(number * KITTI_INTERVAL_S, points, []))
         if number in labels:
             with open(matrices[number], encoding="utf-8") as calibration, open(labels[number], encoding="utf-8") as file:
                 matrix = next([float(one) for one in line.split()[1:]] for line in calibration if line.startswith("Tr_velo"))
-                for box in (kitti_box(line.split(), matrix) for line in file):
-                    tracks.setdefault(box.id, {})[number * KITTI_INTERVAL_S] = box
+                told = [kitti_box(line.split(), matrix) for line in file]
+            boxes = followed(told, boxes, unused) if of_eight else told
+            for box in boxes:
+                tracks.setdefault(box.id, {})[number * KITTI_INTERVAL_S] = box
     expect_one_sequence(scans)
     for scan in scans:
         for track in tracks.values():
@@ -192,7 +206,33 @@ def kitti(folder, clouds):
                 vx, vy = (statistics.linear_regression(list(near), [getattr(one, axis) for one in near.values()]).slope
                           for axis in ("x_m", "y_m"))
                 scan.boxes.append(near[scan.time_s]._replace(vx_mps=vx, vy_mps=vy))
-    return Recording(Radar(0, 0, 0, 77e9), scans, [f"no times: an interval of {KITTI_INTERVAL_S} s is assumed"])
+    notes = [f"no times: an interval of {KITTI_INTERVAL_S} s is assumed"]
+    if of_eight and tracks:
+        reach_m = BEYOND_M + max(math.hypot(box.x_m, box.y_m) for track in tracks.values() for box in track.values())
+        notes.append(f"detections beyond {reach_m:.0f} m, where no box is, are left out")
+        scans = [scan._replace(detections=[one for one in scan.detections if one.range_m < reach_m]) for scan in scans]
+    return Recording(Radar(0, 0, 0, 77e9), scans, notes)
+
+
+def points_of_seven(data):
+    """View-of-Delft: place, cross section, range rate, that over ground, and the scan, 0 for the present one."""
+    return [Detection(math.hypot(x, y, z), math.atan2(y, x), rate, None, rcs)
+            for x, y, z, rcs, rate, _, when in struct.iter_unpack("<7f", data) if when == 0]
+
+
+def points_of_eight(data):
+    """TJ4DRadSet: place, range rate, range, signal-to-noise ratio, and both angles in degrees, to the right and down."""
+    return [Detection(range_m, math.atan2(y, x), rate, snr_db, None, math.atan2(z, math.hypot(x, y)))
+            for x, y, z, rate, range_m, snr_db, _, _ in struct.iter_unpack("<8f", data)]
+
+
+def followed(boxes, before, unused):
+    """Boxes without ids: each gets that of the nearest box of the scan before, the nearest pair first, or an unused number."""
+    pairs, ids = sorted((math.dist(one[2:4], other[2:4]), i, other.id) for i, one in enumerate(boxes) for other in before), {}
+    for off_m, i, name in pairs:
+        if off_m < FOLLOWED_M and i not in ids and name not in ids.values():
+            ids[i] = name
+    return [box._replace(id=ids[i] if i in ids else str(next(unused))) for i, box in enumerate(boxes)]
 
 
 def kitti_box(words, matrix):

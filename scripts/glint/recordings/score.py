@@ -4,30 +4,34 @@
 
 X_i are the lists of a chain, y is the observed one, each of one body's detections in one scan. d is the distance of
 glint-score (MODEL 11.2): a list is the sum of Gaussian kernels of widths 1, 3 and 10 at its detections, with range, range
-rate and azimuth in cells and levels in steps of 3 dB, and d the norm of a difference of sums (Gneiting, Raftery 2007).
+rate, azimuth and level in units of a scale, and d the norm of a difference of sums (Gneiting, Raftery 2007).
 """
 import math
 import random
+from collections import namedtuple
 
-CELL_M, CELL_MPS, CELL_RAD, STEP_DB = 1.4, 0.2, math.radians(1.7), 3
+# Units of distances, and the number of lists of a score: 39, as marginals have (chains.SEEDS).
+Scale = namedtuple("Scale", "range_m range_rate_mps azimuth_rad level_db lists")
+COARSE = Scale(1.4, 0.2, math.radians(1.7), 3, 39)
 LONG_BLOCKS = 20  # with fewer blocks of scans an interval is too short
 
 
-def kernel(one, other):
-    square = (((one.range_m - other.range_m) / CELL_M) ** 2 + ((one.range_rate_mps - other.range_rate_mps) / CELL_MPS) ** 2
-              + ((one.azimuth_rad - other.azimuth_rad) / CELL_RAD) ** 2 + ((one.snr_db - other.snr_db) / STEP_DB) ** 2)
+def kernel(one, other, scale):
+    square = (((one.range_m - other.range_m) / scale.range_m) ** 2
+              + ((one.range_rate_mps - other.range_rate_mps) / scale.range_rate_mps) ** 2
+              + ((one.azimuth_rad - other.azimuth_rad) / scale.azimuth_rad) ** 2 + ((one.snr_db - other.snr_db) / scale.level_db) ** 2)
     return math.exp(-square / 2) + math.exp(-square / 18) + math.exp(-square / 200)
 
 
-def product(ones, others):
-    return sum(kernel(one, other) for one in ones for other in others)
+def product(ones, others, scale):
+    return sum(kernel(one, other, scale) for one in ones for other in others)
 
 
-def energy_score(lists, observed):
+def energy_score(lists, observed, scale=COARSE):
     """S of the lists of a chain, or of other predictors, for one observed list."""
-    own, m, of_observed = [product(one, one) for one in lists], len(lists), product(observed, observed)
-    off = sum(math.sqrt(max(norm + of_observed - 2 * product(one, observed), 0)) for one, norm in zip(lists, own)) / m
-    apart = sum(math.sqrt(max(own[i] + own[j] - 2 * product(lists[i], lists[j]), 0)) for i in range(m) for j in range(i))
+    own, m, of_observed = [product(one, one, scale) for one in lists], len(lists), product(observed, observed, scale)
+    off = sum(math.sqrt(max(norm + of_observed - 2 * product(one, observed, scale), 0)) for one, norm in zip(lists, own)) / m
+    apart = sum(math.sqrt(max(own[i] + own[j] - 2 * product(lists[i], lists[j], scale), 0)) for i in range(m) for j in range(i))
     return off - (apart / (m * (m - 1)) if m > 1 else 0)
 
 

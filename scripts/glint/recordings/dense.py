@@ -1,0 +1,90 @@
+"""Lists of imaging radars, which have elevations: what is found in them otherwise than in coarse ones, and their peaks.
+
+All figures come from the detections of road users, as such radars have other modes for other ranges: near detections are of fine
+cells, and those beyond NEAR_M of fine or of coarse ones, from scan to scan.
+"""
+import math
+import statistics
+
+from glint.recordings import geometry
+from glint.recordings.score import Scale
+
+NEAR_M, COARSER = 25, 8  # where coarse cells begin, and so many fine ones are a coarse one
+ALIKE_M, ALIKE_MPS = 0.3, 0.1  # detections of one range, and of one range rate
+PEAK_MPS = 0.3  # the least distance in range rate of peaks of one range
+FAR = 5  # scans away, of a predictor that the recording itself gives
+SKILLS = {"FULL": False, "PEAKS": True}  # of peaks alone?
+LISTS = 12  # of a score: a list has many detections
+INTERVAL_S = 0.1  # of scans in any order
+COARSE = "coarse"  # name of the sensor with coarse cells
+LEVEL = "[A] chosen beside a dense recording of a car's scatterers in fine cells"
+ASSUMED = {"cell_extent": ("width", "[A] a step of the grid of a list"), "level_constant_db": (2.2, LEVEL),
+           "level_slow_db": (1.2, LEVEL), "level_fast_db": (1.8, LEVEL)}
+
+
+def of_road_users(radar, scans):
+    """The detections inside each box, [scan][box]."""
+    return [[geometry.gated(radar, box, scan.detections, geometry.BARE) for box in scan.boxes] for scan in scans]
+
+
+def step(values):
+    """The step of the grid that distances lie on: the middle of those that are about as small as a few of the least."""
+    values = sorted(one for one in values if one > 1e-3)
+    return statistics.median(one for one in values if one < 1.5 * values[len(values) // 50])
+
+
+def cells(seen):
+    """Steps in range of detections of one range rate, and in range rate of those of one range; seen: [scan][box]."""
+    pairs = [(abs(one.range_m - other.range_m), abs(one.range_rate_mps - other.range_rate_mps))
+             for scan in seen for own in scan for i, one in enumerate(own) for other in own[:i]]
+    return {"cell_range_m": step(off_m for off_m, off_mps in pairs if off_mps < ALIKE_MPS),
+            "cell_range_rate_mps": step(off_mps for off_m, off_mps in pairs if off_m < ALIKE_M)}
+
+
+def scale(sensor):
+    """Units of scores: four cells of range, two of range rate, one degree and 3 dB."""
+    return Scale(4 * sensor["cell_range_m"], 2 * sensor["cell_range_rate_mps"], math.radians(1), 3, LISTS)
+
+
+def slope(radar, scans):
+    """By how many dB a decade of range the strongest detections of road users fall."""
+    levels = strongest((geometry.look(radar, box).range_m, own) for scan, seen in zip(scans, of_road_users(radar, scans))
+                       for box, own in zip(scan.boxes, seen))
+    return -statistics.linear_regression([math.log10(range_m) for range_m, _ in levels], [level for _, level in levels]).slope
+
+
+def strongest(seen):
+    """Pairs of a key and the strongest level of its detections, of pairs of a key and detections, where there are any."""
+    return [(key, max(one.snr_db for one in own)) for key, own in seen if own]
+
+
+def coarse_scans(radar, scans, cell_m):
+    """Numbers of the scans in which most ranges of far road users lie nearer to a coarse cell apart than to a fine one."""
+    found = []
+    for i, (scan, seen) in enumerate(zip(scans, of_road_users(radar, scans))):
+        steps = []
+        for box, own in zip(scan.boxes, seen):
+            ranges = sorted(one.range_m for one in own if geometry.look(radar, box).range_m >= NEAR_M)
+            steps += [after - before for before, after in zip(ranges, ranges[1:]) if after - before > cell_m / 2]
+        if not steps or statistics.median(steps) > math.sqrt(COARSER) * cell_m:
+            found.append(i)
+    return frozenset(found)
+
+
+def is_of_mode(target, is_coarse):
+    """Does a target come from the sensor that a scan has at its range?"""
+    return (target["sensor"] == COARSE) == (is_coarse and target["range_m"] >= NEAR_M)
+
+
+def with_coarse(sensor):
+    """The sensors of a suite: that with fine cells and its twin with coarse ones."""
+    return [sensor, sensor | {"name": COARSE, "cell_range_m": COARSER * sensor["cell_range_m"]}]
+
+
+def peaks(detections, apart_m):
+    """The strongest detections, none of which is nearer than so much in range and PEAK_MPS to a stronger one, at any azimuth."""
+    kept = []
+    for one in sorted(detections, key=lambda one: -one.snr_db):
+        if all(abs(one.range_m - other.range_m) >= apart_m or abs(one.range_rate_mps - other.range_rate_mps) >= PEAK_MPS for other in kept):
+            kept.append(one)
+    return kept
