@@ -178,7 +178,8 @@ def fits(recording, folder, keeps="median", **changed):
     own = part(found, recording.radar, recording.scans)
     lists, _ = chains.run(chains.ALL, fitted.write_suite(found, folder, **changed), found, own, own.scale.lists)
     made = [[scan._replace(detections=seen) for scan, seen in zip(own.scans, one)] for one in lists]
-    behind = [statistics.fmean(of) for of in zip(*(fitted.annotation(recording._replace(scans=scans)) for scans in made))]
+    behind = (0, 0) if found.scale is not score.COARSE else [
+        statistics.fmean(of) for of in zip(*(fitted.annotation(recording._replace(scans=scans)) for scans in made))]
     noises_m = [fitted.noise(recording.radar, scans, 1e-3)[0].get("range_sigma_m") for scans in made]
     wider = 1 if None in noises_m or not fitted.is_found(found, "range_sigma_m") else statistics.fmean(noises_m) / found.sensor["range_sigma_m"]
     drawn = Progress("fits").over([*score.resampled(len(recording.scans), chains.SEEDS, 3)])
