@@ -20,7 +20,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 from glint.progress import Progress  # noqa: E402
-from glint.recordings import beside, chains, fitted, geometry, marginals, readers, roadside, score, statics  # noqa: E402
+from glint.recordings import beside, chains, dense, fitted, geometry, marginals, readers, roadside, score, statics  # noqa: E402
 
 beside.GLINT = chains.GLINT = os.path.join(os.path.abspath(sys.argv[1]), "glint")
 EGO_MPS, INTERVAL_S = 30.0, 0.06
@@ -412,6 +412,81 @@ def view_of_delft_is_read(folder):
     check(all(abs(a - b) < 1e-6 for a, b in zip(read, (20, 4, 0.2, -3, 4.5))), f"a box of View-of-Delft: {read}")
 
 
+def write_dense(folder, scans, first=70):
+    """The files of a recording in the layout of TJ4DRadSet: eight floats a point, elevations of one degree, labels without ids."""
+    for name in ("velodyne", "calib", "label_2"):
+        os.makedirs(os.path.join(folder, name))
+    for i, scan in enumerate(scans, first):
+        with open(os.path.join(folder, "velodyne", f"{i:06}.bin"), "wb") as out:
+            for one in scan.detections:
+                ground_m = one.range_m * math.cos(math.radians(1))
+                out.write(struct.pack("<8f", ground_m * math.cos(one.azimuth_rad), ground_m * math.sin(one.azimuth_rad),
+                                      one.range_m * math.sin(math.radians(1)), one.range_rate_mps, one.range_m, one.snr_db,
+                                      -math.degrees(one.azimuth_rad), -1))
+        with open(os.path.join(folder, "calib", f"{i:06}.txt"), "w", encoding="ascii") as out:
+            out.write("Tr_velo_to_cam: 0 -1 0 0.1 0 0 -1 0.2 1 0 0 0.3\n")
+        with open(os.path.join(folder, "label_2", f"{i:06}.txt"), "w", encoding="ascii") as out:
+            for box in scan.boxes[::(-1) ** (i - first)]:  # in any order
+                out.write(f"{box.kind.title()} 0 0 0 0 0 0 0 {box.height_m} {box.width_m} {box.length_m} "
+                          f"{0.1 - box.y_m} 1 {0.3 + box.x_m} {-box.yaw_rad - math.pi / 2}\n")
+
+
+def a_dense_recording_of_glint_gives_back_its_law(folder):
+    """Surfaces of two cars in cells of 0.1 m and, farther away, of 0.8 m in every other scan: the boxes are followed, cells and modes
+    are found, and lists of the same law are better predictors than those of other vehicles, by all detections and by peaks."""
+    law = truth(readers.Radar(0.0, 0.0, 0.0, 77e9))
+    law.sensor.update(mount_x_m=0, cell_range_m=0.1, cell_range_rate_mps=0.14, range_sigma_m=0, range_rate_sigma_mps=0.1, cell_extent="width",
+                      level_constant_db=2.2, level_slow_db=1.2, level_fast_db=1.8, azimuth_floor_rad=0, azimuth_sigma_rad=0)
+    law = law._replace(scale=dense.scale(law.sensor))
+    places = (("1", 12.0, 3.0, 1.0), ("2", 31.0, -1.0, 2.0))
+    scans = [readers.Scan(0.1 * i, [], [readers.Box(name, "car", x + vx * 0.1 * i, y, 0.0, vx, 0.0, *SIZES["car"]) for name, x, y, vx in places])
+             for i in range(20)]
+    odd = frozenset(range(1, 20, 2))
+    part = beside.Part(readers.Radar(0, 0, 0, 77e9), scans, [17.0] * 20, {}, law.scale, odd)
+    lists, _ = chains.run(chains.SURFACES, fitted.write_suite(law, folder), law, part, 1, 77)
+
+    def on_grid(one, is_coarse):
+        step_m = 0.8 if is_coarse and one.range_m >= dense.NEAR_M else 0.1
+        return one._replace(range_m=step_m * round(one.range_m / step_m), range_rate_mps=0.14 * round(one.range_rate_mps / 0.14))
+
+    write_dense(folder, [scan._replace(detections=[on_grid(one, i in odd) for one in own] + statics_ahead(i))
+                         for i, (scan, own) in enumerate(zip(scans, lists[0]))])
+    recording = readers.read(folder)
+    for read, planted in zip(recording.scans, scans):
+        for box, expected in zip(sorted(read.boxes), planted.boxes):
+            check(box.id == expected.id and math.dist(box[2:4], expected[2:4]) < 1e-3 and abs(box.vx_mps - expected.vx_mps) < 1e-3,
+                  f"a box of TJ4DRadSet: {box}, expected {expected}")
+        check(all(abs(one.elevation_rad - math.radians(1)) < 1e-6 and one.rcs_dbsm is None for one in read.detections), "elevations of TJ4DRadSet")
+    fit = fitted.fit(recording)
+    for what, value, expected, within in (("cell_range_m", fit.sensor["cell_range_m"], 0.1, 0.02), ("cell_range_rate_mps", fit.sensor["cell_range_rate_mps"], 0.14, 0.02),
+                                          ("threshold_db", fit.sensor["threshold_db"], 14, 2), ("units of range", fit.scale.range_m, 0.4, 0.08)):
+        check(abs(value - expected) <= within, f"dense: {what}: {value:.3f} found, {expected} planted")
+    found = beside.part(beside.fit_of(recording, folder), recording.radar, recording.scans)
+    check(len(found.coarse ^ odd) <= 4, f"scans with coarse cells: {sorted(found.coarse)}")
+    for peaks in (False, True):
+        of = {}
+        for chain in (chains.PAPERS, chains.DETAILED, chains.SURFACES):
+            own, _ = chains.run(chain, fitted.write_suite(law, folder), law, found, 6)
+            of[chain.name] = sum(found.scores(own, peaks).values())
+        check(min(of, key=of.get) == chains.SURFACES.name, f"scores, peaks {peaks}: {of}")
+
+
+def statics_ahead(i):
+    """Twenty posts on both sides of the road that come nearer at 17 m/s."""
+    return [readers.Detection(math.hypot(x, y), math.atan2(y, x), -17 * x / math.hypot(x, y), 20.0)
+            for k in range(20) for x, y in [(20.0 + 4 * k - 1.7 * i % 4, 9.0 - 18 * (k % 2))]]
+
+
+def peaks_are_the_strongest_within_a_cell():
+    """Of three detections at one range and rate, whatever their azimuths, and one that is apart in rate or in range alone."""
+    near = [readers.Detection(20 + off_m, azimuth, rate, level) for off_m, azimuth, rate, level in (
+        (0, 0, 1, 20), (0.3, 0.2, 1.2, 18), (-0.3, 0, 1, 17), (0.1, 0, 1.4, 9), (0.5, 0, 1, 8))]
+    kept = [one.snr_db for one in dense.peaks(near, 0.43)]
+    check(kept == [20, 9, 8], f"peaks: {kept}")
+    kept = [one.snr_db for one in dense.peaks(near, 1.3)]
+    check(kept == [20, 9], f"peaks of coarse cells: {kept}")
+
+
 def the_real_recording_shows_what_its_page_says():
     folder = os.path.join(os.environ.get("GLINT_TEST_DATA", ""), "aimotive-front")
     if not os.path.isdir(folder):
@@ -471,10 +546,11 @@ def main():
     intervals_of_20_blocks_hold_the_expected_ratio()
     places_turn_with_their_box()
     the_densest_window_is_that_of_all_windows()
+    peaks_are_the_strongest_within_a_cell()
     noise_of_azimuths_is_parted_from_its_floor()
     cells_are_found_beside_wrong_pairs()
     a_roadside_is_found_again()
-    for proof in (a_radar_that_looks_back_or_aside_gives_back_its_law, fine_cells_are_found, two_sequences_in_one_folder_are_refused, what_is_not_found_is_said):
+    for proof in (a_dense_recording_of_glint_gives_back_its_law, a_radar_that_looks_back_or_aside_gives_back_its_law, fine_cells_are_found, two_sequences_in_one_folder_are_refused, what_is_not_found_is_said):
         with tempfile.TemporaryDirectory() as folder:
             proof(folder)
     with tempfile.TemporaryDirectory() as folder:

@@ -11,6 +11,7 @@ from glint.recordings.score import Scale
 
 NEAR_M, COARSER = 25, 8  # where coarse cells begin, and so many fine ones are a coarse one
 ALIKE_M, ALIKE_MPS = 0.3, 0.1  # detections of one range, and of one range rate
+LEAST, FEWEST_PAIRS = 1e-3, 8  # less is no distance; so many tell a step
 PEAK_MPS = 0.3  # the least distance in range rate of peaks of one range
 FAR = 5  # scans away, of a predictor that the recording itself gives
 SKILLS = {"FULL": False, "PEAKS": True}  # of peaks alone?
@@ -28,8 +29,7 @@ def of_road_users(radar, scans):
 
 
 def step(values):
-    """The step of the grid that distances lie on: the middle of those that are about as small as a few of the least."""
-    values = sorted(one for one in values if one > 1e-3)
+    """The step of the grid that distances lie on: the middle of those that are about as small as a few of the least; values in order."""
     return statistics.median(one for one in values if one < 1.5 * values[len(values) // 50])
 
 
@@ -37,8 +37,9 @@ def cells(seen):
     """Steps in range of detections of one range rate, and in range rate of those of one range; seen: [scan][box]."""
     pairs = [(abs(one.range_m - other.range_m), abs(one.range_rate_mps - other.range_rate_mps))
              for scan in seen for own in scan for i, one in enumerate(own) for other in own[:i]]
-    return {"cell_range_m": step(off_m for off_m, off_mps in pairs if off_mps < ALIKE_MPS),
-            "cell_range_rate_mps": step(off_mps for off_m, off_mps in pairs if off_m < ALIKE_M)}
+    found = {"cell_range_m": sorted(off_m for off_m, off_mps in pairs if off_mps < ALIKE_MPS and off_m > LEAST),
+             "cell_range_rate_mps": sorted(off_mps for off_m, off_mps in pairs if off_m < ALIKE_M and off_mps > LEAST)}
+    return {name: step(own) for name, own in found.items() if len(own) >= FEWEST_PAIRS}
 
 
 def scale(sensor):
@@ -59,14 +60,14 @@ def strongest(seen):
 
 
 def coarse_scans(radar, scans, cell_m):
-    """Numbers of the scans in which most ranges of far road users lie nearer to a coarse cell apart than to a fine one."""
+    """Numbers of the scans in which three of four neighbouring ranges of far road users are more than a few fine cells apart."""
     found = []
     for i, (scan, seen) in enumerate(zip(scans, of_road_users(radar, scans))):
         steps = []
         for box, own in zip(scan.boxes, seen):
             ranges = sorted(one.range_m for one in own if geometry.look(radar, box).range_m >= NEAR_M)
             steps += [after - before for before, after in zip(ranges, ranges[1:]) if after - before > cell_m / 2]
-        if not steps or statistics.median(steps) > math.sqrt(COARSER) * cell_m:
+        if not steps or sorted(steps)[len(steps) // 4] > math.sqrt(COARSER) * cell_m:
             found.append(i)
     return frozenset(found)
 
