@@ -94,6 +94,8 @@ static size_t add_accuracy(const struct sensor *sensor, struct consistency *chec
           cell_mps * even);
     LIMIT(RAD, "azimuth_floor_rad", sensor->azimuth_floor_rad, "azimuth_cell_rad/sqrt(12)",
           sensor->azimuth_cell_rad * even);
+    LIMIT(RAD, "elevation_sigma_rad", sensor->elevation_sigma_rad, "elevation_view_rad/sqrt(12)",
+          sensor->elevation_view_rad * even);
     ADD(STRICT, ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", sqrt(6) / (2 * PI), "window_factor",
         factor, "window_factor");
     LIMIT(RAD, "beam of the antenna",

@@ -22,6 +22,7 @@ static const struct row rows[] = {
     ROW(range_max_m, " m", 5, 1000),
     ROW(field_of_view_rad, " rad", 0.03, 3.15),
     ROW(elevation_half_width_rad, " rad", 0.005, 1.6),
+    ROW(elevation_view_rad, " rad", 0.01, 3.15),
     ROW(cycle_s, " s", 0.002, 0.5),
     ROW(latency_s, " s", 0, 0.5),
     ROW(level_slow_m, " m", 1, 1000),
@@ -41,12 +42,15 @@ static const struct row rows[] = {
     ROW(range_rate_sigma_mps, " m/s", 0, 1),
     ROW(azimuth_sigma_rad, " rad", 0, 0.3),
     ROW(azimuth_floor_rad, " rad", 0, 0.3),
+    ROW(elevation_sigma_rad, " rad", 0, 0.3),
+    ROW(elevation_floor_rad, " rad", 0, 0.1),
     ROW(misalignment_rad, " rad", 0, 0.1),
     ROW(radome_bias_rad, " rad", 0, 0.1),
     ROW(false_alarms, " a scan", 0, 500),
     ROW(range_step_m, " m", 0, 2),
     ROW(range_rate_step_mps, " m/s", 0, 2),
     ROW(azimuth_step_rad, " rad", 0, 0.1),
+    ROW(elevation_step_rad, " rad", 0, 0.1),
 };
 
 _Static_assert(sizeof rows / sizeof rows[0] <= USUAL_FIGURES_MOST, "a list has room for all");

@@ -60,12 +60,14 @@ TEST(checks_tell_figures_that_agree_from_those_that_do_not)
     good.window_factor = 0.39;
     good.azimuth_cell_rad = 46 * DEGREE;
     good.azimuth_floor_rad = 13.2 * DEGREE;
+    good.elevation_view_rad = 1;
+    good.elevation_sigma_rad = 0.2886;
     good.false_alarms = 0.01;
     good.false_alarm_range_rate_mps = 49.9;
     /* 99 ranges, 998 rates, 120/46 azimuths. */
     double cells = 99 * 998 * 120 / 46.0;
     good.pointer_sigma = units_amplitude_from_db(6) / sqrt(log(cells / 0.0099));
-    struct sensor bad[14];
+    struct sensor bad[15];
     for (size_t i = 0; i < COUNT(bad); i++)
         bad[i] = good;
     bad[0].cycle_s = 0.0199;
@@ -82,6 +84,7 @@ TEST(checks_tell_figures_that_agree_from_those_that_do_not)
     bad[11].range_rate_sigma_mps = 0.02888;
     bad[12].azimuth_cell_rad = 45 * DEGREE;
     bad[13].azimuth_floor_rad = 13.3 * DEGREE;
+    bad[14].elevation_sigma_rad = 0.2888;
     static const char *const names[] = {"dwell",
                                         "beat",
                                         "false alarms to",
@@ -95,7 +98,8 @@ TEST(checks_tell_figures_that_agree_from_those_that_do_not)
                                         "range_sigma_m",
                                         "range_rate_sigma_mps",
                                         "beam",
-                                        "azimuth_floor_rad"};
+                                        "azimuth_floor_rad",
+                                        "elevation_sigma_rad"};
     for (size_t i = 0; i < COUNT(bad); i++) {
         const struct consistency *check = check_of(&good, names[i]);
         assert_non_null(check);
