@@ -2,14 +2,12 @@
  */
 #include "run/extraction.h"
 
-static bool describe_body(const void *state, const struct vehicle *vehicle,
-                          const struct frame *frame, const struct object *object,
-                          struct reflector_set *set)
+static bool describe_body(void *state, const struct vehicle *vehicle, const struct frame *frame,
+                          const struct object *object, struct reflector_set *set)
 {
-    (void)state;
     struct surface surface =
         reflector_models_surface(&reflector_models_usual_surface, &vehicle->surface);
-    return extraction_describe_surface(&surface, vehicle, frame, object, set);
+    return extraction_describe_surface(state, &surface, vehicle, frame, object, set);
 }
 
 static int extract_step(void *state, struct frame *frame, struct runner *runner)
@@ -29,4 +27,5 @@ const struct stage stage_extract = {
     .writes = PART_REFLECTORS | PART_VEHICLES,
     .start = extraction_start,
     .step = extract_step,
+    .release = extraction_release,
 };

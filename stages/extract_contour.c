@@ -24,12 +24,11 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
         reflector_models_of_contour(&vehicle->contour, &surface, size_m, set, arena);
 }
 
-static bool describe_body(const void *state, const struct vehicle *vehicle,
-                          const struct frame *frame, const struct object *object,
-                          struct reflector_set *set)
+static bool describe_body(void *state, const struct vehicle *vehicle, const struct frame *frame,
+                          const struct object *object, struct reflector_set *set)
 {
     struct surface surface = surface_of(state, vehicle);
-    return extraction_describe_surface(&surface, vehicle, frame, object, set);
+    return extraction_describe_surface(state, &surface, vehicle, frame, object, set);
 }
 
 static int extract_contour_start(void *state, struct runner *runner)
@@ -77,4 +76,5 @@ const struct stage stage_extract_contour = {
     .writes = PART_REFLECTORS | PART_VEHICLES,
     .start = extract_contour_start,
     .step = extract_contour_step,
+    .release = extraction_release,
 };

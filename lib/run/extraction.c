@@ -16,18 +16,65 @@ int extraction_start(void *state, struct runner *runner)
                               runner_arena(runner), runner_diag(runner));
 }
 
-bool extraction_describe_surface(const struct surface *surface, const struct vehicle *vehicle,
-                                 const struct frame *frame, const struct object *object,
-                                 struct reflector_set *set)
+void extraction_release(void *state)
+{
+    struct extraction *extraction = state;
+    arena_free(&extraction->surfaces.arena);
+}
+
+/* Forgets the surfaces of another scene. */
+static void enter_scene(struct extraction_surfaces *known, const struct random_address *scene)
+{
+    if (known->scene.seed == scene->seed && known->scene.scene == scene->scene)
+        return;
+    arena_clear(&known->arena);
+    *known = (struct extraction_surfaces){.scene = *scene, .arena = known->arena};
+}
+
+/* The surface of the body that was drawn before, or NULL. */
+static const struct extraction_surface *known_surface(struct extraction_surfaces *known,
+                                                      const char *id)
+{
+    for (size_t i = 0; i < known->bodies.count; i++) {
+        size_t at = (known->next + i) % known->bodies.count;
+        if (!frame_same_name(known->bodies.items[at].id, id))
+            continue;
+        known->next = at + 1;
+        return &known->bodies.items[at];
+    }
+    return NULL;
+}
+
+static void draw_surface(const struct surface *surface, const struct vehicle *vehicle,
+                         struct random_address body, const struct object *object,
+                         struct reflector_set *set, struct arena *arena)
+{
+    struct vec2 usual_m = {vehicle->length_m, vehicle->width_m};
+    struct vec2 size_m = {object->length_m, object->width_m};
+    body.item = hash_text(HASH_START, object->id);
+    reflector_models_of_surface(&vehicle->contour, surface, usual_m, size_m, &body, set, arena);
+}
+
+bool extraction_describe_surface(struct extraction *extraction, const struct surface *surface,
+                                 const struct vehicle *vehicle, const struct frame *frame,
+                                 const struct object *object, struct reflector_set *set)
 {
     if (vehicle->contour.given == 0 || !reflector_models_differs(surface))
         return false;
-    struct random_address body = frame_draw_address_of_scene(frame);
-    body.item = hash_text(HASH_START, object->id);
-    struct vec2 usual_m = {vehicle->length_m, vehicle->width_m};
+    struct extraction_surfaces *known = &extraction->surfaces;
+    struct random_address scene = frame_draw_address_of_scene(frame);
+    enter_scene(known, &scene);
+    const struct extraction_surface *drawn = known_surface(known, object->id);
     struct vec2 size_m = {object->length_m, object->width_m};
-    reflector_models_of_surface(&vehicle->contour, surface, usual_m, size_m, &body, set,
-                                frame->arena);
+    if (drawn != NULL && drawn->vehicle == vehicle && vec2_same(drawn->size_m, size_m)) {
+        *set = drawn->set;
+    } else if (drawn != NULL) {
+        draw_surface(surface, vehicle, scene, object, set, frame->arena);
+    } else {
+        draw_surface(surface, vehicle, scene, object, set, &known->arena);
+        *list_add(&known->bodies, &known->arena) = (struct extraction_surface){
+            arena_text(&known->arena, object->id, strlen(object->id)), vehicle, size_m, *set};
+    }
     return true;
 }
 
@@ -81,7 +128,7 @@ static const struct vehicle *document_of(const struct extraction *extraction,
 static struct reflector_set *own_set(struct frame *frame, const struct object *object,
                                      const struct vehicle *vehicle,
                                      extraction_describe_body *describe_body,
-                                     const struct extraction *extraction)
+                                     struct extraction *extraction)
 {
     struct reflector_set own = vehicle->reflectors;
     if (describe_body == NULL || !describe_body(extraction, vehicle, frame, object, &own))
@@ -106,7 +153,7 @@ static struct reflector_set *shared_set(struct frame *frame, const struct vehicl
     return set;
 }
 
-int extraction_step(const struct extraction *extraction, struct frame *frame, struct runner *runner,
+int extraction_step(struct extraction *extraction, struct frame *frame, struct runner *runner,
                     extraction_describe *describe, extraction_describe_body *describe_body)
 {
     struct object *const *object = frame_order_objects(frame);

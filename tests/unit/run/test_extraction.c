@@ -92,9 +92,8 @@ EXTRACTION_TEST(a_description_takes_the_place_of_the_documents_reflectors)
 }
 
 /* Gives a car one point that is named after the object. */
-static bool describe_body(const void *state, const struct vehicle *vehicle,
-                          const struct frame *frame, const struct object *object,
-                          struct reflector_set *set)
+static bool describe_body(void *state, const struct vehicle *vehicle, const struct frame *frame,
+                          const struct object *object, struct reflector_set *set)
 {
     (void)state;
     if (strcmp(vehicle->reflectors.model, "car") != 0)
@@ -120,6 +119,39 @@ EXTRACTION_TEST(an_object_may_have_reflectors_of_its_own)
         if (own)
             assert_string_equal(set->points.items[0].name, owners[i]);
     }
+}
+
+/* The points of a car of this length in a frame of a scene, by their number and their facings. */
+static double points_of_car(struct runner *runner, const char *scene, double length_m)
+{
+    struct arena arena = {0};
+    struct frame frame = {
+        .scene = scene, .seed = 1, .ego = "ego", .present = PART_OBJECTS, .arena = &arena};
+    *list_add(&frame.objects, &arena) =
+        (struct object){.id = "a", .class = "car", .length_m = length_m, .width_m = 1.8};
+    assert_int_equal(runner->stage->step(runner->state, &frame, runner), 0);
+    const struct reflector_set *set = &frame.reflectors.items[0];
+    double sum = (double)set->points.count;
+    for (size_t i = 0; i < set->points.count; i++)
+        sum += (double)(i + 1) * set->points.items[i].facing_rad;
+    arena_free(&arena);
+    return sum;
+}
+
+TEST(a_surface_follows_the_scene_and_the_size_of_its_body)
+{
+    struct runner runner, other;
+    begin_stage(&runner, "extract", WORDS("--vehicles", "surfaces"));
+    begin_stage(&other, "extract", WORDS("--vehicles", "surfaces"));
+    double car = points_of_car(&runner, "one", 4.5);
+    double longer = points_of_car(&runner, "one", 6);
+    assert_close(points_of_car(&other, "one", 6), longer, 0);
+    assert_true(longer != car);
+    assert_close(points_of_car(&runner, "one", 4.5), car, 0);
+    assert_true(points_of_car(&runner, "two", 4.5) != car);
+    assert_close(points_of_car(&runner, "one", 4.5), car, 0);
+    runner_free(&runner);
+    runner_free(&other);
 }
 
 EXTRACTION_TEST(the_message_names_the_object_as_the_frame_numbers_it)
