@@ -69,15 +69,27 @@ static double ratio_angle_rad(const struct antenna *antenna, double azimuth_rad)
     return elementary_atan2(-cimag(pointers.delta), creal(pointers.sum));
 }
 
+/* The azimuth, or the nearest one of a table that is two steps from its ends, so that a step is
+ * inside for certain. */
+static double within_table_rad(const struct antenna *antenna, double azimuth_rad, double step_rad)
+{
+    if (antenna->row_count == 0)
+        return azimuth_rad;
+    double least_rad = antenna->rows[0].azimuth_rad + 2 * step_rad;
+    double most_rad = antenna->rows[antenna->row_count - 1].azimuth_rad - 2 * step_rad;
+    return elementary_max(least_rad, elementary_min(azimuth_rad, most_rad));
+}
+
 double monopulse_sigma_rad(const struct antenna *antenna, enum monopulse_estimator estimator,
                            double azimuth_rad, double snr)
 {
     const double step_rad = 1e-4;
-    double slope = (ratio_angle_rad(antenna, azimuth_rad + step_rad) -
-                    ratio_angle_rad(antenna, azimuth_rad - step_rad)) /
+    double at_rad = within_table_rad(antenna, azimuth_rad, step_rad);
+    double slope = (ratio_angle_rad(antenna, at_rad + step_rad) -
+                    ratio_angle_rad(antenna, at_rad - step_rad)) /
                    (2 * step_rad);
     double power = estimator == MONOPULSE_MAGNITUDE && azimuth_rad == 0 ? 1 : 0.5;
-    return elementary_cos(ratio_angle_rad(antenna, azimuth_rad)) * sqrt(power / snr) / slope;
+    return elementary_cos(ratio_angle_rad(antenna, at_rad)) * sqrt(power / snr) / slope;
 }
 
 double monopulse_quadrature(struct antenna_pointers pointers, double noise)

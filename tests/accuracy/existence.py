@@ -1,10 +1,10 @@
 """How many detections with a probability of existence are echoes, by scene, as rows of schemas/README.md.
 
-    python3 tests/accuracy/existence.py [--suites lrr77-full,radarscenes77-full]
+    python3 tests/accuracy/existence.py [--suites lrr77-full,radarscenes77-full] [--signal]
 
 A detection is an echo if its label is any but a false alarm's: of an object, a ghost, clutter. Each cell has the mean
 of the probabilities that are told, and the share of echoes with its 95 % interval: Wilson's, of as many independent
-detections as vary alike from block to block of 20 frames.
+detections as vary alike from block to block of 20 frames. With --signal the targets are those of glint-sensor-signal.
 """
 import argparse
 import json
@@ -27,12 +27,13 @@ SCENES = {
 }
 EDGES = (0.2, 0.8)
 BLOCK = 20  # frames
+CELLS, SIGNAL = "glint-sensor | glint-noise", "glint-sensor-signal"
 
 
-def blocks_of(suite, scene):
+def blocks_of(suite, scene, chain):
     """Pairs of a probability and whether it is an echo, by block; the number of scans."""
     traffic = "glint-traffic-" + scene if scene.startswith("random") else "glint-traffic " + scene
-    text = f"{traffic} | glint-extract | glint-ideal --sensors {suite} --sections quality | glint-sensor | glint-noise"
+    text = f"{traffic} | glint-extract | glint-ideal --sensors {suite} --sections quality | {chain}"
     done = subprocess.run([GLINT, "-c", text], check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=ROOT)
     blocks, scans = {}, 0
     for number, frame in enumerate(map(json.loads, done.stdout.splitlines())):
@@ -67,12 +68,12 @@ def cell(blocks, low, high):
     return text, least - 0.0005 <= told <= most + 0.0005
 
 
-def rows_of(suites):
+def rows_of(suites, chain=CELLS):
     """Rows of Markdown, and of each cell whether what is told is in the interval of the share."""
     edges = (0, *EDGES, math.inf)
     rows, held = [], []
     for suite, name in Progress("rows").over([(suite, name) for suite in suites for name in SCENES]):
-        blocks, scans = blocks_of(suite, SCENES[name])
+        blocks, scans = blocks_of(suite, SCENES[name], chain)
         cells = [cell(blocks, low, high) for low, high in zip(edges, edges[1:])]
         held += [inside for _, inside in cells if inside is not None]
         echoes = sum(echo for block in blocks for _, echo in block) / scans
@@ -83,8 +84,9 @@ def rows_of(suites):
 def main():
     asked = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     asked.add_argument("--suites", default=SUITES, help="names of suites with commas")
+    asked.add_argument("--signal", action="store_true", help="by the signal; for suites with a waveform")
     asked = asked.parse_args()
-    rows, held = rows_of(asked.suites.split(","))
+    rows, held = rows_of(asked.suites.split(","), SIGNAL if asked.signal else CELLS)
     heads = ["suite, scene", "echoes a scan", f"below {EDGES[0]}", f"to {EDGES[1]}", "above"]
     say("| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|")
     for row in rows:

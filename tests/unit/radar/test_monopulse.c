@@ -370,6 +370,17 @@ TEST(the_predicted_spread_is_that_of_noise)
     assert_near(monopulse_sigma_rad(&SKEWED, MONOPULSE_RATIO, 0.35, 10000), sqrt(squares), 0.015);
 }
 
+/* Beyond its last row a table has no pattern; at its first one SKEWED has no sum. */
+TEST(at_the_end_of_a_table_the_predicted_spread_is_that_just_inside)
+{
+    const struct antenna_row *last = SKEWED.rows + SKEWED.row_count - 1;
+    double inside = monopulse_sigma_rad(&SKEWED, MONOPULSE_RATIO, last->azimuth_rad - 3e-4, 100);
+    double end = monopulse_sigma_rad(&SKEWED, MONOPULSE_RATIO, last->azimuth_rad, 100);
+    assert_true(inside > 0);
+    assert_near(end, inside, 0.01);
+    assert_true(monopulse_sigma_rad(&SKEWED, MONOPULSE_RATIO, SKEWED.rows->azimuth_rad, 100) > 0);
+}
+
 /* Equal echoes at both sides, one ahead of the other by theta, have delta/sum = -tan u
  * tan(theta/2), which is real, and a single echo has an imaginary one (MODEL 8.2). */
 TEST(several_echoes_have_a_quadrature_that_one_has_not)
