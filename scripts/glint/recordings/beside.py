@@ -94,6 +94,7 @@ cells      {told("cell_range_m", f"{sensor['cell_range_m']:.2f} m")}, {told("cel
 noise      {told("range_sigma_m", f"{sensor['range_sigma_m']:.2f} m")}, \
 {told("range_rate_sigma_mps", f"{sensor['range_rate_sigma_mps']:.3f} m/s")}, {told("azimuth_sigma_rad", f"{math.degrees(azimuth_rad):.2f} degrees at 20 dB")}\
 {" (no less is possible in so wide a view)" * (fit.azimuth_noise < 1.001 * fitted.least_noise_rad(law))}
+{f"inside     {dense.figures(recording.radar, recording.scans)}" + chr(10) if fit.scale is not score.COARSE else ""}\
 levels     keep the {fit.sensor['level_keeps']}: scores of blocks left out: {", ".join(f"{word} {own:.1f}" for word, own in lost.items()) or "none"}
 roadside   {", ".join(f"{100 * one['per_m2'] * one['width_m']:.1f} of {one['rcs_dbsm']:.0f} dBsm at {one['from_y_m']} m{' (at its cap)' * roadside.at_cap(one)}"
                       for one in fit.roadside) or "nothing"}, in 100 m
@@ -106,9 +107,14 @@ def gains(scores, others, ideal, scans, without=None):
     return [100 * one for one in score.share(better, ideal, scans)]
 
 
-def scored(own, results, kinds):
-    """{name of a skill: {chain: {(id, scan): S}}} of the lists of chains; kinds: {name of a skill: of peaks alone?}."""
-    return {kind: {chain: own.scores(lists, peaks) for chain, (lists, _) in results.items()} for kind, peaks in kinds.items()}
+def skilled(suite, fit, recording, kinds, ways):
+    """Scans as a part, and {chain: {(id, scan): S}} of the first kind of skill; prints the table of all kinds, {name: of peaks alone?}."""
+    own = part(fit, recording.radar, recording.scans)
+    results = {chain: chains.run(chain, suite, fit, own, own.scale.lists) for chain in Progress("chains").over(ways)}
+    scores = {kind: {chain: own.scores(lists, peaks) for chain, (lists, _) in results.items()} for kind, peaks in kinds.items()}
+    if own.boxes:
+        print_skills(own, results, scores, kinds)
+    return own, next(iter(scores.values()))
 
 
 def print_skills(own, results, scores, kinds):
@@ -242,22 +248,19 @@ def compare(folder, suite_folder=None):
         strips = [] if is_dense else roadside.strips(chains.ROADSIDE, suite, fit, part(fit, first.radar, first.scans))
         fit, *others = (one._replace(roadside=strips) for one in (fit, *others))
         print_found(recording, fit, lost)
-        for name, scans in (("all scans, also those of the fit", recording.scans), ("the second half alone", rest.scans))[not is_dense:]:
-            second = part(fit, rest.radar, scans)
-            results = {chain: chains.run(chain, suite, fit, second, second.scale.lists) for chain in Progress("chains").over(ways)}
-            if second.boxes:
-                scores = scored(second, results, kinds)
-                print(*[f"{name}:"] * is_dense, end="\n" * is_dense)
-                print_skills(second, results, scores, kinds)
+        if is_dense:
+            print("all scans, also those of the fit:")
+            skilled(suite, fit, recording, kinds, ways)
+            print("the second half alone:")
+        second, scores = skilled(suite, fit, rest, kinds, ways)
         if second.boxes:
-            first_kind = next(iter(scores.values()))
-            print_gains(len(second.scans), first_kind, ways)
+            print_gains(len(second.scans), scores, ways)
         elif any(scan.boxes for scan in recording.scans):
             print("no road user is in view in the second half: skill and the marginals of road users are left out")
         print_marginals(second, {chain: drawn_lists(chain, others, rest, place)
                                  for chain in Progress("chains").over([*ways][1:])}, fit.sensor["threshold_db"])
         if second.boxes:
-            print_components(second, fit, place, first_kind)
+            print_components(second, fit, place, scores)
     if suite_folder:
         print(f"written: {os.path.relpath(suite)} and {os.path.relpath(write_found(fit, recording, suite_folder))}")
 

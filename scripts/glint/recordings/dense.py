@@ -28,6 +28,25 @@ def of_road_users(radar, scans):
     return [[geometry.gated(radar, box, scan.detections, geometry.BARE) for box in scan.boxes] for scan in scans]
 
 
+def figures(radar, scans):
+    """Sentences on the detections inside the boxes that are in view; a near box counts with three or more."""
+    looks = [[geometry.look(radar, box) for box in scan.boxes] for scan in scans]
+    seen = [(look.range_m < NEAR_M, own) for lists, of in zip(of_road_users(radar, scans), looks)
+            for look, own in zip(of, lists) if abs(look.azimuth_rad) < math.pi / 2]
+    near, far = ([own for is_near, own in seen if is_near == wanted] for wanted in (True, False))
+    several = [own for own in near if len(own) > 2]
+    if not several or not far:
+        return f"no road users both nearer and farther than {NEAR_M} m"
+    levels = [[one.snr_db for one in own] for own in several]
+    ranges = [len({round(one.range_m, 2) for one in own}) for own in several]
+    azimuths = [len({round(math.degrees(one.azimuth_rad)) for one in own}) for own in several]
+    spreads = [math.degrees(statistics.pstdev(one.elevation_rad for one in own)) for own in several]
+    return f"""{statistics.fmean(map(len, near)):.1f} detections nearer than {NEAR_M} m, {statistics.fmean(map(len, far)):.1f} farther
+           near: {statistics.fmean(ranges):.1f} ranges and {statistics.fmean(azimuths):.1f} whole degrees; levels lie within \
+{statistics.fmean(max(own) - min(own) for own in levels):.1f} dB, elevations spread by {statistics.fmean(spreads):.1f} degrees
+           the strongest fall by {slope(radar, scans):.1f} dB a decade of range"""
+
+
 def step(values):
     """The step of the grid that distances lie on: the middle of those that are about as small as a few of the least; values in order."""
     return statistics.median(one for one in values if one < 1.5 * values[len(values) // 50])
