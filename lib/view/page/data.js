@@ -256,10 +256,10 @@ function scanOfTarget(frame, target) {
     return -1;
 }
 
-// The row of a target's elevation; -1: its sensor measures none.
-function elevationRow(target) {
-    const begin = starts('target_elevations');
-    return begin[target + 1] > begin[target] ? begin[target] : -1;
+// An elevation of a target in words; '' if its sensor measures none.
+function elevationOf(target, name, digits) {
+    const [row, end] = starts('target_elevations').slice(target, target + 2);
+    return row === end ? '' : `${round(column(name)[row] * degrees, digits)}°`;
 }
 
 // The range rate as reported, or compensated for the sensor's own motion. A compensated rate is null if

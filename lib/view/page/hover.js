@@ -22,16 +22,12 @@ function targetMeant(hits, at) {
     return chosen >= 0 ? stack[(chosen + 1) % stack.length] : hitsNear(hits, at, 14)[0];
 }
 
-function elevationWords(target) {
-    const row = elevationRow(target);
-    return row < 0 ? '' : `${round(column('elevation_reported_rad')[row] * degrees, 1)}° up, `;
-}
-
 function targetWords(scan, target) {
     const value = name => column('target_' + name)[target];
     const number = target - targetsOf(scan).begin + 1;
+    const up = elevationOf(target, 'elevation_reported_rad', 1);
     return `${sensorOf(scan).name} ${number}: ${round(value('range_m'), 2)} m, ` +
-        `${round(value('azimuth_rad') * degrees, 1)}° off boresight, ${elevationWords(target)}${round(value('range_rate_mps'), 2)} m/s, ` +
+        `${round(value('azimuth_rad') * degrees, 1)}° off boresight, ${up && up + ' up, '}${round(value('range_rate_mps'), 2)} m/s, ` +
         `${round(value('amplitude_db'), 1)} dB, ${names[objectOfTarget(target)]}`;
 }
 

@@ -315,17 +315,12 @@ function tableRow(cells, tag) {
     return row;
 }
 
-function elevationRows(target) {
-    const row = elevationRow(target);
-    const words = name => `${round(column(name)[row] * degrees, 2)}°`;
-    return row < 0 ? [] : [tableRow(['elevation', words('elevation_reported_rad'), words('elevation_cell_rad')])];
-}
-
 function valuesTable(scan, target) {
     const table = make('table', null, 'values');
     const value = name => column(name)[target];
     const sum = value('target_cell_sum');
     const ground = rateOf(scan, target, true);
+    const elevations = ['elevation_reported_rad', 'elevation_cell_rad'].map(name => elevationOf(target, name, 2));
     const unknown = isRateFolded(scan, target) ? 'folded: not known' : 'not known';
     table.append(
         tableRow(['', 'reported', 'without noise'], 'th'),
@@ -333,7 +328,7 @@ function valuesTable(scan, target) {
             `${round(value('target_cell_range_m'), 3)} m`]),
         tableRow(['azimuth off boresight', `${round(value('target_azimuth_rad') * degrees, 2)}°`,
             `${round(value('target_cell_azimuth_rad') * degrees, 2)}°`]),
-        ...elevationRows(target),
+        ...elevations[0] ? [tableRow(['elevation', ...elevations])] : [],
         tableRow(['range rate', `${round(value('target_range_rate_mps'), 3)} m/s`,
             `${round(value('target_cell_range_rate_mps'), 3)} m/s`]),
         tableRow(['… over ground', ground === null ? unknown : `${round(ground, 3)} m/s`, '']),
