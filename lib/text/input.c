@@ -53,7 +53,7 @@ void input_close(struct input *input)
 {
     if (input == NULL)
         return;
-    unpacker_end(input->unpacker);
+    packing_unpack_end(input->unpacker);
     if (input->fd != STDIN_FILENO)
         close(input->fd);
     text_free(&input->line);
@@ -133,7 +133,7 @@ static int sniff(struct input *input, struct diag *diag)
         return 0;
     if (packing_check(input->packing, diag) != 0)
         return -1;
-    input->unpacker = unpacker_begin(input->packing);
+    input->unpacker = packing_unpack_begin(input->packing);
     return 0;
 }
 
@@ -151,7 +151,7 @@ static long read_plain(struct input *input, char *bytes, size_t size, struct dia
 static int refuse_damage(const struct input *input, struct diag *diag)
 {
     return diag_fail(diag, DIAG_DATA, "damaged %s data: %s", packing_name(input->packing),
-                     unpacker_damage(input->unpacker));
+                     packing_unpack_damage(input->unpacker));
 }
 
 /* What was unpacked before damage is given out first; the next call refuses the damage. */
@@ -159,18 +159,18 @@ static long read_packed(struct input *input, char *bytes, size_t size, struct di
 {
     size_t made = 0;
     while (made == 0) {
-        if (unpacker_damage(input->unpacker) != NULL)
+        if (packing_unpack_damage(input->unpacker) != NULL)
             return refuse_damage(input, diag);
         int more = fill(input, diag);
         if (more < 0)
             return -1;
-        if (more == 0 && !unpacker_is_inside(input->unpacker))
+        if (more == 0 && !packing_unpack_is_inside(input->unpacker))
             return 0;
         const unsigned char *from = input->raw + input->raw_at;
         size_t given = input->raw_end - input->raw_at;
-        made = unpacker_take(input->unpacker, &from, &given, bytes, size);
+        made = packing_unpack_take(input->unpacker, &from, &given, bytes, size);
         input->raw_at = input->raw_end - given;
-        if (more == 0 && made == 0 && unpacker_is_inside(input->unpacker))
+        if (more == 0 && made == 0 && packing_unpack_is_inside(input->unpacker))
             return diag_fail(diag, DIAG_DATA, "the %s data ends early",
                              packing_name(input->packing));
     }

@@ -265,7 +265,7 @@ struct output {
 
 static void discard(struct output *output)
 {
-    packer_end(output->packer);
+    packing_pack_end(output->packer);
     free(output->name);
     text_free(&output->held);
     text_free(&output->packed);
@@ -328,7 +328,7 @@ struct output *output_open(const char *path, struct diag *diag)
     enum packing packing = packing_of_name(target);
     int result = packing_check(packing, diag) == 0 ? open_path(output, target, diag) : -1;
     if (result == 0 && packing != PACKING_NONE)
-        output->packer = packer_begin(packing);
+        output->packer = packing_pack_begin(packing);
     free(target);
     if (result == 0)
         return output;
@@ -357,7 +357,7 @@ int output_write_all(int fd, const char *bytes, size_t length)
 static int write_packed(struct output *output, const char *bytes, size_t length, bool end)
 {
     output->packed.length = 0;
-    packer_add(output->packer, bytes, length, end, &output->packed);
+    packing_pack_add(output->packer, bytes, length, end, &output->packed);
     return output_write_all(output->fd, output->packed.bytes, output->packed.length);
 }
 
@@ -413,7 +413,7 @@ int output_finish(struct output *output, struct diag *diag)
     send_first(output, output->held.length, diag);
     if (output->packer != NULL && write_packed(output, NULL, 0, true) != 0)
         cannot_write(output, diag);
-    packer_end(output->packer);
+    packing_pack_end(output->packer);
     output->packer = NULL;
     if (output->file != NULL && !output->failed && fsync(output->fd) != 0)
         cannot_write(output, diag);

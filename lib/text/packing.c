@@ -85,7 +85,7 @@ static void *begun(void *with)
     return with != NULL ? with : memory_get((size_t)-1);
 }
 
-struct unpacker *unpacker_begin(enum packing packing)
+struct unpacker *packing_unpack_begin(enum packing packing)
 {
     struct unpacker *unpacker = memory_get(sizeof *unpacker);
     *unpacker = (struct unpacker){.library = library_of(packing)};
@@ -93,7 +93,7 @@ struct unpacker *unpacker_begin(enum packing packing)
     return unpacker;
 }
 
-void unpacker_end(struct unpacker *unpacker)
+void packing_unpack_end(struct unpacker *unpacker)
 {
     if (unpacker == NULL)
         return;
@@ -101,8 +101,8 @@ void unpacker_end(struct unpacker *unpacker)
     free(unpacker);
 }
 
-size_t unpacker_take(struct unpacker *unpacker, const unsigned char **from, size_t *given,
-                     char *bytes, size_t size)
+size_t packing_unpack_take(struct unpacker *unpacker, const unsigned char **from, size_t *given,
+                           char *bytes, size_t size)
 {
     struct packing_step step = {*from, *given, (unsigned char *)bytes, size};
     unpacker->damage = unpacker->library->unpack(unpacker->with, &step, &unpacker->inside);
@@ -111,12 +111,12 @@ size_t unpacker_take(struct unpacker *unpacker, const unsigned char **from, size
     return size - step.room;
 }
 
-const char *unpacker_damage(const struct unpacker *unpacker)
+const char *packing_unpack_damage(const struct unpacker *unpacker)
 {
     return unpacker->damage;
 }
 
-bool unpacker_is_inside(const struct unpacker *unpacker)
+bool packing_unpack_is_inside(const struct unpacker *unpacker)
 {
     return unpacker->inside;
 }
@@ -126,7 +126,7 @@ struct packer {
     void *with;
 };
 
-struct packer *packer_begin(enum packing packing)
+struct packer *packing_pack_begin(enum packing packing)
 {
     struct packer *packer = memory_get(sizeof *packer);
     packer->library = library_of(packing);
@@ -134,8 +134,8 @@ struct packer *packer_begin(enum packing packing)
     return packer;
 }
 
-void packer_add(struct packer *packer, const char *bytes, size_t length, bool end,
-                struct text *packed)
+void packing_pack_add(struct packer *packer, const char *bytes, size_t length, bool end,
+                      struct text *packed)
 {
     struct packing_step step = {.from = (const unsigned char *)bytes, .given = length};
     bool all;
@@ -147,7 +147,7 @@ void packer_add(struct packer *packer, const char *bytes, size_t length, bool en
     } while (!all);
 }
 
-void packer_end(struct packer *packer)
+void packing_pack_end(struct packer *packer)
 {
     if (packer == NULL)
         return;

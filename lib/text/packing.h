@@ -35,25 +35,25 @@ int packing_check(enum packing packing, struct diag *diag);
 
 struct unpacker;
 
-struct unpacker *unpacker_begin(enum packing packing);
-void unpacker_end(struct unpacker *unpacker); /* NULL: nothing */
+struct unpacker *packing_unpack_begin(enum packing packing);
+void packing_unpack_end(struct unpacker *unpacker); /* NULL: nothing */
 
 /* Unpacks bytes from *from on, of which there are *given, and moves both on; returns how many bytes
  * it made, at most size. Bytes before damage are made first. */
-size_t unpacker_take(struct unpacker *unpacker, const unsigned char **from, size_t *given,
-                     char *bytes, size_t size);
+size_t packing_unpack_take(struct unpacker *unpacker, const unsigned char **from, size_t *given,
+                           char *bytes, size_t size);
 
 /* What is damaged; NULL if nothing is. */
-const char *unpacker_damage(const struct unpacker *unpacker);
+const char *packing_unpack_damage(const struct unpacker *unpacker);
 
 /* True within a member or frame, whose end is still to come. */
-bool unpacker_is_inside(const struct unpacker *unpacker);
+bool packing_unpack_is_inside(const struct unpacker *unpacker);
 
 struct packer;
 
-struct packer *packer_begin(enum packing packing);
+struct packer *packing_pack_begin(enum packing packing);
 
 /* Appends the packed bytes that are ready to a text, or, at the end, all of them. */
-void packer_add(struct packer *packer, const char *bytes, size_t length, bool end,
-                struct text *packed);
-void packer_end(struct packer *packer); /* NULL: nothing */
+void packing_pack_add(struct packer *packer, const char *bytes, size_t length, bool end,
+                      struct text *packed);
+void packing_pack_end(struct packer *packer); /* NULL: nothing */

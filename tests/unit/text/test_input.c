@@ -152,10 +152,10 @@ static void two_frames(const struct text *bytes, struct text *packed, size_t *fi
     if (packing_check(PACKING_ZSTD, &diag) != 0)
         skip_because(diag.text);
     for (int i = 0; i < 2; i++) {
-        struct packer *packer = packer_begin(PACKING_ZSTD);
-        packer_add(packer, bytes->bytes, bytes->length, false, packed);
-        packer_add(packer, NULL, 0, true, packed);
-        packer_end(packer);
+        struct packer *packer = packing_pack_begin(PACKING_ZSTD);
+        packing_pack_add(packer, bytes->bytes, bytes->length, false, packed);
+        packing_pack_add(packer, NULL, 0, true, packed);
+        packing_pack_end(packer);
         *first = i == 0 ? packed->length : *first;
     }
 }
