@@ -574,6 +574,7 @@ TEST(every_amplitude_is_a_target_or_told)
         for (int weak = -300; weak <= strong; weak += 10) {
             struct received_echo received_echoes[2];
             bench.sensor.threshold = weak % 20 == 0 ? 1 : 1e-307;
+            bench.sensor.lowered_threshold = bench.sensor.threshold;
             bench.sensor.angle_estimator = ESTIMATORS[strong / 10 % 2 == 0];
             wrong += !two_are_told(&bench, pow(10, strong), pow(10, weak), received_echoes);
             double tangent = naive_ratio(naive_pointers(&bench.sensor, received_echoes, 2));
