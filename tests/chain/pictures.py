@@ -19,7 +19,7 @@ import xml.etree.ElementTree as xml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.dont_write_bytecode = True
-sys.path[:0] = [os.path.join(ROOT, "tests", "accuracy"), os.path.join(ROOT, "tests", "support")]
+sys.path[:0] = [os.path.join(ROOT, "tests", "tools", "accuracy"), os.path.join(ROOT, "tests", "support")]
 import tree  # noqa: E402
 from labels import Box, text_box  # noqa: E402
 

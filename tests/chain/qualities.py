@@ -8,7 +8,7 @@ import sys
 
 sys.dont_write_bytecode = True
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-sys.path[:0] = [os.path.join(ROOT, "tests", "accuracy"), os.path.join(ROOT, "scripts")]
+sys.path[:0] = [os.path.join(ROOT, "tests", "tools", "accuracy"), os.path.join(ROOT, "scripts")]
 import existence  # noqa: E402
 import normalised_errors as errors  # noqa: E402
 

@@ -1,6 +1,6 @@
 """How many detections with a probability of existence are echoes, by scene, as rows of schemas/README.md.
 
-    python3 tests/accuracy/existence.py [--suites lrr77-full,radarscenes77-full] [--signal]
+    python3 tests/tools/accuracy/existence.py [--suites lrr77-full,radarscenes77-full] [--signal]
 
 A detection is an echo if its label is any but a false alarm's: of an object, a ghost, clutter. Each cell has the mean
 of the probabilities that are told, and the share of echoes with its 95 % interval: Wilson's, of as many independent
@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 sys.path.append(os.path.join(ROOT, "scripts"))
 from glint.progress import Progress, say  # noqa: E402
 

@@ -1,6 +1,6 @@
 """Squared errors of targets divided by the variances in their quality, for people who write trackers.
 
-    python3 tests/accuracy/normalised_errors.py [--scenes 20] [--suites srr24-signal,lrr77-full] [--signal | --rows]
+    python3 tests/tools/accuracy/normalised_errors.py [--scenes 20] [--suites srr24-signal,lrr77-full] [--signal | --rows]
 
 Random scenes of dense traffic move for 2 s each at 25 Hz. Each suite detects them by its cells (glint-sensor,
 glint-noise), with --signal a suite with a waveform also by its signal (glint-sensor-signal). --rows prints the table of
@@ -21,7 +21,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 sys.path[:0] = [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "tests", "support")]
 import suites  # noqa: E402
 from glint.progress import Progress, say  # noqa: E402
