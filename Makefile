@@ -259,10 +259,10 @@ bench: all
 accuracy: all
 	$(Q)tests/tools/accuracy-cost
 
-# The program counts how often each of its lines runs, and is compiled again with the counts. Objects have machine code
-# beside what the linker optimises as a whole, so that the library serves any compiler.
+# The program counts how often each of its lines runs, and is compiled again with the counts, as a whole. The library that
+# is installed is the plain one, as its objects serve any compiler.
 counting = -fprofile-generate
-counted = -fprofile-use -fprofile-partial-training -flto=auto -ffat-lto-objects -Wno-missing-profile -Wno-alloc-size-larger-than
+counted = -fprofile-use -fprofile-partial-training -flto=auto -Wno-missing-profile -Wno-alloc-size-larger-than
 release_make = $(MAKE) BUILD=build-release AR=gcc-ar CC=gcc
 release_sources = $(wildcard Makefile lib/*/*.[ch] lib/*/*.def $(page)/* stages/*.[ch] stages/*/*.* stages/*/Makefile) tests/tools/train
 release: build-release/made
@@ -337,7 +337,7 @@ install: all man $(wildcard build-release/made)
 	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin share/man/man1) $(share) $(DESTDIR)$(LIBDIR)/pkgconfig
 	$(call install_as_one,$(plain_programs:$(BUILD)/%=$(made)/%))
 	$(call install_as_one,$(full_programs:$(BUILD)/%=$(made)/%))
-	install -m 644 $(made)/libglint.a $(DESTDIR)$(LIBDIR)
+	install -m 644 $(BUILD)/libglint.a $(DESTDIR)$(LIBDIR)
 	strip -g $(DESTDIR)$(LIBDIR)/libglint.a
 	sed 's/@version@/$(version)/; s/@zstd@/$(zstd_libs)/; s:@prefix@:$(pc_prefix):' stages/glint.pc >$(DESTDIR)$(LIBDIR)/pkgconfig/glint.pc
 	$(Q)for header in $(headers:lib/%=%); do \
