@@ -32,7 +32,7 @@ enum random_purpose {
     RANDOM_ROADSIDE_LEVEL = 23, /* per scene and scatterer beside the road: knots of its level */
     RANDOM_STRIPS = 24,         /* per snapshot: the strips beside its road */
     RANDOM_ELEMENTS = 25,       /* per cell: complex noise on the elements of an array */
-    RANDOM_SURFACE = 26,        /* per scene, body and face: facings and levels of its scatterers */
+    RANDOM_SURFACE = 26,        /* per scene, body and face: facing, level, height of scatterers */
     RANDOM_ELEVATION = 27,      /* noise on the elevation; per scan: that of the n-th false alarm */
     RANDOM_OWN = 1 << 16,       /* any number from here to 2^31 - 1 is free for stages outside this
                                  * tree, one for each purpose of the stages that run together */

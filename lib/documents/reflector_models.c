@@ -228,14 +228,26 @@ void reflector_models_of_contour(const struct contour *contour, const struct sur
         *list_add(&set->rows, arena) = row_of(contour, surface, &faces[i], size_m);
 }
 
-/* The face's scatterer, placed and drawn. */
+/* As high as the spacing, or as a lower body. With the least extent here z is at least 0.001, as in
+ * documents. */
+static double extent_of(double spacing_m, double height_m)
+{
+    return elementary_max(0.002, elementary_min(spacing_m / height_m, 1));
+}
+
+/* The face's scatterer with this number, placed and drawn. It lies between the road and the body's
+ * top. The height is the third draw of a block, as a pair of Gaussians takes the first two. */
 static struct point_reflector piece_of(const struct face *face, struct point_reflector scatterer,
                                        const struct surface *surface, double place,
-                                       const double gaussian[2])
+                                       const struct random_address *address, uint32_t number)
 {
+    double gaussian[2], uniform[4];
+    random_gaussian_pair(address, RANDOM_SURFACE, number, gaussian);
+    random_uniform(address, RANDOM_SURFACE, number, uniform);
     double level_db = level_mean_db(surface->level_sigma_db);
     scatterer.x = face->from_x + place * (face->to_x - face->from_x);
     scatterer.y = face->from_y + place * (face->to_y - face->from_y);
+    scatterer.z = scatterer.extent / 2 + (1 - scatterer.extent) * uniform[2];
     scatterer.facing_rad =
         remainder(scatterer.facing_rad + surface->facing_sigma_rad * gaussian[0], 2 * PI);
     scatterer.ercs *= units_amplitude_from_db(level_db + surface->level_sigma_db * gaussian[1]);
@@ -250,20 +262,18 @@ static void add_pieces(const struct face *face, struct point_reflector scatterer
     struct random_address address = *body;
     address.item = hash_text(body->item, face->name);
     for (uint32_t i = 0; i < (uint32_t)pieces; i++) {
-        double gaussian[2];
-        random_gaussian_pair(&address, RANDOM_SURFACE, i, gaussian);
         struct point_reflector *point = list_add(&set->points, arena);
-        *point = piece_of(face, scatterer, surface, (i + 0.5) / pieces, gaussian);
+        *point = piece_of(face, scatterer, surface, (i + 0.5) / pieces, &address, i);
         point->name = reflectors_post_name(face->name, i, arena);
     }
 }
 
 void reflector_models_of_surface(const struct contour *contour, const struct surface *surface,
-                                 struct vec2 usual_m, struct vec2 size_m,
+                                 struct vec2 usual_m, struct vec2 size_m, double height_m,
                                  const struct random_address *body, struct reflector_set *set,
                                  struct arena *arena)
 {
-    assert(size_m.x >= 0.01 && size_m.y >= 0.01 && surface->spacing_m >= 0.02);
+    assert(size_m.x >= 0.01 && size_m.y >= 0.01 && height_m > 0 && surface->spacing_m >= 0.02);
     struct face faces[FACES];
     faces_of(contour, faces);
     clear(set);
@@ -271,8 +281,9 @@ void reflector_models_of_surface(const struct contour *contour, const struct sur
         double length_m = length_of(&faces[i], size_m);
         double pieces = pieces_of(length_m, surface->spacing_m);
         double share = length_m / length_of(&faces[i], usual_m) / pieces;
-        add_pieces(&faces[i], scatterer_of(contour, surface, &faces[i], share), surface, pieces,
-                   body, set, arena);
+        struct point_reflector scatterer = scatterer_of(contour, surface, &faces[i], share);
+        scatterer.extent = extent_of(surface->spacing_m, height_m);
+        add_pieces(&faces[i], scatterer, surface, pieces, body, set, arena);
     }
 }
 

@@ -68,11 +68,12 @@ void reflector_models_of_contour(const struct contour *contour, const struct sur
                                  struct vec2 size_m, struct reflector_set *set,
                                  struct arena *arena);
 
-/* The same with points in place of the posts, each with a facing and a level of its own, which are
- * drawn at the body's address. They are no farther apart than the spacing on a body of size_m. A
+/* The same with points in place of the posts, each with a facing, a level and a height of its own,
+ * which are drawn at the body's address. They are no farther apart than the spacing on a body of
+ * size_m. On one of height_m > 0 they lie evenly over the height, each as high as the spacing. A
  * metre of a face has the power that it has on an object of usual_m, the class's size. */
 void reflector_models_of_surface(const struct contour *contour, const struct surface *surface,
-                                 struct vec2 usual_m, struct vec2 size_m,
+                                 struct vec2 usual_m, struct vec2 size_m, double height_m,
                                  const struct random_address *body, struct reflector_set *set,
                                  struct arena *arena);
 

@@ -52,7 +52,16 @@ static void draw_surface(const struct surface *surface, const struct vehicle *ve
     struct vec2 usual_m = {vehicle->length_m, vehicle->width_m};
     struct vec2 size_m = {object->length_m, object->width_m};
     body.item = hash_text(HASH_START, object->id);
-    reflector_models_of_surface(&vehicle->contour, surface, usual_m, size_m, &body, set, arena);
+    reflector_models_of_surface(&vehicle->contour, surface, usual_m, size_m, object->height_m,
+                                &body, set, arena);
+}
+
+static bool is_of(const struct extraction_surface *drawn, const struct vehicle *vehicle,
+                  const struct object *object)
+{
+    struct vec2 size_m = {object->length_m, object->width_m};
+    return drawn->vehicle == vehicle && vec2_same(drawn->size_m, size_m) &&
+           drawn->height_m == object->height_m;
 }
 
 bool extraction_describe_surface(struct extraction *extraction, const struct surface *surface,
@@ -65,15 +74,18 @@ bool extraction_describe_surface(struct extraction *extraction, const struct sur
     struct random_address scene = frame_draw_address_of_scene(frame);
     enter_scene(known, &scene);
     const struct extraction_surface *drawn = known_surface(known, object->id);
-    struct vec2 size_m = {object->length_m, object->width_m};
-    if (drawn != NULL && drawn->vehicle == vehicle && vec2_same(drawn->size_m, size_m)) {
+    if (drawn != NULL && is_of(drawn, vehicle, object)) {
         *set = drawn->set;
     } else if (drawn != NULL) {
         draw_surface(surface, vehicle, scene, object, set, frame->arena);
     } else {
         draw_surface(surface, vehicle, scene, object, set, &known->arena);
         *list_add(&known->bodies, &known->arena) = (struct extraction_surface){
-            arena_text(&known->arena, object->id, strlen(object->id)), vehicle, size_m, *set};
+            .id = arena_text(&known->arena, object->id, strlen(object->id)),
+            .vehicle = vehicle,
+            .size_m = {object->length_m, object->width_m},
+            .height_m = object->height_m,
+            .set = *set};
     }
     return true;
 }

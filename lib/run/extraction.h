@@ -20,6 +20,7 @@ struct extraction_surface {
     const char *id;
     const struct vehicle *vehicle;
     struct vec2 size_m;
+    double height_m;
     struct reflector_set set;
 };
 

@@ -1,4 +1,4 @@
-"""Vehicles of data/detailed/ and data/surfaces/ tell where their figures come from, hardly fade over a road, and are seen under.
+"""Vehicles of data/detailed/ and data/surfaces/ tell where their figures come from; the former hardly fade over a road, and are seen under.
 
 Usage: python3 tests/chain/vehicles.py BIN_DIR        exit status 1 if any check fails
 """

@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "documents/reflector_models.h"
 #include "printed.h"
+#include "propagation/reflection.h"
 #include "radar/radar_equation.h"
 
 #define FAR_M 1e7
@@ -12,16 +13,24 @@
 static const struct contour car = {15, 10.8, 13.6, 20.1, 7.1};
 static const struct surface rough = {0.25, 50 * DEGREE, 60 * DEGREE, 90 * DEGREE, 3};
 static const struct vec2 usual_m = {4.5, 1.8};
+static const double usual_height_m = 1.5;
 
 /* The scatterers of a body in a scene, on an object of this size. */
-static struct reflector_set body_of(const struct surface *surface, struct vec2 size_m,
-                                    const char *object, uint64_t scene)
+static struct reflector_set tall_body_of(const struct surface *surface, struct vec2 size_m,
+                                         double height_m, const char *object, uint64_t scene)
 {
     struct reflector_set set = {.model = "m"};
     const struct random_address body = {
         .seed = 1, .scene = scene, .item = hash_text(HASH_START, object)};
-    reflector_models_of_surface(&car, surface, usual_m, size_m, &body, &set, check_arena());
+    reflector_models_of_surface(&car, surface, usual_m, size_m, height_m, &body, &set,
+                                check_arena());
     return set;
+}
+
+static struct reflector_set body_of(const struct surface *surface, struct vec2 size_m,
+                                    const char *object, uint64_t scene)
+{
+    return tall_body_of(surface, size_m, usual_height_m, object, scene);
 }
 
 static bool is_of(const struct point_reflector *point, const char *face)
@@ -214,6 +223,111 @@ TEST(levels_are_normal_in_decibels_and_keep_the_mean_power)
     assert_close(sqrt(squares / count - mean_db * mean_db), 3, 5 * 3 / sqrt(2 * count));
 }
 
+/* Middles of scatterers of 0.25 m that lie within the body are even over what is left of its
+ * height: the mean is its half, the variance a twelfth of the square, the fourth central moment its
+ * fourth power over 80. */
+TEST(heights_are_even_over_the_body)
+{
+    static const double heights_m[] = {0.4, 1.5, 4};
+    for (size_t k = 0; k < COUNT(heights_m); k++) {
+        double height_m = heights_m[k], left_m = height_m - 0.25;
+        double sum_m = 0, squares = 0, count = 0;
+        for (uint64_t scene = 0; scene < 1000; scene++) {
+            struct reflector_set set = tall_body_of(&rough, usual_m, height_m, "a", scene);
+            for (size_t i = 0; i < set.points.count; i++, count++) {
+                const struct point_reflector *point = &set.points.items[i];
+                double off_m = (point->z - 0.5) * height_m;
+                assert_close(point->extent * height_m, 0.25, 1e-12);
+                assert_true(fabs(off_m) <= left_m / 2 + 1e-12);
+                sum_m += off_m;
+                squares += off_m * off_m;
+            }
+        }
+        double variance = left_m * left_m / 12, fourth = pow(left_m, 4) / 80;
+        assert_close(sum_m / count, 0, 5 * sqrt(variance / count));
+        assert_close(squares / count, variance, 5 * sqrt((fourth - variance * variance) / count));
+    }
+}
+
+/* The correlation of independent draws has the standard deviation 1/sqrt(count). */
+TEST(a_height_says_nothing_of_facing_level_and_neighbour)
+{
+    double facing = 0, level = 0, neighbour = 0, count = 0;
+    double sigma = (1 - 0.25 / usual_height_m) / sqrt(12);
+    struct surface narrow = rough, even = rough;
+    narrow.facing_sigma_rad = 0.5; /* no facing is so far off that it turns around */
+    even.level_sigma_db = 0;
+    for (uint64_t scene = 0; scene < 1000; scene++) {
+        struct reflector_set set = body_of(&narrow, usual_m, "a", scene);
+        struct reflector_set mean = body_of(&even, usual_m, "a", scene);
+        for (size_t i = 1; i < set.points.count; i++, count++) {
+            const struct point_reflector *point = &set.points.items[i];
+            double up = (point->z - 0.5) / sigma;
+            facing += up * remainder(point->facing_rad - normal_rad(point), 2 * PI) / 0.5;
+            level +=
+                up * (20 * log10(point->ercs / mean.points.items[i].ercs) + log(10) / 20 * 9) / 3;
+            neighbour += up * (set.points.items[i - 1].z - 0.5) / sigma;
+        }
+    }
+    assert_close(facing / count, 0, 5 / sqrt(count));
+    assert_close(level / count, 0, 5 / sqrt(count));
+    assert_close(neighbour / count, 0, 5 / sqrt(count));
+}
+
+TEST(a_scatterer_is_no_higher_than_its_body_nor_lower_than_documents_may_say)
+{
+    struct reflector_set flat = tall_body_of(&rough, usual_m, 0.1, "a", 1);
+    struct reflector_set tower = tall_body_of(&rough, usual_m, 1000, "a", 1);
+    for (size_t i = 0; i < flat.points.count; i++) {
+        assert_close(flat.points.items[i].z, 0.5, 0);
+        assert_close(flat.points.items[i].extent, 1, 0);
+        assert_true(tower.points.items[i].z >= 0.001 && tower.points.items[i].z <= 1);
+    }
+}
+
+/* F^4/<F^4> of MODEL 14.10 for a point at this height, with the four paths added up one by one. */
+static double fading(double height_m, double distance_m)
+{
+    const double sensor_m = 0.5, wave_m = 299792458 / 76.5e9;
+    double direct_m = hypot(distance_m, height_m - sensor_m);
+    double bounced_m = hypot(distance_m, height_m + sensor_m);
+    double part = 0.7 * direct_m / bounced_m, turn = 2 * PI * (bounced_m - direct_m) / wave_m;
+    double real = 1 - 2 * part * cos(turn) + part * part * cos(2 * turn);
+    double imaginary = 2 * part * sin(turn) - part * part * sin(2 * turn);
+    return (real * real + imaginary * imaginary) / (1 + 4 * part * part + pow(part, 4));
+}
+
+/* Parts of scatterers are within the body, and the middles of these even: the mean over the drawn
+ * ones is that over both. g is -0.7. A body has about 50 scatterers, powers of 0 to 2.7. */
+TEST(the_mean_over_heights_of_a_bodys_fading_over_a_road_is_that_of_points_on_it)
+{
+    enum { MIDDLES = 2000, PARTS = 50 };
+    static const double distances_m[] = {10, 40, 150};
+    for (size_t k = 0; k < COUNT(distances_m); k++) {
+        double expected = 0, sum = 0, squares = 0, count = 0;
+        for (int i = 0; i < MIDDLES; i++)
+            for (int j = 0; j < PARTS; j++)
+                expected +=
+                    fading(0.125 + 1.25 * (i + 0.5) / MIDDLES + 0.25 * ((j + 0.5) / PARTS - 0.5),
+                           distances_m[k]) /
+                    MIDDLES / PARTS;
+        for (uint64_t scene = 0; scene < 1000; scene++) {
+            struct reflector_set set = body_of(&rough, usual_m, "a", scene);
+            for (size_t i = 0; i < set.points.count; i++, count++) {
+                const struct point_reflector *point = &set.points.items[i];
+                const struct two_ray_ends ends = {0.5, point->z * usual_height_m,
+                                                  point->extent * usual_height_m, distances_m[k]};
+                struct two_ray_paths paths = reflection_two_ray_paths(&ends);
+                double factor = reflection_two_ray_factor(&paths, -0.7, 299792458 / 76.5e9);
+                sum += factor * factor;
+                squares += pow(factor, 4);
+            }
+        }
+        double mean = sum / count, variance = squares / count - mean * mean;
+        assert_close(mean, expected, 5 * sqrt(variance / count) + 1e-3);
+    }
+}
+
 TEST(scatterers_are_no_farther_apart_than_the_spacing_on_a_body_of_any_size)
 {
     static const struct vec2 sizes_m[] = {{4.5, 1.8}, {4.8, 2}, {0.2, 0.1}, {17, 2.55}, {3.01, 1}};
@@ -247,6 +361,7 @@ static bool same_body(const struct reflector_set *a, const struct reflector_set 
 {
     for (size_t i = 0; i < a->points.count; i++)
         if (a->points.items[i].facing_rad != b->points.items[i].facing_rad ||
+            a->points.items[i].z != b->points.items[i].z ||
             a->points.items[i].ercs != b->points.items[i].ercs)
             return false;
     return true;
@@ -263,14 +378,16 @@ TEST(a_body_is_drawn_once_for_its_scene_and_each_differently)
     assert_false(same_body(&a, &elsewhere));
 }
 
-TEST(a_wider_body_keeps_the_facings_of_its_sides)
+TEST(a_wider_body_keeps_the_facings_and_heights_of_its_sides)
 {
     struct reflector_set a = body_of(&rough, usual_m, "a", 1);
     struct reflector_set wide = body_of(&rough, (struct vec2){usual_m.x, 2.5}, "a", 1);
     for (size_t i = 0; i < a.points.count; i++)
         for (size_t k = 0; k < wide.points.count; k++)
-            if (strcmp(a.points.items[i].name, wide.points.items[k].name) == 0)
+            if (strcmp(a.points.items[i].name, wide.points.items[k].name) == 0) {
                 assert_close(a.points.items[i].facing_rad, wide.points.items[k].facing_rad, 0);
+                assert_close(a.points.items[i].z, wide.points.items[k].z, 0);
+            }
     assert_true(wide.points.count > a.points.count);
 }
 

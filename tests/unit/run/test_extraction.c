@@ -121,19 +121,20 @@ EXTRACTION_TEST(an_object_may_have_reflectors_of_its_own)
     }
 }
 
-/* The points of a car of this length in a frame of a scene, by their number and their facings. */
-static double points_of_car(struct runner *runner, const char *scene, double length_m)
+/* The points of a car of this size in a frame of a scene, by their number, facings and heights. */
+static double points_of_car(struct runner *runner, const char *scene, double length_m,
+                            double height_m)
 {
     struct arena arena = {0};
     struct frame frame = {
         .scene = scene, .seed = 1, .ego = "ego", .present = PART_OBJECTS, .arena = &arena};
-    *list_add(&frame.objects, &arena) =
-        (struct object){.id = "a", .class = "car", .length_m = length_m, .width_m = 1.8};
+    *list_add(&frame.objects, &arena) = (struct object){
+        .id = "a", .class = "car", .length_m = length_m, .width_m = 1.8, .height_m = height_m};
     assert_int_equal(runner->stage->step(runner->state, &frame, runner), 0);
     const struct reflector_set *set = &frame.reflectors.items[0];
     double sum = (double)set->points.count;
     for (size_t i = 0; i < set->points.count; i++)
-        sum += (double)(i + 1) * set->points.items[i].facing_rad;
+        sum += (double)(i + 1) * (set->points.items[i].facing_rad + set->points.items[i].z);
     arena_free(&arena);
     return sum;
 }
@@ -143,13 +144,16 @@ TEST(a_surface_follows_the_scene_and_the_size_of_its_body)
     struct runner runner, other;
     begin_stage(&runner, "extract", WORDS("--vehicles", "surfaces"));
     begin_stage(&other, "extract", WORDS("--vehicles", "surfaces"));
-    double car = points_of_car(&runner, "one", 4.5);
-    double longer = points_of_car(&runner, "one", 6);
-    assert_close(points_of_car(&other, "one", 6), longer, 0);
+    double car = points_of_car(&runner, "one", 4.5, 1.5);
+    double longer = points_of_car(&runner, "one", 6, 1.5);
+    assert_close(points_of_car(&other, "one", 6, 1.5), longer, 0);
     assert_true(longer != car);
-    assert_close(points_of_car(&runner, "one", 4.5), car, 0);
-    assert_true(points_of_car(&runner, "two", 4.5) != car);
-    assert_close(points_of_car(&runner, "one", 4.5), car, 0);
+    double taller = points_of_car(&runner, "one", 4.5, 2);
+    assert_close(points_of_car(&other, "one", 4.5, 2), taller, 0);
+    assert_true(taller != car);
+    assert_close(points_of_car(&runner, "one", 4.5, 1.5), car, 0);
+    assert_true(points_of_car(&runner, "two", 4.5, 1.5) != car);
+    assert_close(points_of_car(&runner, "one", 4.5, 1.5), car, 0);
     runner_free(&runner);
     runner_free(&other);
 }
