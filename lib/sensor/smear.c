@@ -3,6 +3,7 @@
 #include <complex.h>
 
 #include "base/elementary.h"
+#include "base/units.h"
 #include "radar/point_response.h"
 
 /* Samples in a bin, the widest response in units of that of an echo at rest, and the largest number
@@ -222,7 +223,8 @@ static struct received_echo *members_of(const struct smear *smear, size_t number
     return members;
 }
 
-/* Reads the beams of an array from the echoes of the cell, as strong as they are at its place. */
+/* Reads the beams of an array from the echoes of the cell, as strong as they are at its place. Every
+ * other side lobe of an echo has the opposite phase. */
 static bool see(const struct smear *smear, size_t number, struct arena *arena, struct cell *cell)
 {
     const struct sensor *sensor = smear->sensor;
@@ -234,7 +236,10 @@ static bool see(const struct smear *smear, size_t number, struct arena *arena, s
         double range = (member->range_m - cell->range_m) / sensor->cell_range_m / width;
         double rate =
             (member->range_rate_mps - cell->range_rate_mps) / sensor->cell_range_rate_mps / width;
-        member->amplitude *= point_response_hann(range) * point_response_hann(rate);
+        double response = point_response_hann(range) * point_response_hann(rate);
+        member->amplitude *= fabs(response);
+        if (response < 0)
+            member->phase_rad += PI;
     }
     bool seen = resolution_cell_see(sensor, members, count, arena, cell);
     cell->amplitude = cell->sum_re;

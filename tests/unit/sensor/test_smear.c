@@ -1,3 +1,4 @@
+#include "array_sensor.h"
 #include "check.h"
 
 #include "base/sort.h"
@@ -272,4 +273,23 @@ SCENE_TEST(echoes_that_walk_are_one_farther_apart)
             add(scene, 20 + apart * width, 8, 5, 0)->widening = width - 1;
             assert_int_equal(cells_of(scene), (size_t)apart);
         }
+}
+
+/* A weak echo among the side lobes of a strong one ends at a peak that lies in side lobes of its
+ * own, of which every other one is negative. */
+SCENE_TEST(what_an_array_sees_in_side_lobes_has_an_amplitude)
+{
+    uint64_t sample = 5;
+    scene->sensor.beams = array_row(8, 0.5, TAPER_RECTANGULAR);
+    for (int i = 0; i < 3000; i++) {
+        start(scene);
+        double range_bins = 40 + sample_between(&sample, 2, 12);
+        double rate_bins = 8 + sample_between(&sample, 2, 12);
+        double weak = pow(10, sample_between(&sample, -7, -1));
+        add(scene, 40, 8, 1000, sample_between(&sample, -PI, PI));
+        add(scene, range_bins, rate_bins, 1000 * weak, sample_between(&sample, -PI, PI));
+        cells_of(scene);
+        for (size_t j = 0; j < scene->smear.cells; j++)
+            assert_true(scene->cells[j].amplitude > 0);
+    }
 }
