@@ -273,7 +273,7 @@ void reflector_models_of_surface(const struct contour *contour, const struct sur
                                  const struct random_address *body, struct reflector_set *set,
                                  struct arena *arena)
 {
-    assert(size_m.x >= 0.01 && size_m.y >= 0.01 && height_m > 0 && surface->spacing_m >= 0.02);
+    assert(size_m.x > 0 && size_m.y > 0 && height_m > 0 && surface->spacing_m >= 0.02);
     struct face faces[FACES];
     faces_of(contour, faces);
     clear(set);
