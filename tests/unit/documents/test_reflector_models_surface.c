@@ -330,8 +330,8 @@ TEST(the_mean_over_heights_of_a_bodys_fading_over_a_road_is_that_of_points_on_it
 
 TEST(scatterers_are_no_farther_apart_than_the_spacing_on_a_body_of_any_size)
 {
-    static const struct vec2 sizes_m[] = {
-        {4.5, 1.8}, {4.8, 2}, {0.2, 0.1}, {17, 2.55}, {3.01, 1}, {1e-6, 1e-9}};
+    static const struct vec2 sizes_m[] = {{4.5, 1.8}, {4.8, 2},  {0.2, 0.1},
+                                          {17, 2.55}, {3.01, 1}, {1e-6, 1e-9}};
     for (size_t i = 0; i < COUNT(sizes_m); i++) {
         struct reflector_set set = body_of(&rough, sizes_m[i], "a", 1);
         size_t along = (size_t)ceil(sizes_m[i].x / 0.25 - 1e-9);
