@@ -227,14 +227,25 @@ static void add_errors(const struct detection_source *source,
         quality->present |= QUALITY_POINTERS;
 }
 
+/* The amplitude of an ERCS of 1 at the measured place. Noise may turn an azimuth beyond the table
+ * of an antenna, which has no gain there: then with the gain at the border of the view. */
+static double reference_amplitude(const struct sensor *sensor, double range_m, double azimuth_rad)
+{
+    double within_rad = elementary_min(elementary_max(azimuth_rad, -PI / 2), PI / 2);
+    double reference =
+        radar_amplitude(&sensor->amplitude_law, &sensor->antenna, range_m, within_rad, 1);
+    if (reference > 0)
+        return reference;
+    double border_rad = copysign(antenna_border_rad(sensor->field_of_view_rad), azimuth_rad);
+    return radar_amplitude(&sensor->amplitude_law, &sensor->antenna, range_m, border_rad, 1);
+}
+
 static void add_strength(const struct detection_source *source,
                          const struct effect_measurement *measurement, struct quality *quality)
 {
     const struct sensor *sensor = source->sensor;
     double ratio = measurement->amplitude / source->noise;
-    double azimuth_rad = elementary_min(elementary_max(measurement->azimuth_rad, -PI / 2), PI / 2);
-    double reference = radar_amplitude(&sensor->amplitude_law, &sensor->antenna,
-                                       measurement->range_m, azimuth_rad, 1);
+    double reference = reference_amplitude(sensor, measurement->range_m, measurement->azimuth_rad);
     if (reference > 0) {
         quality->rcs_dbsm =
             to_part(10 + units_amplitude_db(measurement->amplitude / reference), 1e3);

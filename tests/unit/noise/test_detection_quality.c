@@ -60,6 +60,23 @@ EFFECT_TEST(strength_is_over_noise_and_over_a_reflector_of_ten_square_metres)
     assert_int_equal(quality.present & QUALITY_NOISE, 0);
 }
 
+EFFECT_TEST(beyond_the_antennas_table_the_strength_is_that_at_the_border_of_the_view)
+{
+    static const struct antenna_row rows[] = {{-1, 0.5, -0.5}, {0, 1, 0}, {1, 0.5, 0.5}};
+    bench->sensor.antenna =
+        (struct antenna){.pattern = ANTENNA_TABLE, .rows = rows, .row_count = COUNT(rows)};
+    bench->sensor.field_of_view_rad = 1.6;
+    for (int side = -1; side <= 1; side += 2) {
+        struct detection at_border = detect(bench), beyond = detect(bench);
+        at_border.measurement.azimuth_rad = side * 0.8;
+        beyond.measurement.azimuth_rad = side * 1.01;
+        struct quality expected = quality_of(bench, &at_border);
+        struct quality quality = quality_of(bench, &beyond);
+        assert_int_equal(quality.present & QUALITY_RCS, QUALITY_RCS);
+        assert_close(quality.rcs_dbsm, expected.rcs_dbsm, 1e-9);
+    }
+}
+
 /* The ego heads north at 20 m/s and turns left at 0.1 rad/s; the sensor is 2 m ahead and 1 m to the
  * left, and looks left by 30 degrees, so that the sight is at 60 degrees from the heading. */
 EFFECT_TEST(places_are_in_four_frames_and_the_rate_is_less_the_sensors_own)
