@@ -18,7 +18,7 @@ SKILLS = {"FULL": False, "PEAKS": True}  # of peaks alone?
 LISTS = 12  # of a score: a list has many detections
 INTERVAL_S = 0.1  # of scans in any order
 COARSE = "coarse"  # name of the sensor with coarse cells
-LEVEL = "[A] chosen beside a dense recording of a car's scatterers in fine cells"
+LEVEL = "[A] chosen on a dense recording, where scatterers of a car lie in fine cells of their own"
 ASSUMED = {"cell_extent": ("width", "[A] a step of the grid of a list"), "level_constant_db": (2.2, LEVEL),
            "level_slow_db": (1.2, LEVEL), "level_fast_db": (1.8, LEVEL)}
 
