@@ -63,9 +63,9 @@ const struct stage stage_noise_gauss = {
         "and range rate get noise of the sensor's range_sigma_m, or its range_sigma_share of\n"
         "the range where that is larger, azimuth_sigma_rad, elevation_sigma_rad and\n"
         "range_rate_sigma_mps, whatever its sigma_law. No list limit is applied, nothing is\n"
-        "rounded or misaligned, and there are no false alarms. A cell of zero amplitude is\n"
-        "lost, and one that glint-sensor found below the threshold. A range below zero is\n"
-        "reported as zero.",
+        "rounded or misaligned, and there are no false alarms. A cell is lost if its\n"
+        "amplitude is zero or if glint-sensor found it below the threshold. A range below zero\n"
+        "is reported as zero.",
     .options = &suite_choice_record,
     .reads = PART_SENSORS | PART_CELLS,
     .writes = PART_TARGETS | PART_LOST | PART_VISIBILITY,

@@ -21,10 +21,11 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 const struct stage stage_noise_none = {
     .name = "noise-none",
     .summary = "Write the cells as targets, without noise.",
-    .details = "Stands in for glint-noise: every cell becomes a target with the cell's own range,\n"
-               "azimuth and range rate. No list limit is applied, nothing is rounded or misaligned,\n"
-               "and there are no false alarms. A cell of zero amplitude is lost, and one that\n"
-               "glint-sensor found below the threshold.",
+    .details =
+        "Stands in for glint-noise: every cell becomes a target with the cell's own range,\n"
+        "azimuth, elevation and range rate. No list limit is applied, nothing is rounded or\n"
+        "misaligned, and there are no false alarms. A cell is lost if its amplitude is zero\n"
+        "or if glint-sensor found it below the threshold.",
     .options = &suite_choice_record,
     .reads = PART_SENSORS | PART_CELLS,
     .writes = PART_TARGETS | PART_LOST | PART_VISIBILITY,

@@ -67,7 +67,7 @@ static const struct field surface_fields[] = {
     {STATED(full_rad, 0, PI,
             "a scatterer is fully seen up to this angle off its facing; absent: the class's, or "
             "that of its cross sections")},
-    {STATED(zero_rad, 0.01, PI, "and not from this angle on; absent: as full_rad")},
+    {STATED(zero_rad, 0.01, PI, "and not seen from this angle on; given together with full_rad")},
     {STATED(
         level_sigma_db, 0, 6,
         "standard deviation of a scatterer's power around its mean; absent: the class's, or 0")},

@@ -26,7 +26,8 @@ enum range_migration {
     MIGRATION_HANN,
     MIGRATION_COMPENSATED
 };
-/* The threshold on cells without noise: lowered where a final threshold follows, or the same. */
+/* The threshold on a cell before noise: lower than the final threshold, where one follows, or the
+ * full threshold. */
 enum first_threshold { FIRST_LOWERED, FIRST_FULL };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 

@@ -14,8 +14,9 @@
 int vehicle_set_folder(const char *named_by, const char *word, const char **folder,
                        struct arena *arena, struct diag *diag);
 
-/* The document of a class as vehicle_load finds it, or the one of a set that has this digest; NULL
- * asks for no digest. Where no document has it, the first that was found. NULL after a message. */
+/* The document of a class that vehicle_load finds or, if that has another digest than this, the one
+ * of a set that has it. Where no document has the digest, or none is asked for (NULL), it is the
+ * one that vehicle_load finds. NULL after a message. */
 const struct vehicle *vehicle_set_load(const char *class, const char *digest, const char *folder,
                                        struct arena *arena, struct diag *diag);
 

@@ -119,7 +119,8 @@ struct echo_id {
     int64_t number;     /* from 1 where several may be alike in all members above; else 0 */
 };
 
-/* Members of echoes, contributors, cells and targets that are known together. */
+/* Groups of members of echoes, contributors, cells and targets: a record has all members of a group
+ * or none. */
 enum value_group {
     VALUE_ELEVATION = 1 << 0, /* of a sensor that measures elevation */
 };

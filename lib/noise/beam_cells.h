@@ -9,10 +9,11 @@
 
 #include "effects/effect.h"
 
-/* Of these cells of the sensor, those without samples as they are, and for the others one cell for
- * each beam. Its members are weighted by their shares of its amplitude, its range and range rate
- * are the means over them, its azimuth is that of the beam without noise, and its member beam is
- * the maximum in noise. Without scan (NULL) there is no noise. Masked echoes are lost to the stage.
+/* Returns those of these cells of the sensor that have no samples as they are, and for each of the
+ * others one cell for each beam. Its members are weighted by their shares of its amplitude, its
+ * range and range rate are the means over them, its azimuth is that of the beam without noise, and
+ * its member beam is the maximum in noise. Without scan (NULL) there is no noise. Masked echoes are
+ * lost to the stage.
  */
 struct cell_span beam_cells_of(struct frame *frame, const char *stage, const struct sensor *sensor,
                                const struct effect_scan *scan, struct cell_span cells);

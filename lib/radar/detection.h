@@ -33,7 +33,7 @@ struct detection_law {
 };
 
 /* The threshold on amplitudes without noise where noise of this RMS >= 0 and a final threshold
- * follow; >= 0. It takes at most 0.012 from the probability of detection of steady echoes, if the
+ * follow; >= 0. It takes at most 0.011 from the probability of detection of steady echoes, if the
  * final one is 10 dB over the noise or more. */
 double detection_lowered_threshold(double final_threshold, double noise);
 

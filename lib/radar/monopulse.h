@@ -31,9 +31,9 @@ struct monopulse_angle monopulse_angle(const struct antenna *antenna,
 
 /* The standard deviation of the azimuth of one echo by noise on both channels, to first order, at
  * the linear ratio of powers (|sum|/noise RMS)^2 = snr. With psi = atan(delta/sum) it is
- * cos psi/(sqrt(2 snr) |psi'|), for the dipole pair that of MODEL 7.3, at the ends of a table that
- * just inside.
- * On boresight the magnitude rule folds and takes the noise of both quadratures: sqrt 2 times. */
+ * cos psi/(sqrt(2 snr) |psi'|), which is that of MODEL 7.3 for the dipole pair. At the ends of a
+ * table it is that of an azimuth just inside. On boresight the magnitude rule folds and takes the
+ * noise of both quadratures: sqrt 2 times. */
 double monopulse_sigma_rad(const struct antenna *antenna, enum monopulse_estimator estimator,
                            double azimuth_rad, double snr);
 

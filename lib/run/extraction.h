@@ -10,7 +10,8 @@
 typedef void extraction_describe(const void *state, const struct vehicle *vehicle,
                                  struct reflector_set *set, struct arena *arena);
 
-/* The same for one object alone. false, for all objects of the class: they share reflectors. */
+/* Gives one object reflectors of its own, in *set. Returns false, without a set, if all objects of
+ * the class share theirs. */
 typedef bool extraction_describe_body(void *state, const struct vehicle *vehicle,
                                       const struct frame *frame, const struct object *object,
                                       struct reflector_set *set);
@@ -41,7 +42,7 @@ struct extraction {
     {                                                                                              \
         OPTIONAL_NAME(                                                                             \
             struct extraction, vehicles,                                                           \
-            "set of vehicle documents, as detailed, or a path of your own folder; absent: paper"), \
+            "set of vehicle documents, such as detailed, or path of your folder; absent: paper"),  \
             .word = "SET"                                                                          \
     }
 extern const struct record extraction_record;

@@ -53,7 +53,7 @@ struct trial_bench {
     struct runner *runner; /* of the tool; its diag has the messages */
     const char *sensors;   /* the suite */
     const char *vehicles;  /* that objects are extracted with; NULL: the paper's */
-    bool extracts;         /* a frame had no reflectors */
+    bool extracts;         /* true once a frame without reflectors was extracted */
     const char *asked;     /* the effects of the whole chain, as they were asked for */
     uint64_t allowed;      /* their EFFECT_BITs */
     struct trial whole[TRIAL_POSITIONS]; /* the whole chain from each stage on */

@@ -3,7 +3,7 @@
  * gzip is unpacked by an inflate loop that insists on the end mark of every member, because zlib's
  * gzread has been measured to accept truncated files silently. Anything after the last member or
  * frame is refused. Both are packed at level 1, at which gzip keeps up with the chain at 116 MB/s;
- * the bytes depend on the content alone, and on the version of the library. */
+ * the bytes depend only on the content and on the version of the library. */
 #pragma once
 
 #include <stdbool.h>
