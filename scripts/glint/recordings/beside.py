@@ -15,7 +15,7 @@ from glint.recordings import chains, dense, fitted, geometry, marginals, readers
 
 FAR, NEAR = 10, (1, 2, 3)  # scans away, of predictors that the recording itself gives
 MOUNT_Z_M = 0.5  # assumed, as lrr77-full
-ROUNDS, LEVELLED = 3, 6  # of levels beside dense lists, and the lists of each
+ROUNDS, LEVELLED = 3, 6  # that find the level of simulated lists beside dense ones, and the lists of each
 
 
 class Part(namedtuple("Part", "radar scans speeds boxes scale coarse", defaults=(score.COARSE, frozenset()))):

@@ -9,13 +9,13 @@ import statistics
 from glint.recordings import geometry
 from glint.recordings.score import Scale
 
-NEAR_M, COARSER = 25, 8  # where coarse cells begin, and so many fine ones are a coarse one
+NEAR_M, COARSER = 25, 8  # coarse cells may begin here; one is as long as this many fine ones
 ALIKE_M, ALIKE_MPS = 0.3, 0.1  # detections of one range, and of one range rate
-LEAST, FEWEST_PAIRS = 1e-3, 8  # less is no distance; so many tell a step
+LEAST, FEWEST_PAIRS = 1e-3, 8  # a shorter distance is none; this many pairs at least give a step
 PEAK_MPS = 0.3  # the least distance in range rate of peaks of one range
-FAR = 5  # scans away, of a predictor that the recording itself gives
+FAR = 5  # scans away, from where the recording itself predicts a list
 SKILLS = {"FULL": False, "PEAKS": True}  # of peaks alone?
-LISTS = 12  # of a score: a list has many detections
+LISTS = 12  # of a score; fewer than elsewhere, as each has many detections
 INTERVAL_S = 0.1  # of scans in any order
 COARSE = "coarse"  # name of the sensor with coarse cells
 LEVEL = "[A] chosen on a dense recording, where scatterers of a car lie in fine cells of their own"
@@ -67,7 +67,7 @@ def scale(sensor):
 
 
 def slope(radar, scans):
-    """By how many dB a decade of range the strongest detections of road users fall."""
+    """By how many dB a decade of range the levels of road users' strongest detections fall."""
     levels = strongest((geometry.look(radar, box).range_m, own) for scan, seen in zip(scans, of_road_users(radar, scans))
                        for box, own in zip(scan.boxes, seen))
     return -statistics.linear_regression([math.log10(range_m) for range_m, _ in levels], [level for _, level in levels]).slope
@@ -92,7 +92,7 @@ def coarse_scans(radar, scans, cell_m):
 
 
 def is_of_mode(target, is_coarse):
-    """Does a target come from the sensor that a scan has at its range?"""
+    """Is a target of the sensor whose cells the scan has at the target's range?"""
     return (target["sensor"] == COARSE) == (is_coarse and target["range_m"] >= NEAR_M)
 
 

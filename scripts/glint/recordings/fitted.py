@@ -21,7 +21,7 @@ SLOWEST = 24  # dB a decade, the lesser of two 77 GHz radars on roads: few near 
 LEAST = 0.001  # share of the detections that may be weaker than the threshold
 STEEPEST = 8  # extent of the view in noise of azimuth: delta is at most 140 times sum
 FEWEST_PAIRS = 8  # of neighbours that tell a cell
-AGREE, NARROWED = 0.8, 6  # so much of a cell two detections may lie apart that agree; how often the bounds are narrowed
+AGREE, NARROWED = 0.8, 6  # detections that agree lie at most this part of a cell apart; how often the bounds are narrowed
 WIDEST_MPS = 1  # a cell of rates; usual are 0.03 to 0.4
 WITHIN_2 = 0.7737  # variance of normal numbers within two standard deviations
 # Members that lists do not show, and figures for which a half may have too few detections: those of lrr77-full.

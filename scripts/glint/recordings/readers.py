@@ -38,7 +38,7 @@ ARTICULATED_M = 12  # longer trucks are articulated
 LONGEST_GAP_S = 5  # between lists of one sequence
 KITTI_INTERVAL_S = 0.1  # assumed, as that layout has no times
 FOLLOWED_M = 4  # from scan to scan, of a box without an id: less than from one car to the next
-BEYOND_M = 25  # the farthest box, of detections that are kept of a dense list
+BEYOND_M = 25  # the farthest box: how far detections of a dense list are kept
 
 
 def refuse(text, code=os.EX_DATAERR):
@@ -110,7 +110,7 @@ def lacks(scans):
     if any(one.snr_db is None for one in detections):
         found.append("no signal-to-noise ratio: the weakest tenth of the cross sections at a range stands for the threshold")
     if any(one.rcs_dbsm is None for one in detections):
-        found.append("no cross section: " + ("levels fall and are as strong as those of road users" if is_dense(scans) else
+        found.append("no cross section: " + ("levels fall with range as those of road users do, and are as strong" if is_dense(scans) else
                                              "40 dB a decade are assumed, and 0 dBsm at the threshold at the farthest range"))
     return found
 
