@@ -41,12 +41,18 @@ bool view_frame_loss_is_notable(enum loss reason)
            reason != LOSS_OUT_OF_RANGE && reason != LOSS_OUT_OF_VIEW && reason != LOSS_SWITCHED_OFF;
 }
 
+static bool is_asked_for(const struct view_model *model, const char *class, const char *digest)
+{
+    return strcmp(model->class, class) == 0 && (digest == NULL || model->vehicle == NULL ||
+                                                strcmp(model->vehicle->digest, digest) == 0);
+}
+
 const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class,
                                          const char *digest)
 {
     assert(models->arena != NULL);
     for (size_t i = 0; i < models->list.count; i++)
-        if (strcmp(models->list.items[i].class, class) == 0)
+        if (is_asked_for(&models->list.items[i], class, digest))
             return models->list.items[i].vehicle;
     struct diag unused = {0};
     struct view_model *model = list_add(&models->list, models->arena);

@@ -30,7 +30,7 @@ struct box view_frame_box(const struct object *object, const struct vehicle *veh
  * point, out of range or view, switched off. True for the others and for LOSS_OWN. */
 bool view_frame_loss_is_notable(enum loss reason);
 
-/* Vehicle documents by class, each looked up once; all memory is the arena's. */
+/* Vehicle documents by class and digest, each looked up once; all memory is the arena's. */
 struct view_model {
     const char *class;
     const struct vehicle *vehicle; /* NULL: the class has no document */
@@ -42,7 +42,7 @@ struct view_models {
     LIST_OF(struct view_model) list;
 };
 
-/* The document with this digest, or any (NULL), when the class is looked up first. */
+/* The class's document with this digest, where there is one; NULL: any document. */
 const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class,
                                          const char *digest);
 
