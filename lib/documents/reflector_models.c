@@ -228,8 +228,8 @@ void reflector_models_of_contour(const struct contour *contour, const struct sur
         *list_add(&set->rows, arena) = row_of(contour, surface, &faces[i], size_m);
 }
 
-/* As high as the spacing, or as a lower body. With the least extent here z is at least 0.001, as in
- * documents. */
+/* A scatterer is as high as the spacing, or as the body if that is lower. With the least extent
+ * here its z is at least 0.001, as in documents. */
 static double extent_of(double spacing_m, double height_m)
 {
     return elementary_max(0.002, elementary_min(spacing_m / height_m, 1));

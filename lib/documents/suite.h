@@ -26,8 +26,7 @@ enum range_migration {
     MIGRATION_HANN,
     MIGRATION_COMPENSATED
 };
-/* The threshold on a cell before noise: lower than the final threshold, where one follows, or the
- * full threshold. */
+/* The threshold on cells before noise: lower than the final one that follows, or the same. */
 enum first_threshold { FIRST_LOWERED, FIRST_FULL };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 

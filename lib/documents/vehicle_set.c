@@ -115,7 +115,8 @@ static bool has_digest(const struct vehicle *vehicle, const char *digest)
     return vehicle != NULL && strcmp(vehicle->digest, digest) == 0;
 }
 
-/* Among the sets, the paper's first; NULL: none has it. Documents with faults do not count. */
+/* The document of the class with this digest, from the paper's set or else another one; NULL if no
+ * set has it. Documents with faults are passed over. */
 static const struct vehicle *find_digest(const char *class, const char *digest, struct arena *arena)
 {
     struct diag unused = {0};

@@ -14,9 +14,8 @@
 int vehicle_set_folder(const char *named_by, const char *word, const char **folder,
                        struct arena *arena, struct diag *diag);
 
-/* The document of a class that vehicle_load finds or, if that has another digest than this, the one
- * of a set that has it. Where no document has the digest, or none is asked for (NULL), it is the
- * one that vehicle_load finds. NULL after a message. */
+/* The document of a class that has this digest: that of vehicle_load, or else of any set. If none
+ * has it, or for NULL, that of vehicle_load. NULL after a message. */
 const struct vehicle *vehicle_set_load(const char *class, const char *digest, const char *folder,
                                        struct arena *arena, struct diag *diag);
 

@@ -119,8 +119,7 @@ struct echo_id {
     int64_t number;     /* from 1 where several may be alike in all members above; else 0 */
 };
 
-/* Groups of members of echoes, contributors, cells and targets: a record has all members of a group
- * or none. */
+/* Groups of members of echoes, contributors, cells, targets: a record has all of one or none. */
 enum value_group {
     VALUE_ELEVATION = 1 << 0, /* of a sensor that measures elevation */
 };

@@ -6,8 +6,8 @@
 #include "radar/detection.h"
 #include "radar/monopulse.h"
 
-/* Echoes of up to so many times the least power tell how many weak ones a scan has, beside so many
- * that are always expected. */
+/* Echoes from the least power to BAND times that power tell how many weak echoes a scan has; ALWAYS
+ * more are expected in every scan. */
 static const double BAND = 10, ALWAYS = 0.25;
 
 /* The probability that an echo of which this power is left with noise has passed the first
@@ -42,8 +42,8 @@ static bool is_weak(const struct existence *existence, double power)
     return power <= BAND * existence->weakest;
 }
 
-/* Bayes' rule, where the band has as many echoes as are always expected and those of the other
- * detections, by their own probabilities; from all of them on, until they agree. */
+/* Bayes' rule, where ALWAYS and the sum of the probabilities of the other detections in the band is
+ * the number of echoes expected there; by iteration that begins with all detections as echoes. */
 void detection_quality_weigh(const struct existence *existence, struct detection_evidence *scan,
                              size_t count)
 {

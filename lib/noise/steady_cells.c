@@ -3,8 +3,8 @@
 #include "base/units.h"
 #include "radar/interferer.h"
 
-/* Adds the cell to the list, or loses it. Only where the sensor has tested its cells, they have a
- * margin of the threshold. */
+/* Adds the cell to the list, or loses it. Cells have a margin of the threshold only if the sensor
+ * has tested them. */
 static void decide(struct frame *frame, const char *stage, const struct sensor *sensor,
                    struct cell cell, struct cell *list, size_t *count)
 {

@@ -230,8 +230,8 @@ static double bend_of(const struct beam *beam)
     return 2 * (product(beam->slope, beam->slope) + product(beam->value, beam->bend));
 }
 
-/* The mean power of the samples, weighted by the taper. It is that of the mean S, and that of what
- * the samples have beside it. */
+/* The mean power of the samples, weighted by the taper: the power of their mean S plus the mean
+ * power of their deviations from it. */
 static double power_of_samples(const struct array *array, const struct phasor *samples)
 {
     double power = 0;

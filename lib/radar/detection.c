@@ -109,8 +109,7 @@ static double density(const struct power_law *varying, double power_db)
     return elementary_exp(-deviations * deviations / 2) / (varying->sigma_db * sqrt(2 * PI));
 }
 
-/* An echo of a mean amplitude whose power varies by one law, and by another one beside it or not.
- */
+/* An echo of a mean amplitude whose power varies by one law, and perhaps by a second one too. */
 struct echo_law {
     const struct detection_law *detection;
     struct power_law varying;
@@ -145,8 +144,8 @@ static double probability_at(const struct echo_law *echo, double power_db)
     return single_probability(echo->detection, echo->beside, amplitude);
 }
 
-/* The part of the probability of detection from powers in these decibels. Steps of the trapezoidal
- * rule shrink so smoothly towards both ends that it converges quickly. */
+/* What powers between these two, in dB, contribute to the probability of detection. The steps of
+ * the trapezoidal rule shrink smoothly towards both ends, so that it converges quickly. */
 static double integral(const struct echo_law *echo, double from, double to)
 {
     double sum = 0;
@@ -170,8 +169,8 @@ static double power_for(const struct echo_law *echo, double amplitude, double fr
     return elementary_min(elementary_max(db, from), to);
 }
 
-/* Where noise decides, the integrand is as steep as the noise is small. So this part and what is
- * stronger are integrated one by one. */
+/* Around the threshold, where noise decides, the integrand is the steeper the less noise there is.
+ * So this part and that of stronger echoes are integrated separately. */
 static double single_probability(const struct detection_law *detection,
                                  const struct power_law *varying, double amplitude)
 {
@@ -188,8 +187,7 @@ static double single_probability(const struct detection_law *detection,
     return integral(&echo, from_db, certain_db) + integral(&echo, certain_db, most);
 }
 
-/* The mean over the narrower of two laws of the probability under the other, which is smooth then.
- */
+/* The mean over the narrower of two laws of the smooth probability under the wider one. */
 static double double_probability(const struct detection_law *detection,
                                  const struct power_law *narrow, const struct power_law *wide,
                                  double amplitude)
@@ -198,7 +196,7 @@ static double double_probability(const struct detection_law *detection,
     return integral(&echo, least_db(narrow), most_db(narrow));
 }
 
-/* Of echoes that are stronger than where their law is cut, and so as strong as there. */
+/* Of echoes beyond the power at which their law is cut: they count with that power. */
 static double cut_probability(const struct detection_law *detection, const struct power_law *echo,
                               const struct power_law *body, double amplitude)
 {

@@ -10,8 +10,7 @@
 typedef void extraction_describe(const void *state, const struct vehicle *vehicle,
                                  struct reflector_set *set, struct arena *arena);
 
-/* Gives one object reflectors of its own, in *set. Returns false, without a set, if all objects of
- * the class share theirs. */
+/* Sets the reflectors of one object alone; false if all objects of the class share theirs. */
 typedef bool extraction_describe_body(void *state, const struct vehicle *vehicle,
                                       const struct frame *frame, const struct object *object,
                                       struct reflector_set *set);

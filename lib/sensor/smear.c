@@ -223,8 +223,8 @@ static struct received_echo *members_of(const struct smear *smear, size_t number
     return members;
 }
 
-/* Reads the beams of an array from the echoes of the cell, as strong as they are at its place. Every
- * other side lobe of an echo has the opposite phase. */
+/* Reads the beams of an array from the cell's echoes, each with the amplitude that its response has
+ * at the place of the cell. Every other side lobe of a response has the opposite phase. */
 static bool see(const struct smear *smear, size_t number, struct arena *arena, struct cell *cell)
 {
     const struct sensor *sensor = smear->sensor;

@@ -118,7 +118,7 @@ static struct motion drive_segments(const struct actor *actor, double time_s, do
     return now.body;
 }
 
-/* Of one waypoint after another. */
+/* What is computed once for the way from one waypoint to the next. */
 struct span {
     double length_m;
     double standing_yaw_rad; /* where the rest of the span does not move */
