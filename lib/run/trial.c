@@ -46,7 +46,7 @@ const char *trial_names(uint64_t effects, struct arena *arena)
 static struct runner *stage_at(const struct trial_bench *bench, const struct trial *trial, int at,
                                struct effect_log *log)
 {
-    const struct suite_choice choice = {bench->sensors, trial->effects};
+    const struct suite_choice choice = {bench->suite->given, trial->effects};
     const char *program = at == TRIAL_IDEAL ? "glint-ideal" : trial->programs[at - 1];
     if (program == NULL)
         return NULL;
@@ -121,7 +121,7 @@ int trial_begin(struct trial_bench *bench, const struct trial_options *options,
     const char *effects = trial_request(selection.allowed, runner_arena(runner));
     *bench = (struct trial_bench){
         .runner = runner,
-        .sensors = choice->sensors,
+        .suite = suite,
         .asked = strcmp(effects, "auto") == 0 ? "auto" : request.effects,
         .allowed = selection.allowed,
     };
@@ -194,6 +194,8 @@ static int open_frame(struct trial_bench *bench, const struct sampled_frame *sam
     bench->extracts = bench->extracts || extracts;
     bench->head_ns[bench->round] += cpu_ns() - begin_ns;
     bench->frames[bench->round]++;
+    if (!bench->doubts_cells)
+        bench->doubts_cells = suite_choice_doubt_cells(bench->runner, bench->suite, frame);
     bench->kept[TRIAL_IDEAL] = *frame;
     return (bench->pass & TRIAL_ALONE) != 0 ? 0 : run_whole(bench);
 }

@@ -51,11 +51,12 @@ enum {
 /* trial_begin sets the first members. The caller may set the next for each pass. */
 struct trial_bench {
     struct runner *runner; /* of the tool; its diag has the messages */
-    const char *sensors;   /* the suite */
-    const char *vehicles;  /* that objects are extracted with; NULL: the paper's */
-    bool extracts;         /* true once a frame without reflectors was extracted */
-    const char *asked;     /* the effects of the whole chain, as they were asked for */
-    uint64_t allowed;      /* their EFFECT_BITs */
+    const struct suite *suite;
+    bool doubts_cells;    /* true once a frame's reflectors were doubted */
+    const char *vehicles; /* that objects are extracted with; NULL: the paper's */
+    bool extracts;        /* true once a frame without reflectors was extracted */
+    const char *asked;    /* the effects of the whole chain, as they were asked for */
+    uint64_t allowed;     /* their EFFECT_BITs */
     struct trial whole[TRIAL_POSITIONS]; /* the whole chain from each stage on */
     struct trial without[EFFECT_COUNT];  /* the whole chain less one effect that is allowed */
 
