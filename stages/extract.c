@@ -5,6 +5,8 @@
 static bool describe_body(void *state, const struct vehicle *vehicle, const struct frame *frame,
                           const struct object *object, struct reflector_set *set)
 {
+    if (!reflector_models_differs(&vehicle->surface))
+        return false;
     struct surface surface =
         reflector_models_surface(&reflector_models_usual_surface, &vehicle->surface);
     return extraction_describe_surface(state, &surface, vehicle, frame, object, set);

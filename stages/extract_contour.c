@@ -27,7 +27,11 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 static bool describe_body(void *state, const struct vehicle *vehicle, const struct frame *frame,
                           const struct object *object, struct reflector_set *set)
 {
-    struct surface surface = surface_of(state, vehicle);
+    const struct extract_contour *extract = state;
+    if (!reflector_models_differs(&vehicle->surface) &&
+        !reflector_models_differs(&extract->surface))
+        return false;
+    struct surface surface = surface_of(extract, vehicle);
     return extraction_describe_surface(state, &surface, vehicle, frame, object, set);
 }
 

@@ -52,6 +52,7 @@ static void draw_surface(const struct surface *surface, const struct vehicle *ve
     struct vec2 usual_m = {vehicle->length_m, vehicle->width_m};
     struct vec2 size_m = {object->length_m, object->width_m};
     body.item = hash_text(HASH_START, object->id);
+    *set = vehicle->reflectors;
     reflector_models_of_surface(&vehicle->contour, surface, usual_m, size_m, object->height_m,
                                 &body, set, arena);
 }
@@ -110,30 +111,19 @@ static const struct class_document *noted_document(const struct frame *frame, co
     return NULL;
 }
 
-/* A frame that was extracted before keeps to its documents. */
-static int note_document(struct frame *frame, const struct vehicle *vehicle, struct diag *diag)
+/* A frame that was extracted before keeps to the documents that it notes. */
+static int note_document(struct frame *frame, const struct class_document *noted,
+                         const struct vehicle *vehicle, struct diag *diag)
 {
-    const char *class = vehicle->reflectors.model;
-    const struct class_document *noted = noted_document(frame, class);
     if (noted != NULL)
         return noted->digest == vehicle->digest ? 0 : vehicle_check_frame(vehicle, frame, diag);
     *list_add(&frame->vehicles, frame->arena) =
-        (struct class_document){.class = class,
+        (struct class_document){.class = vehicle->reflectors.model,
                                 .digest = vehicle->digest,
                                 .rear_axle_x_m = vehicle->rear_axle_x_m,
                                 .level = vehicle->level,
                                 .cell_max_m = vehicle->cell_max_m};
     return 0;
-}
-
-/* The document of the object's class, with the digest that the frame notes. */
-static const struct vehicle *document_of(const struct extraction *extraction,
-                                         const struct frame *frame, const struct object *object,
-                                         struct runner *runner)
-{
-    const struct class_document *noted = noted_document(frame, object->class);
-    return runner_vehicle(runner, extraction->folder, object->class,
-                          noted != NULL ? noted->digest : NULL);
 }
 
 /* A new set of this object alone, or NULL if those of its class share one. */
@@ -142,7 +132,7 @@ static struct reflector_set *own_set(struct frame *frame, const struct object *o
                                      extraction_describe_body *describe_body,
                                      struct extraction *extraction)
 {
-    struct reflector_set own = vehicle->reflectors;
+    struct reflector_set own;
     if (describe_body == NULL || !describe_body(extraction, vehicle, frame, object, &own))
         return NULL;
     struct reflector_set *set = list_add(&frame->reflectors, frame->arena);
@@ -170,11 +160,13 @@ int extraction_step(struct extraction *extraction, struct frame *frame, struct r
 {
     struct object *const *object = frame_order_objects(frame);
     for (size_t i = 0; i < frame->objects.count; i++) {
-        const struct vehicle *vehicle = document_of(extraction, frame, object[i], runner);
+        const struct class_document *noted = noted_document(frame, object[i]->class);
+        const struct vehicle *vehicle = runner_vehicle(runner, extraction->folder, object[i]->class,
+                                                       noted != NULL ? noted->digest : NULL);
         if (vehicle == NULL)
             return diag_prefix(runner_diag(runner),
                                "objects[%zu].class: ", (size_t)(object[i] - frame->objects.items));
-        if (note_document(frame, vehicle, runner_diag(runner)) != 0)
+        if (note_document(frame, noted, vehicle, runner_diag(runner)) != 0)
             return -1;
         complete_size(object[i], vehicle);
         if (frame_same_name(object[i]->id, frame->ego))

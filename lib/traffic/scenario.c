@@ -6,6 +6,7 @@
 #include "documents/vehicle.h"
 #include "frame/frame_check.h"
 #include "text/document.h"
+#include "text/record_write.h"
 
 static const struct field scenario_fields[] = {
     {FIELD_NAME_OF(struct scenario, origin, "who made this, and from what")},
@@ -177,6 +178,26 @@ static struct vec2 ego_place(const struct scenario *scenario)
     return (struct vec2){point->x_m, point->y_m};
 }
 
+/* Refuses strips that the shift has moved out of the bounds of places. */
+static int check_strips(const struct scenario *scenario, struct diag *diag)
+{
+    for (size_t i = 0; i < scenario->roadside.count; i++)
+        if (record_write_check(&roadside_strip_record, &scenario->roadside.items[i], ~0U, diag) !=
+            0)
+            return diag_prefix(diag, "roadside[%zu], relative to the ego: ", i);
+    return 0;
+}
+
+/* Moves the scene to the origin of its frames, and computes what its frames share. */
+static int place_scene(struct scenario *scenario, struct arena *arena, struct diag *diag)
+{
+    scenario->origin_m = scenario_frame_origin(ego_place(scenario));
+    scenario_shift(scenario, scenario->origin_m);
+    for (size_t i = 0; i < scenario->objects.count; i++)
+        actor_prepare(&scenario->objects.items[i], arena);
+    return check_strips(scenario, diag);
+}
+
 struct scenario *scenario_draw(const struct scenario_document *document,
                                struct random_address address, const char *ego, struct arena *arena,
                                struct diag *diag)
@@ -189,17 +210,13 @@ struct scenario *scenario_draw(const struct scenario_document *document,
     }
     if (document_take(document->path, line, &scenario_record, scenario, arena, diag) != 0)
         return NULL;
-    if (scenario_check(scenario, diag) != 0) {
-        diag->code = DIAG_CONFIG;
-        diag_prefix(diag, "%s: ", document->path);
-        return NULL;
-    }
+    int result = scenario_check(scenario, diag);
     scenario->ego = ego != NULL ? ego : scenario->ego;
-    scenario->origin_m = scenario_frame_origin(ego_place(scenario));
-    scenario_shift(scenario, scenario->origin_m);
-    for (size_t i = 0; i < scenario->objects.count; i++)
-        actor_prepare(&scenario->objects.items[i], arena);
-    return scenario;
+    if (result == 0 && place_scene(scenario, arena, diag) == 0)
+        return scenario;
+    diag->code = DIAG_CONFIG;
+    diag_prefix(diag, "%s: ", document->path);
+    return NULL;
 }
 
 static struct object object_of(const struct actor *actor, double time_s)
