@@ -10,7 +10,8 @@
 typedef void extraction_describe(const void *state, const struct vehicle *vehicle,
                                  struct reflector_set *set, struct arena *arena);
 
-/* Sets the reflectors of one object alone; false if all objects of the class share theirs. */
+/* Sets the whole set of one object alone; false, and nothing is set, if all objects of the class
+ * share theirs. */
 typedef bool extraction_describe_body(void *state, const struct vehicle *vehicle,
                                       const struct frame *frame, const struct object *object,
                                       struct reflector_set *set);

@@ -98,7 +98,7 @@ static bool describe_body(void *state, const struct vehicle *vehicle, const stru
     (void)state;
     if (strcmp(vehicle->reflectors.model, "car") != 0)
         return false;
-    memset(&set->points, 0, sizeof set->points);
+    *set = (struct reflector_set){.model = vehicle->reflectors.model};
     list_add(&set->points, frame->arena)->name = object->id;
     return true;
 }
