@@ -64,7 +64,7 @@ TEST(detection_in_noise_below_the_threshold)
             detected_at(13.2, true), detected_at(18.1, true), detected_at(26, true));
     PRINTED("8.4", "Q1 at T # # # # #", detected_at(6, false), detected_at(10, false),
             detected_at(13.2, false), detected_at(18.1, false), detected_at(26, false));
-    PRINTED("8.4", "noise alone decides, up to # dB", units_amplitude_db(1.75));
+    PRINTED("8.4", "Up to # dB T_1 is 0", units_amplitude_db(1.75));
 }
 
 static double hann(double bins)
