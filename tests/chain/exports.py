@@ -544,10 +544,11 @@ def a_plan_names_exports(folder):
     plan = {"name": "set", "origin": "For tests.", "sources": [{"random": "medium", "seconds": 1, "scenes": [0, 6], "rate_hz": 10}],
             "chain": "glint-extract | glint-ideal --sensors {suite} --sections quality | glint-sensor | glint-noise", "suites": ["corner77-every-frame"],
             "frames_per_shard": 20, "splits": {"by": "scene", "shares": {"train": 0.5, "validation": 0.25, "test": 0.25}}}
-    for name, members in (("lines", {}), ("tables", {"tables": True, "lines": "none"})):
+    for name, members in (("lines", {}), ("zstd", {"compression": "zstd"}), ("tables", {"tables": True, "lines": "none"})):
         save(folder, name + ".json", [plan | members | {"exports": ["nuscenes", "vod"]}])
         shell(f"{SCRIPTS}/dataset {name}.json --out {name} && make -s -C {name} && {SCRIPTS}/check-set {name}", folder)
     same(f"{folder}/lines/exports", f"{folder}/tables/exports")
+    same(f"{folder}/lines/exports", f"{folder}/zstd/exports")
     with open(f"{folder}/lines/exports/nuscenes/v1.0-trainval/splits.json", encoding="utf-8") as file:
         assert {split: len(scenes) for split, scenes in json.load(file).items()} == {"train": 3, "val": 1, "test": 2}
     sets = f"{folder}/lines/exports/vod/corner_left/radar/ImageSets"
@@ -561,7 +562,7 @@ def a_plan_names_exports(folder):
         shell(f"make -s -C lines && {SCRIPTS}/check-set lines", folder)
         same(f"{folder}/lines/exports", f"{folder}/tables/exports")
     for wrong, members in (("need the quality", {"chain": plan["chain"].replace(" --sections quality", "")}),
-                           ("are made of tables of CSV", {"compression": "zstd"}), ("'sim'; expected one of", {"exports": ["sim"]})):
+                           ("are made of tables of CSV", {"tables": "parquet", "lines": "none"}), ("'sim'; expected one of", {"exports": ["sim"]})):
         save(folder, "wrong.json", [plan | {"exports": ["kitti"]} | members])
         done = subprocess.run([SCRIPTS + "/dataset", "wrong.json", "--out", "wrong"], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         assert done.returncode == 65 and wrong in done.stderr, done.stderr
