@@ -1,29 +1,13 @@
 #include "documents/vehicle_set.h"
 
 #include <dirent.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/sort.h"
 #include "base/suggestion.h"
 #include "text/data_folder.h"
 #include "text/path.h"
 
 #define PAPER "paper"
-
-static bool is_folder(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-}
-
-static bool is_listed(const struct document_names *sets, const char *word)
-{
-    for (size_t i = 0; i < sets->names.count; i++)
-        if (strcmp(sets->names.items[i], word) == 0)
-            return true;
-    return false;
-}
 
 /* Does the folder of data have the set, with a document of the class (NULL: of any)? A link to the
  * folder itself, as an installation has one, is no set. */
@@ -32,11 +16,11 @@ static bool has_set(const char *data, const char *word, const char *class, struc
     const char *folder = arena_format(arena, "%s%s/vehicles", data, word);
     if (path_same_file(folder, arena_format(arena, "%svehicles", data)))
         return false;
-    return class == NULL ? is_folder(folder)
+    return class == NULL ? path_is_folder(folder)
                          : access(arena_format(arena, "%s/%s.json", folder, class), F_OK) == 0;
 }
 
-/* Adds the sets of a folder of data that are not listed yet. */
+/* Adds the sets of a folder of data. */
 static void list_sets_in(const char *data, const char *class, struct document_names *sets,
                          struct arena *arena)
 {
@@ -45,15 +29,10 @@ static void list_sets_in(const char *data, const char *class, struct document_na
         return;
     for (struct dirent *entry; (entry = readdir(entries)) != NULL;) {
         const char *word = entry->d_name;
-        if (!document_is_path(word) && !is_listed(sets, word) && has_set(data, word, class, arena))
+        if (!document_is_path(word) && has_set(data, word, class, arena))
             *list_add(&sets->names, arena) = arena_text(arena, word, strlen(word));
     }
     closedir(entries);
-}
-
-static int compare_words(const void *a, const void *b)
-{
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
 int vehicle_set_list(const char *class, struct document_names *sets, struct arena *arena,
@@ -65,7 +44,7 @@ int vehicle_set_list(const char *class, struct document_names *sets, struct aren
     *sets = (struct document_names){0};
     for (size_t i = 0; i < data.count; i++)
         list_sets_in(data.paths[i], class, sets, arena);
-    sort_list(&sets->names, compare_words, arena);
+    document_names_order(sets, arena);
     return 0;
 }
 
@@ -104,7 +83,7 @@ int vehicle_set_folder(const char *named_by, const char *word, const char **fold
         return -1;
     for (size_t i = 0; i < places.count; i++) {
         *folder = arena_text(arena, places.paths[i], strlen(places.paths[i]) - 1);
-        if (is_folder(*folder))
+        if (path_is_folder(*folder))
             return 0;
     }
     return refuse_word(named_by, word, arena, diag);

@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "text/path.h"
 
@@ -19,8 +18,7 @@ const char *data_folder_of_program(struct arena *arena)
 
 int data_folder_check(const char *named_by, const char *folder, struct diag *diag)
 {
-    struct stat status;
-    if (stat(folder, &status) == 0 && S_ISDIR(status.st_mode))
+    if (path_is_folder(folder))
         return 0;
     return diag_fail(diag, DIAG_CONFIG, "%s: \"%s\" is no folder", named_by, folder);
 }

@@ -42,18 +42,23 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-static void list_names(const struct data_folders *folders, const char *ending,
-                       struct document_names *list, struct arena *arena)
+void document_names_order(struct document_names *list, struct arena *arena)
 {
-    *list = (struct document_names){0};
-    for (size_t i = 0; i < folders->count; i++)
-        list_folder(folders->paths[i], ending, list, arena);
     sort_list(&list->names, compare_names, arena);
     size_t kept = 0;
     for (size_t i = 0; i < list->names.count; i++)
         if (kept == 0 || strcmp(list->names.items[kept - 1], list->names.items[i]) != 0)
             list->names.items[kept++] = list->names.items[i];
     list->names.count = kept;
+}
+
+static void list_names(const struct data_folders *folders, const char *ending,
+                       struct document_names *list, struct arena *arena)
+{
+    *list = (struct document_names){0};
+    for (size_t i = 0; i < folders->count; i++)
+        list_folder(folders->paths[i], ending, list, arena);
+    document_names_order(list, arena);
 }
 
 int document_list(const char *kind, const char *ending, struct document_names *list,

@@ -57,6 +57,9 @@ struct document_names {
 int document_list(const char *kind, const char *ending, struct document_names *list,
                   struct arena *arena, struct diag *diag);
 
+/* Puts names into the order of bytes, each once. */
+void document_names_order(struct document_names *list, struct arena *arena);
+
 /* The text of the member "origin" of a document; NULL if there is none. */
 const char *document_origin(const char *path, struct arena *arena);
 

@@ -107,3 +107,9 @@ bool path_same_file(const char *a, const char *b)
     free(targets[1]);
     return same;
 }
+
+bool path_is_folder(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}

@@ -31,3 +31,6 @@ char *path_target(const char *path);
  * have one name in one folder, also through links. A terminal or another character device never
  * counts as the same file, because writing to it destroys nothing. */
 bool path_same_file(const char *a, const char *b);
+
+/* True for a folder, or a link that leads to one. */
+bool path_is_folder(const char *path);
