@@ -25,12 +25,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 import glint  # noqa: E402
+from devkits import FIELDS, Tables, in_box, read_pcd, read_truckscenes  # noqa: E402
 from scripts import in_a_fork, members  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 FORMATS = "nuscenes", "truckscenes", "kitti", "vod"
-FIELDS = {"nuscenes": "x y z dyn_prop id rcs vx vy vx_comp vy_comp is_quality_valid ambig_state x_rms y_rms invalid_state pdh0 vx_rms vy_rms",
-          "truckscenes": "x y z vrel_x vrel_y vrel_z rcs"}
 QUALITY = {"snr_db": 20, "rcs_dbsm": 5.5, "range_sd_m": 0.1, "range_rate_sd_mps": 0.05, "azimuth_sd_rad": 0.01, "existence": 0.995,
            "range_rate_interval_mps": 97.3, "ambiguity_number": 0, "range_rate_over_ground_mps": 2.0, "x_centre_m": 12.25, "x_rear_axle_m": 13.5}
 
@@ -81,124 +80,6 @@ def frame_of(objects, targets, number=0, sensors=None, **members):
 
 
 # --- readers --------------------------------------------------------------------------------------
-
-
-def read_pcd(path, filtered=True):
-    """As the devkit of nuScenes reads radar files: its assertions on header and length, fields counted from both ends, and its
-    default filter. A list of points, with all fields."""
-    with open(path, "rb") as file:
-        data = file.read()
-    head = data[:data.index(b"DATA")].decode().split("\n")[:-1]
-    begin = data.index(b"\n", data.index(b"DATA")) + 1
-    kind = data[data.index(b"DATA"):begin].decode().split()[1]
-    assert len(head) == 10 and head[0].startswith("#") and head[1].startswith("VERSION") and kind == "binary"
-    sizes, types, counts = ([*line.split(" ")[1:]] for line in head[3:6])
-    width, height = int(head[6].split(" ")[1]), int(head[7].split(" ")[1])
-    assert head[2].split(" ")[1:] == FIELDS["nuscenes"].split() and set(counts) == {"1"} and height == 1 and width > 0
-    assert head[9] == f"POINTS {width}" and [head[i].split(" ")[0] for i in (6, 7, 8)] == ["WIDTH", "HEIGHT", "VIEWPOINT"]
-    code = "<" + "".join({"F4": "f", "I1": "b", "I2": "h"}[kind + size] for kind, size in zip(types, sizes))
-    assert begin + width * struct.calcsize(code) < len(data), "no byte behind the points"
-    points = [struct.unpack_from(code, data, begin + i * struct.calcsize(code)) for i in range(width)]
-    if any(math.isnan(value) for value in points[0]):
-        return []
-    keeps = [one for one in points if one[-4] in (0,) and one[3] in range(8) and one[11] in (3,)]
-    return keeps if filtered else points
-
-
-def read_truckscenes(path):
-    """By the names of fields, as TruckScenes' reader does."""
-    with open(path, "rb") as file:
-        head, data = file.read().split(b"\nDATA binary\n", 1)
-    words = {line.split()[0]: line.split()[1:] for line in head.decode().split("\n")}
-    assert {*FIELDS["truckscenes"].split()} <= {*words["FIELDS"]} and {*words["SIZE"]} == {"4"} and {*words["TYPE"]} == {"F"}
-    assert len(data) == 28 * int(words["POINTS"][0]) and words["WIDTH"] == words["POINTS"]
-    return list(struct.iter_unpack("<7f", data))
-
-
-class Tables:
-    """The tables of nuScenes or TruckScenes as the devkits index them; each token of a row must be one of its table."""
-
-    OF = {"nuscenes": ("v1.0-trainval", "log map"), "truckscenes": ("v1.1-trainval", "ego_motion_cabin ego_motion_chassis weather_annotation")}
-
-    def __init__(self, root, form):
-        self.root, self.form, (version, more) = root, form, self.OF[form]
-        self.names = ("attribute calibrated_sensor category ego_pose instance sample sample_annotation sample_data scene sensor visibility "
-                      + more).split()
-        self.rows, self.version = {}, os.path.join(root, version)
-        for name in self.names:
-            with open(os.path.join(self.version, name + ".json"), encoding="utf-8") as file:
-                self.rows[name] = json.load(file)
-        self.by_token = {name: {row["token"]: row for row in rows} for name, rows in self.rows.items()}
-        for name, rows in self.rows.items():
-            assert len(self.by_token[name]) == len(rows), f"{name}: a token twice"
-        for row in self.rows["sample"]:
-            row |= {"data": {}, "anns": []}
-        for row in self.rows["sample_data"]:
-            row["channel"] = self.of("sensor", self.of("calibrated_sensor", row["calibrated_sensor_token"])["sensor_token"])["channel"]
-            assert os.path.isfile(os.path.join(root, row["filename"])) and row["filename"].endswith(".pcd")
-            if row["is_key_frame"]:
-                self.of("sample", row["sample_token"])["data"][row["channel"]] = row["token"]
-        for row in self.rows["sample_annotation"]:
-            row["category_name"] = self.of("category", self.of("instance", row["instance_token"])["category_token"])["name"]
-            self.of("sample", row["sample_token"])["anns"].append(row["token"])
-        if form == "nuscenes":
-            maps = {log: row["token"] for row in self.rows["map"] for log in row["log_tokens"]}
-            assert all(row["token"] in maps for row in self.rows["log"])
-            assert all(os.path.isfile(os.path.join(root, row["filename"])) for row in self.rows["map"])
-
-    def of(self, table, token):
-        return self.by_token[table][token]
-
-    def resolve(self):
-        for name, rows in self.rows.items():
-            for row in rows:
-                for key, value in row.items():
-                    table = {"first_sample": "sample", "last_sample": "sample", "first_annotation": "sample_annotation",
-                             "last_annotation": "sample_annotation"}.get(key[:-6], key[:-6])
-                    if key.endswith("_token") and not (key == "log_token" and self.form == "truckscenes" and value == ""):
-                        assert value in self.by_token[table] or key == "visibility_token" and value == "", (name, key, value)
-                    for one in value if key.endswith("_tokens") else ():
-                        assert one in self.by_token[key[:-7]], (name, key, one)
-        for name in ("sample", "sample_data", "sample_annotation"):
-            for row in self.rows[name]:
-                after = self.by_token[name].get(row["next"])
-                assert (row["next"] == "") == (after is None) and (after is None or after["prev"] == row["token"])
-                if after and name != "sample_annotation":
-                    assert after["timestamp"] > row["timestamp"]
-        for row in self.rows["scene"]:
-            walked, at = [], row["first_sample_token"]
-            while at:
-                walked.append(at)
-                at = self.of("sample", at)["next"]
-            assert walked[-1] == row["last_sample_token"] and len(walked) == row["nbr_samples"]
-        for row in self.rows["instance"]:
-            walked, at = [], row["first_annotation_token"]
-            while at:
-                walked.append(at)
-                at = self.of("sample_annotation", at)["next"]
-            assert walked[-1] == row["last_annotation_token"] and len(walked) == row["nbr_annotations"]
-
-    def points(self, data):
-        path = os.path.join(self.root, data["filename"])
-        return read_pcd(path, filtered=False) if self.form == "nuscenes" else read_truckscenes(path)
-
-    def to_world(self, data, point):
-        """By the mounting and the ego's pose, as quaternions about z."""
-        for row in (self.of("calibrated_sensor", data["calibrated_sensor_token"]), self.of("ego_pose", data["ego_pose_token"])):
-            w, i, j, k = row["rotation"]
-            assert i == j == 0 and abs(w * w + k * k - 1) < 1e-8
-            c, s = w * w - k * k, 2 * w * k
-            x, y, z = row["translation"]
-            point = (c * point[0] - s * point[1] + x, s * point[0] + c * point[1] + y, point[2] + z)
-        return point
-
-
-def in_box(row, point, margin=0.0):
-    w, _, _, k = row["rotation"]
-    dx, dy, dz = (a - b for a, b in zip(point, row["translation"]))
-    c, s = w * w - k * k, 2 * w * k
-    width, length, height = row["size"]
-    return (abs(c * dx + s * dy) <= length / 2 + margin and abs(c * dy - s * dx) <= width / 2 + margin and abs(dz) <= height / 2 + margin)
 
 
 def numbers(text):
@@ -334,8 +215,8 @@ def a_turning_ego(folder):
     near(tables.rows["ego_pose"][0]["translation"], (1100, -451.25, 0))
     near(tables.rows["ego_pose"][0]["rotation"], (math.sqrt(0.5), 0, 0, math.sqrt(0.5)))
     rows = {row["category_name"]: row for row in tables.rows["sample_annotation"]}
-    near(rows["static_object.post"]["translation"], (1090.95, -447.75, 0.5))
-    assert rows["static_object.post"]["num_radar_pts"] == 1 and rows["static_object.post"]["attribute_tokens"] == []
+    near(rows["static.manmade"]["translation"], (1090.95, -447.75, 0.5))
+    assert rows["static.manmade"]["num_radar_pts"] == 1 and rows["static.manmade"]["attribute_tokens"] == []
     near(rows["vehicle.bicycle"]["rotation"], (math.sqrt(0.5), 0, 0, -math.sqrt(0.5)))
     points, labels, boxes, _ = read_kitti(os.path.join(by_hand(folder, frames, "kitti"), "side"), "000000")
     near(points[0], (8, 0, 0, 5.5, -1.125, 0, 0))
@@ -451,7 +332,7 @@ def every_token_resolves(folder):
         tables.resolve()
         assert len(tables.rows["scene"]) == len(LISTS) and len(tables.rows["sample"]) > 300
         with open(os.path.join(tables.version, "splits.json"), encoding="utf-8") as file:
-            assert json.load(file) == {"train": [row["name"] for row in tables.rows["scene"]]}
+            assert json.load(file) == {"glint_train": [row["name"] for row in tables.rows["scene"]]}
         # Scenes do not overlap in time, as TruckScenes' reader finds poses by it.
         spans = sorted([min(times), max(times)] for times in ([data["timestamp"] for data in tables.rows["sample_data"] if tables.of(
             "sample", data["sample_token"])["scene_token"] == scene["token"]] for scene in tables.rows["scene"]))
@@ -467,7 +348,7 @@ def points_in_boxes_are_counted(folder):
     export(folder, "nuscenes", "--out", root, *lists_of(folder))
     tables, whole, seen = Tables(root, "nuscenes"), 0, 0
     for sample in tables.rows["sample"]:
-        places = [tables.to_world(data, point) for data in (tables.of("sample_data", one) for one in sample["data"].values())
+        places = [tables.to_world(data, point) for data in (tables.of("sample_data", one) for name, one in sample["data"].items() if name != tables.lidar)
                   for point in tables.points(data)]
         for row in (tables.of("sample_annotation", one) for one in sample["anns"]):
             sure, possible = (sum(in_box(row, place, margin) for place in places) for margin in (-1e-4, 1e-4))
@@ -496,7 +377,7 @@ def boxes_lie_on_their_detections(folder):
         root = os.path.join(folder, "exact-" + form)
         export(folder, form, "--out", root, "exact.jsonl")
         names = {row["box"]: row["object"] for row in read_table(root, "boxes")}
-        tables = Tables(root, form) if form in Tables.OF else None
+        tables = Tables(root, form) if form in FIELDS else None
         data = {row["filename"]: row for row in tables.rows["sample_data"]} if tables else {}
         for row, (_, _, targets) in zip(read_table(root, "scans"), scans(frames), strict=True):
             if tables:
@@ -550,7 +431,7 @@ def a_plan_names_exports(folder):
     same(f"{folder}/lines/exports", f"{folder}/tables/exports")
     same(f"{folder}/lines/exports", f"{folder}/zstd/exports")
     with open(f"{folder}/lines/exports/nuscenes/v1.0-trainval/splits.json", encoding="utf-8") as file:
-        assert {split: len(scenes) for split, scenes in json.load(file).items()} == {"train": 3, "val": 1, "test": 2}
+        assert {split: len(scenes) for split, scenes in json.load(file).items()} == {"glint_train": 3, "glint_val": 1, "glint_test": 2}
     sets = f"{folder}/lines/exports/vod/corner_left/radar/ImageSets"
     assert {name: len(open(os.path.join(sets, name)).read().split()) for name in os.listdir(sets)} == {"train.txt": 30, "val.txt": 10, "test.txt": 20}
     export(folder, "nuscenes", "--out", "again", "lines")
@@ -578,7 +459,7 @@ def cycles_make_sweeps(folder):
     front = [row for row in tables.rows["sample_data"] if row["channel"] == "RADAR_FRONT"]
     first, second = (row["token"] for row in tables.rows["sample"])
     assert [(row["is_key_frame"], row["sample_token"]) for row in front] == [(False, first), (True, first), (False, second), (True, second), (False, second)]
-    assert all(len(row["data"]) == 2 for row in tables.rows["sample"])
+    assert all({*row["data"]} == {"RADAR_FRONT", "RADAR_REAR", "LIDAR_TOP"} for row in tables.rows["sample"])
     never = [frame_of(objects, [], i, [sensors[0] | {"measured": i % 2 == 0}, sensors[1] | {"measured": i % 2 == 1}]) for i in range(4)]
     said = export(folder, "nuscenes", "--out", "never", save(folder, "never.jsonl", never), status=65)
     assert "no frame in which all sensors have a scan" in said
@@ -589,7 +470,7 @@ def a_sample_is_of_its_newest_scan(folder):
     the car is 0.3 m behind its place at that time."""
     ages = {"a": 0.09, "b": 0.03, "c": 0.06}
     frames = [frame_of([body("ego"), body("other", x=12 + i, vx=10)], [], i + 1, [{"name": name, "age_s": age} for name, age in ages.items()]) for i in range(2)]
-    for form in Tables.OF:
+    for form in FIELDS:
         tables = Tables(by_hand(folder, frames, form), form)
         tables.resolve()
         for i, sample in enumerate(tables.rows["sample"]):
@@ -631,7 +512,7 @@ def every_option_of_a_source_is_exported(folder):
             for row in read_table("tables-out", "scans"):
                 found.setdefault((row["scene"], row["seed"]), []).append((int(row["frame"]), row["sensor"], int(row["points"])))
             assert [*found.items()] == [*expected.items()], (name, form)
-            if form in Tables.OF:
+            if form in FIELDS:
                 assert [row["name"] for row in Tables("tables-out", form).rows["scene"]] == [scene for scene, _ in expected]
             for what in ("list.jsonl-out", "tables-out"):
                 shutil.rmtree(what)
@@ -661,7 +542,7 @@ def a_seed_makes_another_scene(folder):
     assert [(row["name"], row["nbr_samples"]) for row in tables.rows["scene"]] == [("by-hand", 2), ("by-hand/2", 2)]
     assert len(tables.rows["instance"]) == 2
     with open(os.path.join(tables.version, "splits.json"), encoding="utf-8") as file:
-        assert json.load(file) == {"train": ["by-hand", "by-hand/2"]}
+        assert json.load(file) == {"glint_train": ["by-hand", "by-hand/2"]}
     for form in FORMATS:
         root = by_hand(folder, frames, form)
         assert [(row["scene"], row["seed"]) for row in read_table(root, "scans")] == [("by-hand", seed) for seed in "1122"]

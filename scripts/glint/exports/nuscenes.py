@@ -12,6 +12,7 @@ NO_POINT = *(math.nan,) * 3, 0, 0, *(math.nan,) * 5, *(0,) * 8  # a scan of nuSc
 MOVING_MPS, MOST_POINTS = 0.5, 1 << 15  # what is slower stands; numbers of points have 16 bits
 BEGIN_US, GAP_US, END_US = 10 ** 15, 10 ** 6, 2 ** 53  # of the first scene; between scenes; of what all readers of JSON can count
 PDH0 = 0.25, 0.5, 0.75, 0.9, 0.99, 0.999  # limits between the codes 1 to 7 of the probability of a false alarm
+MOTIONS = {"ego_motion_cabin", "ego_motion_chassis"}
 KINDS = {"f": (4, "F"), "h": (2, "I"), "b": (1, "I")}  # size and type of PCD
 
 
@@ -55,6 +56,11 @@ def turn(yaw):
     return [number(math.cos(yaw / 2)), 0.0, 0.0, number(math.sin(yaw / 2))]
 
 
+def axle_of(scene, carrier):
+    """How far ahead of the middle of the ego its rear axle is: known from targets, else as in a usual car."""
+    return scene["axle"] or -5 / 18 * carrier["length_m"]
+
+
 def inside(box, x, y, z):
     x, y = glint.turned(x - box["x_m"], y - box["y_m"], -box["yaw_rad"])
     return abs(x) <= box["length_m"] / 2 and abs(y) <= box["width_m"] / 2 and 0 <= z <= box["height_m"]
@@ -66,7 +72,8 @@ class Writer:
     def __init__(self, layout, output):
         self.layout, self.output, self.fields = layout, output, layout["fields"].split()
         self.scene, self.titles, self.splits, self.shared, self.newest_us = None, set(), {}, {}, {}  # the last of each channel
-        for name, text in layout.get("files", {}).items():
+        self.lidar = layout["lidar"] | {"path": f"samples/{layout['lidar']['channel']}/none{layout['lidar']['suffix']}"}
+        for name, text in {self.lidar["path"]: "", **layout.get("files", {})}.items():
             output.write(name, base64.b64decode(text))
         self.tables = {name: output.file(f"{layout['version']}/{name}.json") for name in layout["tables"]}
         self.before = dict.fromkeys(self.tables, "[\n")
@@ -97,7 +104,7 @@ class Writer:
             begin_us = max(self.newest_us.values(), default=BEGIN_US - GAP_US) + GAP_US - round(1e6 * min(at_s for _, _, at_s in scans))
             self.scene = {"identity": identity(frame), "name": self.title(frame), "token": token(*identity(frame)), "begin_us": begin_us,
                           "frames": [], "axle": None}
-            self.splits.setdefault(split, []).append(self.scene["name"])
+            self.splits.setdefault("glint_" + split, []).append(self.scene["name"])  # as devkits keep names like val for their own scenes
         if scans:
             self.scene["frames"].append((frame, [self.scan(frame, *scan) for scan in scans]))
             for one in frame.pop("targets"):  # kept no longer, as scenes may be long
@@ -138,13 +145,15 @@ class Writer:
         names = {i: token(scene["token"], "sample", frames[i][0]["frame"]) for i in keys}
         self.rows("scene", {"token": scene["token"], "log_token": "log" * ("log" in self.tables), "nbr_samples": len(keys),
                             "first_sample_token": names[keys[0]], "last_sample_token": names[keys[-1]], "name": scene["name"],
-                            "description": f"simulated, suite {frames[0][0]['sensors']['suite']}, seed {frames[0][0]['seed']}"})
+                            "description": self.described(frames[0][0])})
         newest = {i: min(frames[i][1], key=lambda scan: scan["age_s"]) for i in keys}
         self.linked("sample", [{"token": names[i], "timestamp": newest[i]["at"], "scene_token": scene["token"]} for i in keys])
         sample_of = [names[next((key for key in keys if key >= i), keys[-1])] for i in range(len(frames))]
         for channel in channels:
             self.linked("sample_data", [self.data_of(frame, scan, sample_of[i], i in names) for i, (frame, scans) in enumerate(frames)
                                         for scan in scans if scan["channel"] == channel])
+        self.motion(scene, [(frame, min(scans, key=lambda scan: scan["age_s"])) for frame, scans in frames])
+        self.linked("sample_data", [self.nothing_of(scene, newest[i], names[i]) for i in keys])
         boxed = {}
         for i in keys:
             levels = visibility(frames[i][0], [scan["sensor"]["name"] for scan in frames[i][1]])
@@ -155,22 +164,59 @@ class Writer:
             self.instance(name, kind, found)
         self.scene = None
 
+    def described(self, frame):
+        """What a scene is, with the tags of its weather where a layout has such; evaluations find scenes by them."""
+        weather, conditions = self.layout.get("weather", {}), frame.get("conditions", {})
+        tags = [tag for name, tag in weather.items() if conditions.get(name)] or [*weather.values()][:1]
+        separator = ";" if tags else ", "
+        return separator.join([*tags, "simulated", f"suite {frame['sensors']['suite']}", f"seed {frame['seed']}"])
+
     def data_of(self, frame, scan, sample, is_key):
         """The row of a scan, after those of its sensor and its pose."""
         own, sensor, carrier = token(scan["path"]), scan["sensor"], glint.ego(frame, scan["age_s"])
-        axle = self.scene["axle"] or -5 / 18 * carrier["length_m"]
-        channel = self.once("sensor", {"token": token(scan["channel"]), "channel": scan["channel"], "modality": "radar"})
-        mount = {"translation": [number(sensor["mount_x_m"] - axle), number(sensor["mount_y_m"]), number(sensor["mount_z_m"])],
-                 "rotation": turn(sensor["mount_yaw_rad"])}
-        calibrated = self.once("calibrated_sensor", {"token": token(channel, line(mount)), "sensor_token": channel, "camera_intrinsic": []} | mount)
+        axle = axle_of(self.scene, carrier)
+        mount = [number(sensor["mount_x_m"] - axle), number(sensor["mount_y_m"]), number(sensor["mount_z_m"])]
+        calibrated = self.calibrated(scan["channel"], "radar", mount, turn(sensor["mount_yaw_rad"]))
         self.rows("ego_pose", {"token": own, "timestamp": scan["at"], "rotation": turn(carrier["yaw_rad"]),
                                "translation": [*map(number, glint.to_world(frame, axle, 0, carrier)), 0.0]})
         return {"token": own, "sample_token": sample, "ego_pose_token": own, "calibrated_sensor_token": calibrated, "timestamp": scan["at"],
                 "fileformat": "pcd", "is_key_frame": is_key, "height": 0, "width": 0, "filename": scan["path"]}
 
+    def nothing_of(self, scene, scan, sample):
+        """The row of a lidar that sees nothing: devkits take the time and the pose of a sample from it."""
+        calibrated = self.calibrated(self.lidar["channel"], "lidar", [0.0, 0.0, 0.0], turn(0))
+        return {"token": token(sample, self.lidar["channel"]), "sample_token": sample, "ego_pose_token": token(scan["path"]), "timestamp": scan["at"],
+                "calibrated_sensor_token": calibrated, "fileformat": "pcd", "is_key_frame": True, "height": 0, "width": 0, "filename": self.lidar["path"]}
+
+    def motion(self, scene, frames):
+        """The ego's motion at the middle of its rear axle, in its own axes, where a layout has tables of it; the same for chassis and cabin."""
+        if not MOTIONS & self.tables.keys():
+            return
+        states = []
+        for frame, scan in frames:
+            carrier = glint.ego(frame, scan["age_s"])
+            x, y = glint.turned(0, carrier["yaw_rate_radps"] * axle_of(scene, carrier), carrier["yaw_rad"])
+            states.append((scan["at"], carrier["yaw_rad"], carrier["yaw_rate_radps"], carrier["vx_mps"] + x, carrier["vy_mps"] + y))
+        for (before, *_, bx, by), (at, yaw, yaw_rate, x, y), (after, *_, ax, ay) in zip(states[:1] + states, states, states[1:] + states[-1:]):
+            took_s = max(after - before, 1) / 1e6
+            vx, vy = glint.turned(x, y, -yaw)
+            forward, left = glint.turned((ax - bx) / took_s, (ay - by) / took_s, -yaw)
+            row = {"timestamp": at, "vx": vx, "vy": vy, "vz": 0, "ax": forward, "ay": left, "az": 0, "yaw": math.remainder(yaw, math.tau),
+                   "pitch": 0, "roll": 0, "yaw_rate": yaw_rate, "pitch_rate": 0, "roll_rate": 0}
+            for name in sorted(MOTIONS):
+                self.rows(name, {"token": token(scene["token"], name, at)} | {key: value if key == "timestamp" else number(value) for key, value in row.items()})
+
+    def calibrated(self, channel, modality, translation, rotation):
+        """The token of a sensor in its place."""
+        sensor, mount = token(channel), {"translation": translation, "rotation": rotation}
+        self.once("sensor", {"token": sensor, "channel": channel, "modality": modality})
+        return self.once("calibrated_sensor", {"token": token(sensor, line(mount)), "sensor_token": sensor, "camera_intrinsic": []} | mount)
+
     def instance(self, name, kind, found):
         """Rows of an object of a scene."""
-        own, (called, *attributes) = token(self.scene["token"], name, kind), self.layout["classes"].get(kind) or [kind]
+        own, (called, *attributes) = token(self.scene["token"], name, kind), self.layout["classes"].get(kind, self.layout["others"])
+        if kind not in self.layout["classes"]:
+            self.output.note(f"objects of class {kind} are {called}, as the layout has no word for them")
         category = self.once("category", {"token": token("category", kind), "name": called, "description": kind})
         rows = [{"token": token(own, sample), "sample_token": sample, "instance_token": own,
                  "visibility_token": "" if level is None else str(level + 1),

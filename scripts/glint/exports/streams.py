@@ -31,7 +31,7 @@ NEEDED = {**dict.fromkeys(("scene", "seed", "frame", "time_s", "ego"), (lambda v
           "objects": [{"class": glint.NAME, "length_m": LENGTH, "width_m": LENGTH, "height_m": LENGTH}],
           "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau), "mount_z_m": glint.number(0, 100)}]},
           "targets": [{"quality": dict.fromkeys(QUALITY, VALUE), "contributors": [{"path": glint.NAME}]}],
-          "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
+          "conditions": {}, "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
 GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave out --sections -objects",
             "targets:": "expected lists, as glint-noise writes them", "_m:": "glint-extract gives objects the sizes of their class"}
 
@@ -152,7 +152,7 @@ def document(path, kind):
 
 def complete(frame):
     """Refuses a frame that lacks what formats need; gives a height to sensors that have none."""
-    if fault := glint.fault(frame, NEEDED, ("visibility", "mount_z_m")):
+    if fault := glint.fault(frame, NEEDED, ("conditions", "visibility", "mount_z_m")):
         raise Fault(BAD_DATA, "; ".join([f"{frame.place}: {fault[1:]}", *(hint for name, hint in GIVEN_BY.items() if name in fault)]))
     for one in frame["sensors"]["list"]:
         one.setdefault("mount_z_m", HEIGHT_M)
