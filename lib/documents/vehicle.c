@@ -118,14 +118,15 @@ const struct vehicle *vehicle_load(const char *class, const char *folder, struct
 
 int vehicle_check_frame(const struct vehicle *vehicle, const struct frame *frame, struct diag *diag)
 {
-    for (size_t i = 0; i < frame->vehicles.count; i++) {
-        const struct class_document *used = &frame->vehicles.items[i];
-        if (frame_same_name(used->class, vehicle->reflectors.model) &&
-            strcmp(used->digest, vehicle->digest) != 0)
+    struct document_span documents = frame_documents_of(frame, vehicle->reflectors.model);
+    for (size_t i = 0; i < documents.count; i++) {
+        const struct class_document *used = &documents.items[i];
+        if (strcmp(used->digest, vehicle->digest) != 0)
             return diag_fail(diag, DIAG_CONFIG,
                              "vehicles[%zu].digest: the class \"%s\" was extracted from a document "
                              "%s, the one found now is %s; name its set with --vehicles",
-                             i, used->class, used->digest, vehicle->digest);
+                             (size_t)(used - frame->vehicles.items), used->class, used->digest,
+                             vehicle->digest);
     }
     return 0;
 }

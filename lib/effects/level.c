@@ -29,16 +29,15 @@ static struct class_level widths_of_sensor(const struct sensor *sensor)
 static struct class_level widths_of(const struct effect_scan *scan, const char *class)
 {
     struct class_level width = widths_of_sensor(scan->sensor);
-    for (size_t i = 0; i < scan->frame->vehicles.count; i++) {
-        const struct class_document *document = &scan->frame->vehicles.items[i];
-        if (!frame_same_name(document->class, class))
-            continue;
-        if (document->level.constant_db >= 0)
-            width.constant_db = document->level.constant_db;
-        if (document->level.slow_db >= 0)
-            width.slow_db = document->level.slow_db;
-        if (document->level.fast_db >= 0)
-            width.fast_db = document->level.fast_db;
+    struct document_span documents = frame_documents_of(scan->frame, class);
+    for (size_t i = 0; i < documents.count; i++) {
+        const struct class_level *level = &documents.items[i].level;
+        if (level->constant_db >= 0)
+            width.constant_db = level->constant_db;
+        if (level->slow_db >= 0)
+            width.slow_db = level->slow_db;
+        if (level->fast_db >= 0)
+            width.fast_db = level->fast_db;
     }
     return width;
 }

@@ -201,12 +201,19 @@ static const void *run_named(const void *items, size_t count, size_t size, const
 #define RUN_NAMED(list, name, run)                                                                 \
     run_named((list)->items, (list)->count, sizeof *(list)->items, (name), (run))
 
+struct document_span frame_documents_of(const struct frame *frame, const char *class)
+{
+    size_t count;
+    const struct class_document *first = RUN_NAMED(&frame->vehicles, class, &count);
+    return (struct document_span){first, count};
+}
+
 double frame_rear_axle_x_m(const struct frame *frame, const struct object *object)
 {
-    for (size_t i = 0; i < frame->vehicles.count; i++)
-        if (frame_same_name(frame->vehicles.items[i].class, object->class) &&
-            frame->vehicles.items[i].rear_axle_x_m != 0)
-            return frame->vehicles.items[i].rear_axle_x_m;
+    struct document_span documents = frame_documents_of(frame, object->class);
+    for (size_t i = 0; i < documents.count; i++)
+        if (documents.items[i].rear_axle_x_m != 0)
+            return documents.items[i].rear_axle_x_m;
     return -1.25 / 4.5 * object->length_m;
 }
 

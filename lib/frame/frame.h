@@ -380,13 +380,20 @@ struct motion frame_motion(const struct object *object, double age_s);
 /* The object with the place, heading and velocity of this motion. */
 struct object frame_object_in(struct object object, struct motion motion);
 
-/* Place of the object's rear axle from the centre of its box: that of its class's document, or else
- * in proportion to a car's of 4.5 m (MODEL 2.1). */
-double frame_rear_axle_x_m(const struct frame *frame, const struct object *object);
-
 /* The sensor with this name in the frame's suite, or NULL. This and the functions below need the
  * parts in canonical order. */
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);
+
+/* The documents of one class: one, or none before extraction. */
+struct document_span {
+    const struct class_document *items;
+    size_t count;
+};
+struct document_span frame_documents_of(const struct frame *frame, const char *class);
+
+/* Place of the object's rear axle from the centre of its box: that of its class's document, or else
+ * in proportion to a car's of 4.5 m (MODEL 2.1). */
+double frame_rear_axle_x_m(const struct frame *frame, const struct object *object);
 
 /* The echoes and the cells of one sensor, which are neighbours in canonical order. */
 struct echo_span {

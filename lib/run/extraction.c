@@ -102,28 +102,66 @@ static void complete_size(struct object *object, const struct vehicle *vehicle)
         object->height_m = vehicle->height_m;
 }
 
-/* The document of the class that the frame was extracted with before; NULL: none. */
-static const struct class_document *noted_document(const struct frame *frame, const char *class)
+/* A class among the objects of a frame. */
+struct extracted_class {
+    const char *name;
+    const struct vehicle *vehicle;
+    bool noted;    /* did the frame name its document before? */
+    size_t shared; /* number in the frame, from 1, of the set that its objects share; 0: none yet */
+};
+
+/* All classes of a frame, each looked up once. */
+struct extracted_classes {
+    struct hash_table numbers; /* by name */
+    LIST_OF(struct extracted_class) list;
+};
+
+static bool is_named(const void *classes, uint32_t number, const void *name)
 {
-    for (size_t i = 0; i < frame->vehicles.count; i++)
-        if (frame_same_name(frame->vehicles.items[i].class, class))
-            return &frame->vehicles.items[i];
-    return NULL;
+    return frame_same_name(((const struct extracted_class *)classes)[number].name, name);
 }
 
-/* A frame that was extracted before keeps to the documents that it notes. */
-static int note_document(struct frame *frame, const struct class_document *noted,
-                         const struct vehicle *vehicle, struct diag *diag)
+/* A frame that was extracted before keeps to the documents that it names. */
+static int find_class(struct extracted_class *class, const char *folder, const struct frame *frame,
+                      struct runner *runner)
 {
-    if (noted != NULL)
-        return noted->digest == vehicle->digest ? 0 : vehicle_check_frame(vehicle, frame, diag);
-    *list_add(&frame->vehicles, frame->arena) =
-        (struct class_document){.class = vehicle->reflectors.model,
-                                .digest = vehicle->digest,
-                                .rear_axle_x_m = vehicle->rear_axle_x_m,
-                                .level = vehicle->level,
-                                .cell_max_m = vehicle->cell_max_m};
-    return 0;
+    struct document_span before = frame_documents_of(frame, class->name);
+    class->noted = before.count > 0;
+    class->vehicle =
+        runner_vehicle(runner, folder, class->name, class->noted ? before.items->digest : NULL);
+    if (class->vehicle == NULL)
+        return -1;
+    return vehicle_check_frame(class->vehicle, frame, runner_diag(runner));
+}
+
+/* The class of the object; NULL after a message. */
+static struct extracted_class *class_of(struct extracted_classes *classes,
+                                        const struct object *object, const char *folder,
+                                        const struct frame *frame, struct runner *runner)
+{
+    uint64_t hash = hash_table_hash(0, object->class, strlen(object->class));
+    uint32_t *slot =
+        hash_table_slot(&classes->numbers, hash, is_named, classes->list.items, object->class);
+    if (*slot > 0)
+        return &classes->list.items[*slot - 1];
+    struct extracted_class *class = list_add(&classes->list, frame->arena);
+    *slot = (uint32_t)classes->list.count;
+    class->name = object->class;
+    return find_class(class, folder, frame, runner) == 0 ? class : NULL;
+}
+
+static void note_documents(struct frame *frame, const struct extracted_classes *classes)
+{
+    for (size_t i = 0; i < classes->list.count; i++) {
+        const struct vehicle *vehicle = classes->list.items[i].vehicle;
+        if (!classes->list.items[i].noted)
+            *list_add(&frame->vehicles, frame->arena) =
+                (struct class_document){.class = vehicle->reflectors.model,
+                                        .digest = vehicle->digest,
+                                        .rear_axle_x_m = vehicle->rear_axle_x_m,
+                                        .level = vehicle->level,
+                                        .cell_max_m = vehicle->cell_max_m};
+    }
 }
 
 /* A new set of this object alone, or NULL if those of its class share one. */
@@ -140,18 +178,18 @@ static struct reflector_set *own_set(struct frame *frame, const struct object *o
     return set;
 }
 
-/* The vehicle's set of reflectors in the frame, made for the first object of its class. */
-static struct reflector_set *shared_set(struct frame *frame, const struct vehicle *vehicle,
+/* The set of reflectors that the objects of a class share, made for the first of them. */
+static struct reflector_set *shared_set(struct frame *frame, struct extracted_class *class,
                                         extraction_describe *describe,
                                         const struct extraction *extraction)
 {
-    for (size_t i = 0; i < frame->reflectors.count; i++)
-        if (frame->reflectors.items[i].model == vehicle->reflectors.model)
-            return &frame->reflectors.items[i];
+    if (class->shared > 0)
+        return &frame->reflectors.items[class->shared - 1];
     struct reflector_set *set = list_add(&frame->reflectors, frame->arena);
-    *set = vehicle->reflectors;
+    class->shared = frame->reflectors.count;
+    *set = class->vehicle->reflectors;
     if (describe != NULL)
-        describe(extraction, vehicle, set, frame->arena);
+        describe(extraction, class->vehicle, set, frame->arena);
     return set;
 }
 
@@ -159,22 +197,22 @@ int extraction_step(struct extraction *extraction, struct frame *frame, struct r
                     extraction_describe *describe, extraction_describe_body *describe_body)
 {
     struct object *const *object = frame_order_objects(frame);
+    struct extracted_classes classes = {hash_table_begin(frame->objects.count, frame->arena), {0}};
     for (size_t i = 0; i < frame->objects.count; i++) {
-        const struct class_document *noted = noted_document(frame, object[i]->class);
-        const struct vehicle *vehicle = runner_vehicle(runner, extraction->folder, object[i]->class,
-                                                       noted != NULL ? noted->digest : NULL);
-        if (vehicle == NULL)
+        struct extracted_class *class =
+            class_of(&classes, object[i], extraction->folder, frame, runner);
+        if (class == NULL)
             return diag_prefix(runner_diag(runner),
                                "objects[%zu].class: ", (size_t)(object[i] - frame->objects.items));
-        if (note_document(frame, noted, vehicle, runner_diag(runner)) != 0)
-            return -1;
-        complete_size(object[i], vehicle);
+        complete_size(object[i], class->vehicle);
         if (frame_same_name(object[i]->id, frame->ego))
             continue;
-        struct reflector_set *set = own_set(frame, object[i], vehicle, describe_body, extraction);
+        struct reflector_set *set =
+            own_set(frame, object[i], class->vehicle, describe_body, extraction);
         if (set == NULL)
-            set = shared_set(frame, vehicle, describe, extraction);
+            set = shared_set(frame, class, describe, extraction);
         *list_add(&set->objects, frame->arena) = object[i]->id;
     }
+    note_documents(frame, &classes);
     return 0;
 }

@@ -65,23 +65,31 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
     return runner_write_text(runner, &text);
 }
 
-static bool is_asked_for(const struct known_vehicle *known, const char *class, const char *digest)
+/* The class with the documents that were loaded for it, so far perhaps none. */
+static struct known_class *known_class(struct runner *runner, const char *class)
 {
-    const struct vehicle *vehicle = known->vehicle;
-    return frame_same_name(vehicle->reflectors.model, class) &&
-           (digest != NULL ? frame_same_name(vehicle->digest, digest) : known->by_class);
+    uint32_t number = intern_word(&runner->classes, class, &runner->arena);
+    if (number == runner->known.count)
+        list_add(&runner->known, &runner->arena);
+    return &runner->known.items[number];
+}
+
+static bool is_asked_for(const struct known_vehicle *known, const char *digest)
+{
+    return digest != NULL ? frame_same_name(known->vehicle->digest, digest) : known->by_class;
 }
 
 const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class,
                                      const char *digest)
 {
-    for (size_t i = 0; i < runner->vehicles.count; i++)
-        if (is_asked_for(&runner->vehicles.items[i], class, digest))
-            return runner->vehicles.items[i].vehicle;
+    struct known_class *known = known_class(runner, class);
+    for (size_t i = 0; i < known->vehicles.count; i++)
+        if (is_asked_for(&known->vehicles.items[i], digest))
+            return known->vehicles.items[i].vehicle;
     const struct vehicle *vehicle =
         vehicle_set_load(class, digest, folder, &runner->arena, &runner->diag);
     if (vehicle != NULL)
-        *list_add(&runner->vehicles, &runner->arena) =
+        *list_add(&known->vehicles, &runner->arena) =
             (struct known_vehicle){vehicle, digest == NULL};
     return vehicle;
 }

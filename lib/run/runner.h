@@ -3,6 +3,7 @@
  * and tools ask for (stage.h, tool.h). */
 #pragma once
 
+#include "base/intern.h"
 #include "frame/frame_sequence.h"
 #include "run/frame_stream.h"
 #include "run/options.h"
@@ -23,6 +24,11 @@ struct known_vehicle {
     bool by_class;
 };
 
+/* The documents of one class. */
+struct known_class {
+    LIST_OF(struct known_vehicle) vehicles;
+};
+
 struct runner {
     const struct stage *stage;
     void *state;
@@ -37,8 +43,9 @@ struct runner {
     const struct runner *before; /* runs before this one in the same process; NULL: none does */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const char *)
-    notices; /* a line each, printed before the first frame, or at a tool's end */
-    LIST_OF(struct known_vehicle) vehicles;
+    notices;               /* a line each, printed before the first frame, or at a tool's end */
+    struct intern classes; /* those that stages asked for */
+    LIST_OF(struct known_class) known; /* by number in classes */
     struct frame_sequence sequence;    /* of the frames so far, under --complete */
     int64_t expected_frames;           /* 0 if the source does not say */
     struct effect_log *log;            /* of a stage that a tool tries; NULL: none */

@@ -85,6 +85,20 @@ def ids(_, folder, size):
     return "glint-traffic " + write(folder, f"ids-{size}.json", json.dumps(scene))
 
 
+def classes(_, folder, size):
+    """Classes, an object each, in ten frames."""
+    vehicles = os.path.join(folder, f"classes-{size}")
+    os.makedirs(vehicles, exist_ok=True)
+    with open(os.path.join("data", "vehicles", "car.json"), encoding="utf-8") as file:
+        car = file.read()
+    for i in range(size):
+        write(vehicles, f"class_{i}.json", car)
+    objects = [{"id": str(i), "class": f"class_{i}", "x_m": 5 * i} for i in range(size)]
+    scenario = {"origin": "For the bench.", "ego": "0", "rate_hz": 10, "duration_s": 0.9, "objects": objects}
+    source = f"glint-traffic {write(folder, f'classes-{size}.json', json.dumps(scenario))}"
+    return f"{source} | glint-extract --vehicles {vehicles} | glint-ideal --sensors {SUITE} | glint-sensor | glint-noise"
+
+
 def scene(folder, name, size, **way):
     """An object with so many parts of its way, and a frame for each."""
     there = {"id": "a", "class": "car", **way}
@@ -171,7 +185,7 @@ def targets(glint, folder, size):
 
 # Each with the size that the bench times and the size from which the guard doubles twice.
 CASES = [(objects, 16000, 1000), (objects_in_full, 4000, 500), (speeds, 8000, 1000), (cells, 8000, 1000),
-         (sensors, 10000, 100), (ids, 3000, 1000), (waypoints, 2000, 250), (stops, 2000, 250), (segments, 2000, 250),
+         (sensors, 10000, 100), (ids, 3000, 1000), (classes, 2000, 500), (waypoints, 2000, 250), (stops, 2000, 250), (segments, 2000, 250),
          (columns, 3000, 3000), (users, 1000, 250), (tag, 4000000, 1000000), (types, 40000, 2000), (ghosts, 2000, 500), (losses, 3000, 500),
          (targets, 8000, 1000)]
 

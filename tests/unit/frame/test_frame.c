@@ -87,6 +87,21 @@ TEST(spans_are_the_sensors_own)
     assert_int_equal(frame_cells_of(&frame, "").count, 0);
 }
 
+TEST(a_class_has_its_own_documents)
+{
+    static const char *const classes[] = {"bus", "car", "car_2", "van"};
+    struct arena *arena = check_arena();
+    struct frame frame = {.arena = arena};
+    for (size_t i = 0; i < COUNT(classes); i++)
+        list_add(&frame.vehicles, arena)->class = classes[i];
+    for (size_t i = 0; i < COUNT(classes); i++) {
+        struct document_span own = frame_documents_of(&frame, classes[i]);
+        assert_ptr_equal(own.items, frame.vehicles.items + i);
+        assert_int_equal(own.count, 1);
+    }
+    assert_int_equal(frame_documents_of(&frame, "truck").count, 0);
+}
+
 TEST(dropped_parts_are_as_if_they_had_never_been)
 {
     struct frame frame = accounted_frame(check_arena());

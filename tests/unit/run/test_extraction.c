@@ -175,6 +175,16 @@ EXTRACTION_TEST(a_frame_keeps_to_the_documents_that_it_was_extracted_with)
     assert_non_null(strstr(bench->runner.diag.text, "0123456789abcdef"));
 }
 
+EXTRACTION_TEST(documents_that_the_frame_names_are_not_named_again)
+{
+    const char *digest = car_of(bench)->digest;
+    *list_add(&bench->frame.vehicles, &bench->arena) =
+        (struct class_document){.class = "car", .digest = digest};
+    assert_int_equal(step(bench, NULL), 0);
+    assert_int_equal(bench->frame.vehicles.count, 2);
+    assert_string_equal(bench->frame.vehicles.items[1].class, "truck");
+}
+
 TEST(a_folder_that_is_not_there_is_refused_at_the_start)
 {
     struct runner runner;
