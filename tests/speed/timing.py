@@ -25,12 +25,13 @@ def spread(values, name="ns_per_frame"):
 
 
 def spent(command, stdout=subprocess.DEVNULL):
-    """The lines of JSON that a command prints on stderr about its times, by part."""
+    """The lines of JSON on stderr about a command's times, by part; what the command itself says there is dropped."""
     done = subprocess.run([SPENT] + command, check=False, stdin=subprocess.DEVNULL, stdout=stdout,
                           stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         raise SystemExit(f"bench: {shlex.join(command)}:\n{done.stderr}")
-    return {line["part"]: line for line in map(json.loads, done.stderr.splitlines())}
+    told = map(json.loads, filter(lambda line: line.startswith("{"), done.stderr.splitlines()))
+    return {line["part"]: line for line in told}
 
 
 def timed(glint, script):
