@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""OpenPCDet's task on what scripts/export writes: load, filter, make infos, evaluate: tests/chain/toolboxes.py BIN_DIR [TEST...]
+"""What OpenPCDet and View-of-Delft do with what scripts/export writes: load, filter, evaluate: tests/chain/toolboxes.py BIN_DIR [TEST...]
 
 The clients here are our own, after what those programs assert, index and compute, and each fails where its original is known
 to fail.
 """
 import glob
+import json
 import math
 import os
 import subprocess
@@ -17,6 +18,7 @@ sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
+from glint.exports import kitti  # noqa: E402
 from rotated_overlap import LEAST_OVERLAP, average_precision, overlaps  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
@@ -147,7 +149,102 @@ def save(folder, name, text):
         file.write(text)
 
 
-TESTS = openpcdet_trains_and_evaluates, openpcdet_fails_where_it_is_known_to
+# --- View-of-Delft --------------------------------------------------------------------------------
+
+LEAST_OF_DELFT = {"Car": 0.5, "Pedestrian": 0.25, "Cyclist": 0.25}
+LEAST_HEIGHT_PX = 40
+
+
+def results_of(root, folder, scale=1.0):
+    """Truth as predictions, in a folder of results; sizes are scaled."""
+    os.makedirs(folder)
+    for path in glob.glob(f"{root}/lidar/training/label_2/*.txt"):
+        with open(path, encoding="utf-8") as file, open(os.path.join(folder, os.path.basename(path)), "w", encoding="utf-8") as out:
+            for cells in map(str.split, file):
+                sizes = [repr(scale * float(one)) for one in cells[8:11]]
+                out.write(" ".join([cells[0], "-1", "-1", *cells[3:8], *sizes, *cells[11:15], "0.9"]) + "\n")
+    return folder
+
+
+def labels_of(path, name):
+    """The boxes of a class: heights in the picture, and right, ahead, bottom, sizes, rotation_y."""
+    with open(path, encoding="utf-8") as file:
+        cells = [[float(one) for one in line.split()[1:]] for line in file if line.startswith(name + " ")]
+    found = numpy.array(cells, float).reshape(-1, 15)
+    return found[:, 6] - found[:, 4], found[:, [10, 12, 11, 9, 8, 7, 13]] * (1, 1, -1, 1, 1, 1, 1)
+
+
+def delft(root, results, corridor=False):
+    """AP of each class. Frames are those of the results; boxes of up to 40 pixels in the picture are ignored, and beside the
+    corridor in the second pass."""
+    scores = {}
+    for name, least in LEAST_OF_DELFT.items():
+        scans = []
+        for path in sorted(glob.glob(os.path.join(results, "*.txt"))):
+            (heights, truth), (found_heights, found) = (labels_of(one, name) for one in (
+                f"{root}/lidar/training/label_2/{os.path.basename(path)}", path))
+            is_counted, is_found = heights > LEAST_HEIGHT_PX, found_heights > LEAST_HEIGHT_PX
+            if corridor:
+                is_counted &= (abs(truth[:, 0]) <= 4) & (truth[:, 1] <= 25)
+                is_found &= (abs(found[:, 0]) <= 4) & (found[:, 1] <= 25)
+            scans.append((overlaps(found[is_found], truth), numpy.full(is_found.sum(), 0.9), is_counted))
+        scores[name] = average_precision(scans, least)
+    return scores
+
+
+def delft_evaluates(folder):
+    """Truth whose sizes are a hundredth smaller has the score 100 in each class, in both passes; truth given back as it is has
+    a score, however low."""
+    root = delft_lane(folder)
+    for corridor in (False, True):
+        found = delft(root, results_of(root, f"{folder}/smaller-{corridor}", 0.99), corridor)
+        assert found == dict.fromkeys(LEAST_OF_DELFT, 100), found
+    assert delft(root, results_of(root, f"{folder}/equal"))["Car"] < 50
+
+
+def parallel_sides_divide_by_zero(_):
+    """In rows of equal cars under many headings, where they are not turned; not where each is by an angle of its own."""
+    with open(ROOT + "/data/exports/vod.json", encoding="utf-8") as file:
+        layout = json.load(file)
+    for angles in [0, 0], layout["turned_rad"]:
+        turned, draw, failed = kitti.Writer(layout | {"turned_rad": angles}, None), numpy.random.default_rng(2), 0
+        for heading, x, y in zip(draw.uniform(-3, 3, 1000), draw.uniform(-20, 20, 1000), draw.uniform(10, 50, 1000)):
+            row = [(round(x + 7 * i * math.cos(heading), 6), round(y - 7 * i * math.sin(heading), 6), -0.5, 4.5, 1.8, 1.5,
+                    round(heading + turned.turn_rad(i), 9)) for i in range(5)]
+            try:
+                overlaps(row, row)
+            except ZeroDivisionError:
+                failed += 1
+        assert (failed > 0) == (angles == [0, 0]), (angles, failed)
+
+
+def delft_lane(folder, form="vod"):
+    """The root of a radar behind cars, cyclists and people in a row each."""
+    scenario = {"origin": "For tests.", "ego": "ego", "rate_hz": 20, "duration_s": 3, "objects": [
+        {"id": "ego", "class": "car", "x_m": 0, "y_m": 0, "speed_mps": 5},
+        *({"id": f"{kind}{i}", "class": kind, "x_m": 8 + 6 * i + 2 * k, "y_m": y, "speed_mps": 5} for i in range(3)
+          for k, (kind, y) in enumerate((("car", 0), ("pedestrian", 2), ("bicycle", -2))))]}
+    save(folder, "lane.json", json.dumps(scenario))
+    shell("glint-traffic ./lane.json | glint-extract | glint-ideal --sensors lrr77 --sections quality | glint-sensor | glint-noise > list.jsonl", folder)
+    export(folder, form, "--out", os.path.basename(form) + "-lane", "list.jsonl")
+    return f"{folder}/{os.path.basename(form)}-lane/front"
+
+
+def boxes_are_turned_by_different_angles(folder):
+    """By 1e-5 to 1e-4 rad, and two boxes of a scan by angles that single precision tells apart."""
+    export(folder, "kitti", "--out", "straight", list_of(folder))
+    export(folder, "vod", "--out", "turned", list_of(folder))
+    for path in glob.glob(f"{folder}/straight/*/training/label_2/*.txt"):
+        name = os.path.basename(path)
+        with open(path, encoding="utf-8") as one, open(path.replace("straight", "turned").replace(
+                "/training", "/lidar/training").replace(name, name[1:]), encoding="utf-8") as other:
+            pairs = [[float(line.split()[14]) for line in file] for file in (one, other)]
+        turns = [math.remainder(b - a, math.tau) for a, b in zip(*pairs, strict=True)]
+        assert all(0.9e-5 < turn < 1.01e-4 for turn in turns), turns
+        assert all(b - a > 3e-7 for a, b in zip(sorted(turns), sorted(turns)[1:])), turns
+
+
+TESTS = openpcdet_trains_and_evaluates, openpcdet_fails_where_it_is_known_to, delft_evaluates, parallel_sides_divide_by_zero, boxes_are_turned_by_different_angles
 
 
 def main():

@@ -10,6 +10,7 @@ from glint.exports.streams import boxes, line, number, visibility
 WIDTH, HEIGHT = 1936, 1216  # of the camera's picture, as View-of-Delft's
 WIDEST_RAD = math.radians(160)  # field of view of the camera, at most
 NEAR_M = 0.1  # boxes are cut there before they are projected
+GOLDEN = (math.sqrt(5) - 1) / 2  # whose multiples lie far apart in [0, 1)
 OCCLUDED = {None: 3, 0: 2, 1: 1, 2: 1, 3: 0}  # by level of visibility
 
 
@@ -55,12 +56,20 @@ class Writer(Numbered):
         for box in boxes(frame, sensor.get("age_s", 0)):
             x, y, heading = seen_from(pose, box)
             if seen := picture(box, x, y, -z, heading, focal):
-                turn = math.remainder(-heading - math.pi / 2, math.tau)
-                cells = (math.remainder(turn - math.atan2(-y, x), math.tau), *seen[:4], box["height_m"], box["width_m"], box["length_m"],
-                         -y, z, x, turn)
+                turn = math.remainder(-heading - math.pi / 2 + self.turn_rad(len(found)), math.tau)
+                cells = (math.remainder(turn - math.atan2(-y, x), math.tau), *seen[:4], box["height_m"], box["width_m"], box["length_m"], -y, z, x)
                 found.append((" ".join([self.layout["classes"].get(box["class"], "Misc"), f"{seen[4]:.6f}", str(OCCLUDED[levels.get(box["id"])]),
-                                        *(f"{number(one, 6):.6f}" for one in cells), *self.layout["behind"]]) + "\n", box))
+                                        *(f"{number(one, 6):.6f}" for one in cells), self.angle(turn), *self.layout["behind"]]) + "\n", box))
         return found
+
+    def turn_rad(self, i):
+        """The angle by which box i of a scan is turned, so that no two have parallel sides; all are far apart, however many there are."""
+        least, most = self.layout.get("turned_rad", (0, 0))
+        return least + (most - least) * (i * GOLDEN % 1)
+
+    def angle(self, turn):
+        digits = 9 if "turned_rad" in self.layout else 6
+        return f"{number(turn, digits):.{digits}f}"
 
     def close(self):
         super().close()
