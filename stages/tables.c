@@ -12,10 +12,11 @@
 struct tables_state {
     const char *folder;
     const char *copy; /* file for a copy of the frames; NULL: no copy */
-    bool plain, without_objects, counts;
+    bool plain, npy, without_objects, counts;
     int64_t part;
-    struct output *outputs[TABLE_COUNT], *copied;
+    struct output *outputs[TABLE_COUNT], *copied, *named;
     struct detection_tables tables;
+    struct npy_names names;
     struct stream_counts counted;
 };
 
@@ -26,11 +27,27 @@ static int make_folder(const char *folder, struct diag *diag)
     return diag_fail(diag, DIAG_CANNOT_CREATE, "DIR: %s: %s", folder, strerror(errno));
 }
 
-/* Refuses a folder that has a table of the other kind, packed or plain, as readers take both. */
-static int open_outputs(struct tables_state *own, struct runner *runner)
+static int open_arrays(struct tables_state *own, struct runner *runner)
 {
-    if (make_folder(own->folder, runner_diag(runner)) != 0)
-        return -1;
+    own->names = npy_columns_begin(runner_arena(runner));
+    own->tables.names = &own->names;
+    if (own->plain)
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--plain: is for tables of CSV; expected it without --npy");
+    for (int i = 0; i < TABLE_COUNT; i++) {
+        const char *name = arena_format(runner_arena(runner), "%s.npy", detection_tables_names[i]);
+        own->outputs[i] = runner_output_in(runner, own->folder, name);
+        if (own->outputs[i] == NULL)
+            return -1;
+        own->tables.rows[i] = output_text(own->outputs[i]);
+    }
+    own->named = runner_output_in(runner, own->folder, "names.json");
+    return own->named != NULL ? 0 : -1;
+}
+
+/* Refuses a folder that has a table of the other kind, packed or plain, as readers take both. */
+static int open_tables(struct tables_state *own, struct runner *runner)
+{
     for (int i = 0; i < TABLE_COUNT; i++) {
         const char *plain = arena_format(runner_arena(runner), "%s.csv", detection_tables_names[i]);
         const char *packed = arena_format(runner_arena(runner), "%s.gz", plain);
@@ -46,6 +63,13 @@ static int open_outputs(struct tables_state *own, struct runner *runner)
         own->tables.rows[i] = output_text(own->outputs[i]);
     }
     return 0;
+}
+
+static int open_outputs(struct tables_state *own, struct runner *runner)
+{
+    if (make_folder(own->folder, runner_diag(runner)) != 0)
+        return -1;
+    return own->npy ? open_arrays(own, runner) : open_tables(own, runner);
 }
 
 /* Opens the outputs besides the folder: the copy and the counts. */
@@ -91,6 +115,21 @@ static int add_frame(struct tables_state *own, struct frame *frame, struct runne
     return own->copied != NULL ? copy_frame(own, frame, diag) : 0;
 }
 
+/* Writes the numbers of rows into the arrays, and the names beside them. */
+static int end_arrays(struct tables_state *own, struct runner *runner)
+{
+    struct text head = {0};
+    int result = 0;
+    for (int i = 0; i < TABLE_COUNT && result == 0; i++) {
+        head.length = 0;
+        detection_tables_write_head(&own->tables, (enum table)i, &head);
+        result = output_write_head(own->outputs[i], head.bytes, head.length, runner_diag(runner));
+    }
+    text_free(&head);
+    npy_columns_write_names(&own->names, output_text(own->named));
+    return result;
+}
+
 static int write_counts(struct tables_state *own, struct runner *runner)
 {
     struct text text = {0};
@@ -109,6 +148,8 @@ static int tables_run(void *state, struct runner *runner)
     while (more > 0 && (more = runner_frame_ascending(runner, &frame)) > 0)
         if (add_frame(own, frame, runner) != 0)
             more = -1;
+    if (more == 0 && own->npy)
+        more = end_arrays(own, runner);
     return more == 0 && own->counts ? write_counts(own, runner) : more;
 }
 
@@ -116,12 +157,14 @@ static void tables_release(void *state)
 {
     struct tables_state *own = state;
     arena_free(&own->counted.open_names);
+    npy_columns_end(&own->names);
 }
 
 static const struct field tables_options[] = {
     {FIELD_NAME_OF(struct tables_state, folder,
                    "the folder for the seven tables; it is made if it does not exist")},
     {OPTIONAL_FLAG(struct tables_state, plain, "write .csv instead of .csv.gz")},
+    {OPTIONAL_FLAG(struct tables_state, npy, "write arrays of NumPy, .npy, and names.json")},
     {OPTIONAL_NAME(struct tables_state, copy, "also write the frames to this file"),
      .word = "FILE"},
     {OPTIONAL_FLAG(struct tables_state, without_objects, "leave the objects out of the copy")},
@@ -135,15 +178,14 @@ const struct stage stage_tables = {
     .name = "tables",
     .summary = "Write tables of targets, labels, objects, scans, sightings, losses and frames.",
     .details =
-        "The files are detections.csv.gz, objects.csv.gz and so on. Columns are the members of the "
-        "frame, with the same names and units. Columns that end in _key are whole numbers that "
-        "join the rows of two tables. The parts of one set need different keys: --part gives each "
-        "part its own. schemas/README.md describes the tables. A folder that has a table of the "
-        "other kind, packed (.csv.gz) or plain (.csv), is refused, as readers take both. Old "
-        "tables "
-        "go before the first new one comes: where a run is killed meanwhile, some tables are "
-        "missing, "
-        "and none is older than another. Run it again then.",
+        "The files are detections.csv.gz, objects.csv.gz and so on. Columns are the members of "
+        "the frame, with the same names and units. Columns that end in _key are whole numbers "
+        "that join the rows of two tables. The parts of one set need different keys: --part gives "
+        "each part its own. --npy writes arrays of NumPy, in which text is a number: the place of "
+        "a name in names.json. schemas/README.md describes the tables. A folder that has a table "
+        "of the other kind, packed (.csv.gz) or plain (.csv), is refused, as readers take both. "
+        "Old tables go before the first new one comes: where a run is killed meanwhile, some "
+        "tables are missing, and none is older than another. Run it again then.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,

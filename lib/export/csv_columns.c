@@ -63,7 +63,7 @@ static void add_whole(int64_t value, struct text *row)
         number_write_whole(value < 0 ? 0 - (uint64_t)value : (uint64_t)value, at + (value < 0));
 }
 
-static void add_cell(const struct field *field, const void *base, struct text *row)
+void csv_columns_add_cell(const struct field *field, const void *base, struct text *row)
 {
     if (field->kind == FIELD_REAL)
         row->length += number_write(FIELD_LOAD(double, field, base), text_room(row, NUMBER_SIZE));
@@ -106,18 +106,25 @@ void csv_columns_write_names(const struct csv_columns *columns, struct text *row
     }
 }
 
+const void *csv_columns_owner(const struct csv_columns *columns, size_t i, const void *base,
+                              bool *there)
+{
+    const struct csv_column *column = &columns->list.items[i];
+    if (base == NULL)
+        return NULL;
+    if (i == 0 || column->embedded != column[-1].embedded)
+        *there = column->embedded == NULL || field_present(column->record, column->embedded, base);
+    const void *owner = (const char *)base + column->offset;
+    return *there && has_value(columns, column, owner) ? owner : NULL;
+}
+
 void csv_columns_write(const struct csv_columns *columns, const void *base, struct text *row)
 {
-    const struct field *embedded = NULL; /* that of the column before */
-    bool there = base != NULL;
+    bool there = false;
     for (size_t i = 0; i < columns->list.count; i++) {
-        const struct csv_column *column = &columns->list.items[i];
-        if (base != NULL && column->embedded != embedded) {
-            embedded = column->embedded;
-            there = embedded == NULL || field_present(column->record, embedded, base);
-        }
-        if (there && has_value(columns, column, (const char *)base + column->offset))
-            add_cell(column->field, (const char *)base + column->offset, row);
+        const void *owner = csv_columns_owner(columns, i, base, &there);
+        if (owner != NULL)
+            csv_columns_add_cell(columns->list.items[i].field, owner, row);
         end_cell(row);
     }
 }

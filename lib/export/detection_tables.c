@@ -203,12 +203,23 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key, 
             struct csv_columns *columns = &tables->columns[table][i];
             csv_columns_add(columns, structs[table][i].record, structs[table][i].without, arena);
             columns->zeros = structs[table][i].record == &sighting_record;
-            if (rows != NULL)
-                csv_columns_write_names(columns, rows);
         }
         if (rows != NULL)
-            csv_columns_end_row(rows);
+            detection_tables_write_head(tables, table, rows);
     }
+}
+
+void detection_tables_write_head(const struct detection_tables *tables, enum table table,
+                                 struct text *text)
+{
+    const struct csv_columns *columns = tables->columns[table];
+    if (tables->names != NULL) {
+        npy_columns_write_head(columns, DETECTION_TABLES_STRUCTS, tables->row_counts[table], text);
+        return;
+    }
+    for (int i = 0; i < DETECTION_TABLES_STRUCTS; i++)
+        csv_columns_write_names(&columns[i], text);
+    csv_columns_end_row(text);
 }
 
 /* A frame whose rows are being written. */
@@ -229,9 +240,15 @@ static void write_row(struct writing *writing, enum table table, const void *con
 {
     struct text *rows = writing->tables->rows[table];
     const struct csv_columns *columns = writing->tables->columns[table];
+    struct npy_names *names = writing->tables->names;
     for (int i = 0; i < DETECTION_TABLES_STRUCTS && columns[i].list.count > 0; i++)
-        csv_columns_write(&columns[i], bases[i], rows);
-    csv_columns_end_row(rows);
+        if (names != NULL)
+            npy_columns_write(&columns[i], bases[i], names, rows);
+        else
+            csv_columns_write(&columns[i], bases[i], rows);
+    if (names == NULL)
+        csv_columns_end_row(rows);
+    writing->tables->row_counts[table]++;
     writing->rows.of[table]++;
 }
 

@@ -18,7 +18,7 @@
 #pragma once
 
 #include "base/text.h"
-#include "export/csv_columns.h"
+#include "export/npy_columns.h"
 #include "frame/frame.h"
 
 enum table {
@@ -43,16 +43,23 @@ extern const char *const detection_tables_primary[][2];
 enum { DETECTION_TABLES_STRUCTS = 5 };
 
 struct detection_tables {
-    struct text *rows[TABLE_COUNT]; /* receive the rows; NULL: the columns alone are asked for */
+    struct text *rows[TABLE_COUNT];  /* receive the rows; NULL: the columns alone are asked for */
+    struct npy_names *names;         /* for rows of npy_columns.h; NULL: rows of CSV */
+    int64_t row_counts[TABLE_COUNT]; /* that have been written */
     int64_t frame_key, scan_key, object_key, detection_key; /* of the next row */
     int64_t end_key;
     struct csv_columns columns[TABLE_COUNT][DETECTION_TABLES_STRUCTS];
 };
 
-/* Sets the columns, which lie in the arena, and appends the names to the tables whose rows are
+/* Sets the columns, which lie in the arena, and writes the heads of the tables whose rows are
  * set. */
 void detection_tables_begin(struct detection_tables *tables, int64_t first_key,
                             struct arena *arena);
+
+/* Appends the head of a table: the names of its columns, in an array of NumPy with the number of
+ * rows that have been written. */
+void detection_tables_write_head(const struct detection_tables *tables, enum table table,
+                                 struct text *text);
 
 /* Appends the rows of a frame in canonical order, which must have sensors and targets. Fails with
  * DIAG_DATA where there are no keys left. */

@@ -408,6 +408,16 @@ int output_write(struct output *output, const char *bytes, size_t length, struct
     return 0;
 }
 
+int output_write_head(struct output *output, const char *bytes, size_t length, struct diag *diag)
+{
+    if (send_first(output, output->held.length, diag) != 0)
+        return -1;
+    if (lseek(output->fd, 0, SEEK_SET) == 0 && output_write_all(output->fd, bytes, length) == 0 &&
+        lseek(output->fd, 0, SEEK_END) >= 0)
+        return 0;
+    return cannot_write(output, diag);
+}
+
 int output_finish(struct output *output, struct diag *diag)
 {
     send_first(output, output->held.length, diag);

@@ -3,14 +3,16 @@
 Usage: python3 tests/chain/detection_tables.py BIN_DIR        exit status 1 if any check fails
 
 Rows are made here from the JSON lines, member by member, and must be those of the tables: the same names, the same
-numbers, in the same order. Sensor poses are integrated here along the ego's path. The keys that tables.json names
+numbers, in the same order. The arrays of --npy have the cells of the tables. Sensor poses are integrated here along the ego's path. The keys that tables.json names
 tell rows apart, and each of them finds the row that it joins.
 """
+import ast
 import csv
 import gzip
 import json
 import math
 import os
+import struct
 import subprocess
 import sys
 import tempfile
@@ -49,6 +51,43 @@ def run(text, bin_dir, data=None):
 def read(path):
     with (gzip.open if path.endswith(".gz") else open)(path, "rt", newline="") as file:
         return list(csv.DictReader(file, strict=True))
+
+
+ABSENT = {"<f8": math.isnan, "<i8": lambda cell: cell == -1, "<u8": lambda cell: cell == 0}
+AS_TEXT = {"<f8": float, "<i8": int}
+
+
+def read_array(path):
+    """The columns of a .npy file with their types, and its rows."""
+    with open(path, "rb") as file:
+        magic, length = struct.unpack("<8sH", file.read(10))
+        head = ast.literal_eval(file.read(length).decode("ascii"))
+        check(magic == b"\x93NUMPY\1\0" and (10 + length) % 64 == 0 and not head["fortran_order"], f"{path}: {magic} {length}")
+        kinds = {"<f8": "d", "<i8": "q", "<u8": "Q", "|b1": "?", "|V7": "7x"}
+        rows = list(struct.iter_unpack("<" + "".join(kinds[kind] for _, kind in head["descr"]), file.read()))
+    check((len(rows),) == head["shape"], f"{path}: {len(rows)} rows, told {head['shape']}")
+    return {name: kind for name, kind in head["descr"] if name}, rows
+
+
+def same_cell(cell, text, kind, names):
+    if kind == "|b1":
+        return cell == (text == "true")
+    if text == "":
+        return ABSENT[kind](cell)
+    return names[cell] == text if kind == "<u8" else cell == AS_TEXT[kind](text)
+
+
+def check_arrays(folder, frames, tables, bin_dir, stream):
+    run(f"glint-tables --npy {folder}/arrays", bin_dir, frames)
+    with open(f"{folder}/arrays/names.json", encoding="utf-8") as file:
+        names = json.load(file)
+    check(names[0] == "" and len(set(names)) == len(names), f"{stream}: names.json has a name twice, or its first one is not empty")
+    for table, rows in tables.items():
+        kinds, cells = read_array(f"{folder}/arrays/{table}.npy")
+        check(len(cells) == len(rows), f"{stream}: the array {table} has {len(cells)} rows, expected {len(rows)}")
+        for row, found in zip(rows, cells):
+            wrong = [name for (name, kind), cell in zip(kinds.items(), found) if not same_cell(cell, row[name], kind, names)]
+            check(not wrong and list(kinds) == list(row), f"{stream}: the array {table} differs in {wrong}: {row}")
 
 
 def values(record, without=()):
@@ -200,6 +239,7 @@ def check_stream(stream, schema, bin_dir, seen):
         run(f"glint-tables {folder}", bin_dir, frames)
         tables = {table: read(f"{folder}/{table}.csv.gz") for table in TABLES}
         check_keys(tables, schema, stream)
+        check_arrays(folder, frames, tables, bin_dir, stream)
         for table, rows in tables.items():
             check_choices(rows, schema[table]["fields"], table)
             columns = [field["name"] for field in schema[table]["fields"]]

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """scripts/glint and scripts/tracker do what they say: python3 tests/chain/python.py BIN_DIR"""
 import gzip
+import importlib.util
 import json
 import math
 import os
@@ -57,7 +58,8 @@ def an_elevation_is_a_height_and_shortens_the_way_ahead(folder):
     both = glint.detections({**frame, "targets": [high, flat]}, "sensor")
     near((both["x_m"][0], both["z_m"][0], both["elevation_rad"][0], both["x_m"][1]), (12, 0.4, math.asin(0.4 / r), math.sqrt(r * r - 25)))
     assert math.isnan(both["z_m"][1]) and math.isnan(both["elevation_rad"][1])
-    assert "z_m" not in glint.detections({**frame, "targets": [flat]})
+    empty = glint.detections({**frame, "targets": []})
+    assert empty.keys() == both.keys() and not any(map(len, empty.values())), empty
 
 
 def detections_are_placed_from_where_the_ego_was(folder):
@@ -241,6 +243,57 @@ def frames_are_read_from_files_of_both_kinds(folder):
         raise AssertionError("a broken line was read")
 
 
+def frames_are_read_without_a_check(folder):
+    path = os.path.join(folder, "list.jsonl")
+    text = shell(f"glint-traffic cut-in | {EXACT} | tee list.jsonl", folder)
+    unchecked = list(glint.frames(path, check=False))
+    assert unchecked == list(glint.frames(path)) and unchecked[5].place == f"{path}:6"
+    with open(path, "w") as file:
+        file.write(text.replace('"range_m":', '"range_m":-', 1))
+    assert list(glint.frames(path, check=False)) != unchecked
+    for line in ("5", "[]", "{", '"' + text):
+        with open(path, "w") as file:
+            file.write(line)
+        try:
+            assert not list(glint.frames(path, check=False))
+        except glint.BadFrame as error:
+            assert str(error).startswith(f"{path}:1: "), error
+        else:
+            raise AssertionError(f"{line[:9]} was read")
+
+
+def columns_are_those_of_the_frames(folder):
+    chain = ("glint-traffic walled-road | glint-extract | glint-ideal --sensors lrr77-full --sections objects,quality,account"
+             " | glint-sensor | glint-noise")
+    shell(f"{chain} -o list.jsonl.gz; glint-tables --npy arrays list.jsonl.gz", folder)
+    path = os.path.join(folder, "list.jsonl.gz")
+    frames = list(glint.frames(path))
+    targets, objects = ([one for frame in frames for one in frame[part]] for part in ("targets", "objects"))
+    os.environ["PATH"] = ENVIRONMENT["PATH"]
+    for tables in (glint.columns(path), glint.columns(os.path.join(folder, "arrays")), glint.columns(chain=chain)):
+        detections, truth = tables["detections"], tables["objects"]
+        for name in glint.MEASURED:
+            assert list(detections[name]) == [one[name] for one in targets] != []
+        for name in ("id", "class", "x_m"):
+            assert list(truth[name]) == [one[name] for one in objects]
+        labels = [glint.label(one) for one in targets]
+        assert list(detections["object"]) == [one["object"] for one in labels]
+        assert list(detections["mirror"]) == [one.get("mirror", "") for one in labels] and any(detections["mirror"])
+        assert list(detections["quality_merged_objects"]) == [one["quality"].get("merged_objects", False) for one in targets]
+        joined = detections["object_key"] >= 0
+        assert list(truth["id"][detections["object_key"][joined]]) == list(detections["object"][joined]) != []
+        assert [glint.owner(one) in truth["id"] for one in labels] == list(joined)
+        assert len(tables["lost"]["object"]) == sum(len(one["echoes"]) for frame in frames for one in frame["lost"]) > 0
+    for message, told in (("exit status 66: glint-tables: nowhere: ", lambda: glint.columns("nowhere")),
+                          ("exit status 65: glint-tables: scene", lambda: glint.columns(chain="glint-traffic cut-in"))):
+        try:
+            told()
+        except glint.ChainError as error:
+            assert str(error).startswith(message), error
+        else:
+            raise AssertionError(f"no {message}")
+
+
 def a_stage_that_changes_nothing_changes_no_byte_of_the_list(folder):
     with open(os.path.join(folder, "same.py"), "w") as file:
         file.write("import glint\n\nglint.stage(lambda frame: frame)\n")
@@ -311,13 +364,18 @@ def false_alarms_make_few_tracks(folder):
 
 
 def main():
-    for test in (places_are_in_the_system_that_is_asked_for, what_stands_has_no_rate_over_ground,
-                 frames_are_read_from_files_of_both_kinds, a_stage_that_changes_nothing_changes_no_byte_of_the_list,
+    tests = (places_are_in_the_system_that_is_asked_for, what_stands_has_no_rate_over_ground,
+                 frames_are_read_from_files_of_both_kinds, frames_are_read_without_a_check, a_stage_that_changes_nothing_changes_no_byte_of_the_list,
                  columns_have_the_numbers_of_quality, an_elevation_is_a_height_and_shortens_the_way_ahead, detections_are_placed_from_where_the_ego_was,
                  what_glint_refuses_the_tracker_refuses, bytes_that_glint_refuses_the_tracker_refuses,
                  faults_outside_the_input_have_a_line_and_a_status, scenes_of_two_seeds_share_no_tracks,
                  frames_py_works_alone_as_a_copy_called_glint_py, workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected,
-                 false_alarms_make_few_tracks):
+                 false_alarms_make_few_tracks)
+    if importlib.util.find_spec("numpy"):
+        tests += (columns_are_those_of_the_frames,)
+    else:
+        print("skipped  columns are those of the frames: no numpy")
+    for test in tests:
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
         print("ok      ", test.__name__.replace("_", " "))

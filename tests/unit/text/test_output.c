@@ -139,6 +139,25 @@ OUTPUT_TEST(appended_text_is_written_in_whole_pieces)
     assert_memory_equal(back->bytes, all->bytes, all->length);
 }
 
+OUTPUT_TEST(a_head_is_written_over_the_first_bytes_whether_they_are_held_or_not)
+{
+    static const size_t lengths[] = {5, 65536, 200000};
+    for (size_t i = 0; i < 3; i++) {
+        struct text *text = sample_text(lengths[i]);
+        struct diag diag = {0};
+        struct output *output = output_open(scratch->path, &diag);
+        assert_done(output_write, output, text->bytes, text->length);
+        assert_done(output_write_head, output, "head", 4);
+        assert_done(output_write, output, "end", 3);
+        assert_done(output_close, output, true);
+        memcpy(text->bytes, "head", 4);
+        text_add(text, "end", 3);
+        struct text *back = read_all(scratch->path);
+        assert_int_equal(back->length, text->length);
+        assert_memory_equal(back->bytes, text->bytes, text->length);
+    }
+}
+
 OUTPUT_TEST(gz_is_gzip_and_depends_on_nothing_but_its_content)
 {
     struct text *text = sample_text(200000);
@@ -672,6 +691,20 @@ OUTPUT_TEST(pipes_and_devices_are_written_directly)
     int code = -1;
     assert_int_equal(waitpid(child, &code, 0), child);
     assert_int_equal(code, 0);
+}
+
+OUTPUT_TEST(a_pipe_takes_no_head_behind_its_bytes)
+{
+    struct diag diag = {0};
+    unlink(scratch_in(scratch, "fifo"));
+    assert_int_equal(mkfifo(scratch_in(scratch, "fifo"), 0600), 0);
+    int reader = open(scratch_in(scratch, "fifo"), O_RDONLY | O_NONBLOCK);
+    struct output *output = output_open(scratch_in(scratch, "fifo"), &diag);
+    assert_int_equal(output_write_head(output, "head", 4, &diag), -1);
+    assert_int_equal(diag.code, DIAG_IO);
+    assert_string_equal(diag.text + strlen(diag.text) - 12, "Illegal seek");
+    output_close(output, false, &diag);
+    close(reader);
 }
 
 static long waiting_in(int fd)
