@@ -149,6 +149,25 @@ def save(folder, name, text):
         file.write(text)
 
 
+# --- KITTI ----------------------------------------------------------------------------------------
+
+
+def stock_loaders_of_kitti_take_four_columns(folder):
+    """With --columns 4 they read x, y, z and RCS of every scan. The seven columns of the default raise there, or are read wrong in
+    silence where four divide their number; stderr says so."""
+    said = [export(folder, "kitti", *words, "--out", f"kitti{i}", list_of(folder)) for i, words in enumerate(((), ("--columns", "4")))]
+    assert ["--columns 4" in text for text in said] == [True, False], said
+    raised = wrong = 0
+    for path in sorted(glob.glob(f"{folder}/kitti0/*/training/velodyne/*.bin")):
+        seven, four = (numpy.fromfile(one, numpy.float32) for one in (path, path.replace("kitti0", "kitti1")))
+        assert numpy.array_equal(four.reshape(-1, 4), seven.reshape(-1, 7)[:, :4])
+        try:
+            wrong += len(seven.reshape(-1, 4)) != len(four) / 4
+        except ValueError:
+            raised += 1
+    assert raised > 400 and wrong > 50, (raised, wrong)
+
+
 # --- View-of-Delft --------------------------------------------------------------------------------
 
 LEAST_OF_DELFT = {"Car": 0.5, "Pedestrian": 0.25, "Cyclist": 0.25}
@@ -244,7 +263,7 @@ def boxes_are_turned_by_different_angles(folder):
         assert all(b - a > 3e-7 for a, b in zip(sorted(turns), sorted(turns)[1:])), turns
 
 
-TESTS = openpcdet_trains_and_evaluates, openpcdet_fails_where_it_is_known_to, delft_evaluates, parallel_sides_divide_by_zero, boxes_are_turned_by_different_angles
+TESTS = openpcdet_trains_and_evaluates, openpcdet_fails_where_it_is_known_to, stock_loaders_of_kitti_take_four_columns, delft_evaluates, parallel_sides_divide_by_zero, boxes_are_turned_by_different_angles
 
 
 def main():

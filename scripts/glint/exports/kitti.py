@@ -35,7 +35,7 @@ def focal_of(sensor):
 class Writer(Numbered):
     def __init__(self, layout, output):
         super().__init__(layout, output)
-        self.inside = "/radar" * ("beside" in layout)
+        self.inside, self.columns = "/radar" * ("beside" in layout), layout.get("columns", 7)
 
     def files(self, root, name, frame, sensor, targets, pose, labels):
         focal, (x, y, z, yaw) = focal_of(sensor), pose
@@ -44,7 +44,7 @@ class Writer(Numbered):
         camera = f"{focal} 0 {WIDTH / 2} 0 0 {focal} {HEIGHT / 2} 0 0 0 1 0\n"
         c, s = math.cos(yaw), math.sin(yaw)  # the camera's x is right, y down and z ahead
         pose = [number(one) for one in (s, 0, c, x, -c, 0, s, y, 0, -1, 0, z, 0, 0, 0, 1)]
-        self.output.scan(f"{root}/training/velodyne/{name}.bin", b"".join(struct.pack("<7f", *point) for point in points), frame, sensor, targets)
+        self.output.scan(f"{root}/training/velodyne/{name}.bin", b"".join(struct.pack(f"<{self.columns}f", *point[:self.columns]) for point in points), frame, sensor, targets)
         self.output.write(f"{root}/training/label_2/{name}.txt", labels)
         self.output.write(f"{root}/training/calib/{name}.txt", "".join(f"P{i}: {camera}" for i in range(4)) + "R0_rect: 1 0 0 0 1 0 0 0 1\n"
                           "Tr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\nTr_imu_to_velo: 1 0 0 0 0 1 0 0 0 0 1 0\n")
@@ -73,6 +73,8 @@ class Writer(Numbered):
 
     def close(self):
         super().close()
+        if self.layout.get("columns") == 7:
+            self.output.note("points have 7 columns: stock loaders of KITTI take 4, and get them by --columns 4")
         for root in self.counts:
             root = os.path.join(self.output.folder, root)
             os.symlink("training", os.path.join(root, "testing"))  # where readers look for the split test
