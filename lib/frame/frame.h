@@ -45,6 +45,7 @@ _Static_assert(PART_VISIBILITY < 1U << 31, "a set of parts is an unsigned");
 struct frame_parts {
     unsigned parts;    /* set of enum frame_part */
     const char *stage; /* of PART_LOST only the groups of this stage; NULL: all groups */
+    const struct frame_header *before; /* the header before the stage; NULL: it made the header */
 };
 
 /* A road user or thing: truth. A length, width or height of 0 means the size of the class, which
@@ -292,6 +293,11 @@ struct frame {
     struct {
         size_t lost, counts;
     } ordered; /* numbers of items in canonical order; later items are new */
+};
+
+/* The members of a frame that are in no part, byte for byte. */
+struct frame_header {
+    char bytes[offsetof(struct frame, objects)];
 };
 
 extern const struct record frame_record;

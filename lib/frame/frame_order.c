@@ -165,7 +165,7 @@ void frame_order_parts(struct frame *frame, struct frame_parts written)
 
 void frame_order(struct frame *frame)
 {
-    frame_order_parts(frame, (struct frame_parts){~0U, NULL});
+    frame_order_parts(frame, (struct frame_parts){.parts = ~0U});
 }
 
 int frame_order_tied(const struct contributor *a, const struct contributor *b)

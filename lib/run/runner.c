@@ -200,12 +200,13 @@ static int apply_sections(struct runner *runner, struct frame *frame)
 }
 
 /* After every step: drops the parts that nobody needs any more; orders and checks those that the
- * stage wrote, so that a stage that writes an invalid frame fails itself and not its neighbour. The
- * other parts were checked when they were read or written. */
-static int finish_step(struct runner *runner, struct frame *frame)
+ * stage wrote, so that a stage that writes an invalid frame fails itself and not its neighbour. All
+ * else was checked when it was read or written. before: the header before the step; NULL: none. */
+static int finish_step(struct runner *runner, struct frame *frame,
+                       const struct frame_header *before)
 {
     const struct stage *stage = runner->stage;
-    const struct frame_parts written = {stage->writes, stage->name};
+    const struct frame_parts written = {stage->writes, stage->name, before};
     frame->present |= stage->writes & ~sections_left_out(frame);
     sections_drop(frame);
     if ((stage->writes & PART_TARGETS) != 0)
@@ -240,7 +241,7 @@ int runner_next(struct runner *runner, struct frame *frame)
     int more = ensure_message(runner, runner->stage->next(runner->state, frame, runner));
     if (more != 1)
         return more;
-    return apply_sections(runner, frame) == 0 && finish_step(runner, frame) == 0 ? 1 : -1;
+    return apply_sections(runner, frame) == 0 && finish_step(runner, frame, NULL) == 0 ? 1 : -1;
 }
 
 /* A frame from another process may have passed filters that dropped echoes without a word. Where
@@ -278,11 +279,13 @@ static int check_complete(struct runner *runner)
 int runner_step(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
+    struct frame_header before;
     if (take_frame(runner, frame) != 0)
         return -1;
+    memcpy(before.bytes, frame, sizeof before.bytes);
     if (ensure_message(runner, stage->step(runner->state, frame, runner)) != 0)
         return -1;
-    return stage->sink ? 0 : finish_step(runner, frame);
+    return stage->sink ? 0 : finish_step(runner, frame, &before);
 }
 
 int runner_frame(struct runner *runner, struct frame **frame)

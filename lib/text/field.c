@@ -438,11 +438,6 @@ int field_twice(const struct field *field, struct diag *diag)
     return diag_fail(diag, DIAG_DATA, "%s: the key stands twice", field->name);
 }
 
-struct field_list field_list(const struct field *field, const void *base)
-{
-    return FIELD_LOAD(struct field_list, field, base);
-}
-
 bool field_unchanged(const struct record *record, const struct field *field, const void *base)
 {
     const void *document;

@@ -211,7 +211,10 @@ struct field_list {
     size_t count, room;
 };
 
-struct field_list field_list(const struct field *field, const void *base);
+static inline struct field_list field_list(const struct field *field, const void *base)
+{
+    return FIELD_LOAD(struct field_list, field, base);
+}
 
 /* True if this steady list is still the list of the document, which does not change. */
 bool field_unchanged(const struct record *record, const struct field *field, const void *base);

@@ -13,30 +13,36 @@ struct items {
 static int check_records(const struct record *record, struct items *items, unsigned groups,
                          struct diag *diag);
 
-/* True if all values of a member are in bounds, as nearly always. */
-static bool reals_inside(const struct field *field, const struct items *items)
+/* True if all values of a member are in bounds, as nearly always. There is at least one item. */
+static inline bool reals_inside(const struct field *field, const char *item, const char *end,
+                                size_t size)
 {
     const double low = field->low, high = field->high;
-    const char *item = items->first, *end = item + items->count * items->size;
-    for (; item < end; item += items->size) {
+    do {
         double value = FIELD_LOAD(double, field, item);
         if (!(value >= low && value <= high))
             return false;
-    }
+        item += size;
+    } while (item < end);
     return true;
+}
+
+/* Is this optional number absent? Bit by bit, because an absent 0 has one sign. */
+static bool is_absent(const struct field *field, double value)
+{
+    return field->optional && field->group == 0 &&
+           memcmp(&value, &field->absent, sizeof value) == 0;
 }
 
 static int check_numbers(const struct record *record, const struct field *field,
                          struct items *items, struct diag *diag)
 {
     const char *item = items->first;
-    /* Only an absent value of 0 has two signs, of which field_present knows more. */
-    bool one_absent = field->optional && field->absent != 0;
     for (size_t i = 0; i < items->count; i++, item += items->size) {
         double value = field->kind == FIELD_REAL ? FIELD_LOAD(double, field, item)
                                                  : (double)FIELD_LOAD(int64_t, field, item);
-        if ((value >= field->low && value <= field->high) ||
-            (one_absent && value == field->absent) || !field_present(record, field, item))
+        if ((value >= field->low && value <= field->high) || is_absent(field, value) ||
+            !field_present(record, field, item))
             continue;
         items->at = i;
         return field_out_of_bounds(field, value, diag);
@@ -82,7 +88,7 @@ static int check_lists(const struct record *record, const struct field *field, s
     for (size_t i = 0; i < items->count; i++, item += items->size) {
         struct field_list list = field_list(field, item);
         struct items own = {.first = list.items, .count = list.count};
-        if (!field_present(record, field, item) ||
+        if (list.count == 0 || !field_present(record, field, item) ||
             (field->steady && field_unchanged(record, field, item)))
             continue;
         items->at = i;
@@ -122,7 +128,6 @@ static int check_member(const struct record *record, const struct field *field, 
 {
     switch (field->kind) {
     case FIELD_REAL:
-        return reals_inside(field, items) ? 0 : check_numbers(record, field, items, diag);
     case FIELD_INTEGER:
         return check_numbers(record, field, items, diag);
     case FIELD_NAME:
@@ -149,12 +154,19 @@ static unsigned groups_among(const struct record *record, const struct items *it
 static int check_records(const struct record *record, struct items *items, unsigned groups,
                          struct diag *diag)
 {
+    const char *const first = items->first, *const end = first + items->count * items->size;
+    const size_t size = items->size;
+    const bool ungrouped = (groups & RECORD_WRITE_UNGROUPED) != 0;
     bool grouped = record->fields[0].group != 0;
     if (items->count == 0 || (grouped && groups_among(record, items) == 0))
         return 0;
     for (const struct field *field = record->fields; field->name != NULL; field++) {
-        bool wanted = field->group == 0 || (field->group & groups) != 0;
-        if (wanted && check_member(record, field, items, diag) != 0)
+        bool wanted = field->group != 0 ? (field->group & groups) != 0 : ungrouped;
+        if (!wanted)
+            continue;
+        if (field->kind == FIELD_REAL && reals_inside(field, first, end, size))
+            continue;
+        if (check_member(record, field, items, diag) != 0)
             return -1;
     }
     return 0;

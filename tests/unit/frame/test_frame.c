@@ -40,7 +40,7 @@ TEST(a_stage_may_have_reasons_of_its_own)
     frame_lose(&frame, "mud", "s", LOSS_MASKED, &echo);
     frame_lose(&frame, "mud", "s", LOSS_BLOCKED, &echo);
     frame_lose_own(&frame, "mud", "s", known, &echo);
-    frame_order_parts(&frame, (struct frame_parts){PART_LOST, NULL});
+    frame_order_parts(&frame, (struct frame_parts){.parts = PART_LOST});
     static const struct {
         const char *words;
         size_t echoes;

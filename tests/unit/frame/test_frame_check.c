@@ -9,7 +9,7 @@ TEST(a_frame_without_contradictions_passes)
     struct frame frame = accounted_frame(check_arena());
     frame_order(&frame);
     assert_done(frame_check, &frame);
-    assert_done(frame_check_parts, &frame, (struct frame_parts){~0U, NULL});
+    assert_done(frame_check_parts, &frame, (struct frame_parts){.parts = ~0U});
 }
 
 static void name_one_twice(struct frame *frame)
@@ -139,7 +139,8 @@ static int check_parts(void (*plant)(struct frame *frame), unsigned parts, const
     struct frame frame = accounted_frame(check_arena());
     plant(&frame);
     frame_order(&frame);
-    int result = frame_check_parts(&frame, (struct frame_parts){parts, stage}, diag);
+    int result =
+        frame_check_parts(&frame, (struct frame_parts){.parts = parts, .stage = stage}, diag);
     return result;
 }
 
@@ -185,6 +186,27 @@ TEST(members_out_of_bounds_are_refused_by_their_path)
     assert_int_equal(check_parts(report_beyond_bounds, PART_TARGETS, NULL, &diag), -1);
     assert_string_equal(diag.text, "targets[0].amplitude_db: 1e+05 is outside [-10000, 10000] dB");
     assert_int_equal(check_parts(report_beyond_bounds, PART_LOST, NULL, &diag), 0);
+}
+
+/* Items of a list may change in place, without a change of the header's own bytes. */
+TEST(a_header_is_checked_if_it_changed_or_if_it_has_lists)
+{
+    struct frame frame = accounted_frame(check_arena());
+    struct frame_header before;
+    struct frame_parts none = {.before = &before};
+    frame.time_s = (double)NAN;
+    memcpy(before.bytes, &frame, sizeof before.bytes);
+    assert_done(frame_check_parts, &frame, none);
+    frame.frame++;
+    assert_refused(DIAG_DATA, "time_s: nan is outside [-1e10, 1e10] s", frame_check_parts, &frame,
+                   none);
+    frame.time_s = 0;
+    struct roadside_strip *strip = list_add(&frame.roadside, frame.arena);
+    memcpy(before.bytes, &frame, sizeof before.bytes);
+    assert_done(frame_check_parts, &frame, none);
+    strip->width_m = -1;
+    assert_refused(DIAG_DATA, "roadside[0].width_m: -1 is outside [0, 100] m", frame_check_parts,
+                   &frame, none);
 }
 
 static void lose_by_too_much(struct frame *frame)

@@ -119,7 +119,7 @@ TEST(objects_are_found_by_id_in_order)
     *list_add(&frame.objects, check_arena()) = (struct object){.id = "c"};
     assert_string_equal(frame_order_objects(&frame)[3]->id, "c");
     frame.objects.items[4].id = "e";
-    frame_order_parts(&frame, (struct frame_parts){PART_OBJECTS, NULL});
+    frame_order_parts(&frame, (struct frame_parts){.parts = PART_OBJECTS});
     assert_string_equal(frame_order_objects(&frame)[4]->id, "e");
 }
 
@@ -200,12 +200,12 @@ TEST(other_parts_and_other_stages_losses_stay_as_they_are)
     for (int i = 0; i < 2; i++)
         *list_add(&frame.echoes, check_arena()) =
             (struct echo){.sensor = "s", .id.object = i == 0 ? "b" : "a", .id.reflector = "p"};
-    frame_order_parts(&frame, (struct frame_parts){PART_LOST, "noise"});
+    frame_order_parts(&frame, (struct frame_parts){.parts = PART_LOST, .stage = "noise"});
     assert_string_equal(frame.echoes.items[0].id.object, "b");
     assert_string_equal(frame.lost.items[0].stage, "ideal");
     assert_string_equal(frame.lost.items[0].echoes.items[0].id.object, "b");
     assert_string_equal(frame.lost.items[1].echoes.items[0].id.object, "a");
-    frame_order_parts(&frame, (struct frame_parts){PART_LOST | PART_ECHOES, NULL});
+    frame_order_parts(&frame, (struct frame_parts){.parts = PART_LOST | PART_ECHOES});
     assert_string_equal(frame.echoes.items[0].id.object, "a");
     assert_string_equal(frame.lost.items[0].echoes.items[0].id.object, "a");
 }

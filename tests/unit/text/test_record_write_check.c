@@ -125,6 +125,30 @@ TEST(a_group_is_checked_only_if_it_is_present_and_wanted)
                    IN_LATER);
 }
 
+TEST(members_of_no_group_are_checked_if_they_are_wanted)
+{
+    struct thing thing = good_thing();
+    thing.gain = 1;
+    assert_done(record_write_check, &record, &thing, IN_LATER | IN_PARTS);
+    assert_refused(DIAG_DATA, "gain: 1 is outside [0, 0.1]", record_write_check, &record, &thing,
+                   RECORD_WRITE_UNGROUPED);
+}
+
+/* A 0 of a group that is present is a value like any other. */
+TEST(a_group_that_is_present_is_not_absent_at_zero)
+{
+    struct thing thing = good_thing();
+    static const struct field bounded[] = {
+        {FIELD_REAL_IN(struct thing, later_s, 1, 2, "later"), FIELD_OPTIONAL, .group = IN_LATER},
+        {0}};
+    struct record own = record;
+    own.fields = bounded;
+    assert_done(record_write_check, &own, &thing, ~0U);
+    thing.present = IN_LATER;
+    assert_refused(DIAG_DATA, "later_s: 0 is outside [1, 2] s", record_write_check, &own, &thing,
+                   ~0U);
+}
+
 /* The bad name follows the same name that is good, and precedes another one. */
 TEST(among_items_the_bad_name_is_found)
 {
