@@ -11,6 +11,7 @@
 
 #   make release    a faster build with the same bytes, into build-release: optimised for what tests/tools/train runs,
 #                   and as a whole (gcc). `make install` takes it where it was made
+#   make static     the same with all libraries linked in, into build-static
 
 # No built-in rules: one of them would try to make a.d from a.d.o.
 MAKEFLAGS += -r
@@ -263,14 +264,15 @@ accuracy: all
 # is installed is the plain one, as its objects serve any compiler.
 counting = -fprofile-generate
 counted = -fprofile-use -fprofile-partial-training -flto=auto -Wno-missing-profile -Wno-alloc-size-larger-than
-release_make = $(MAKE) BUILD=build-release AR=gcc-ar CC=gcc
+release_make = $(MAKE) BUILD=build-$* AR=gcc-ar CC=gcc
 release_sources = $(wildcard Makefile lib/*/*.[ch] lib/*/*.def $(page)/* stages/*.[ch] stages/*/*.* stages/*/Makefile) tests/tools/train
-release: build-release/made
-build-release/made: $(release_sources)
-	rm -rf build-release
+build-static/made: LDFLAGS += -static
+release static: %: build-%/made
+build-release/made build-static/made: build-%/made: $(release_sources)
+	rm -rf build-$*
 	$(release_make) CFLAGS='$(CFLAGS) $(counting)' LDFLAGS='$(LDFLAGS) $(counting)' programs
-	tests/tools/train build-release/bin
-	find build-release ! -type d ! -name '*.gcda' -delete
+	tests/tools/train build-$*/bin
+	find build-$* ! -type d ! -name '*.gcda' -delete
 	$(release_make) CFLAGS='$(CFLAGS) $(counted)' LDFLAGS='$(LDFLAGS) $(CFLAGS) $(counted)' all
 	touch $@
 
@@ -298,7 +300,7 @@ lint: $(plugin_archives)
 	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib $(plugins:%=-iquote $(BUILD)/stages/%)' clang-tidy
 
 # Programs in Python are installed as glint-NAME: links to their files, beside which Python finds their package.
-scripts = dataset check-set export make-radar realism tracker
+scripts = demo dataset check-set export make-radar realism tracker
 script_programs = $(scripts:%=$(BUILD)/scripts/glint-%)
 package = $(wildcard scripts/glint/*.py scripts/glint/*/*.py)
 $(script_programs): $(BUILD)/scripts/glint-%: scripts/%
@@ -331,12 +333,12 @@ headers = $(wildcard lib/*/*.h lib/*/*.def)
 # The prefix from the folder of glint.pc, so that an installation can be moved; absolute if LIBDIR lies elsewhere.
 pc_prefix = $(if $(filter $(PREFIX)/%,$(LIBDIR)),$${pcfiledir}/../$(shell echo $(LIBDIR:$(PREFIX)/%=%) | sed 's:[^/]\{1,\}:..:g'),$(PREFIX))
 version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
-# What `make release` made, anew if a source has changed since.
-made = $(if $(wildcard build-release/made),build-release,$(BUILD))
+# The build that programs are installed from: what `make release` made, anew if a source has changed since, or else this one.
+from = $(if $(wildcard build-release/made),build-release,$(BUILD))
 install: all man $(wildcard build-release/made)
 	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin share/man/man1) $(share) $(DESTDIR)$(LIBDIR)/pkgconfig
-	$(call install_as_one,$(plain_programs:$(BUILD)/%=$(made)/%))
-	$(call install_as_one,$(full_programs:$(BUILD)/%=$(made)/%))
+	$(call install_as_one,$(plain_programs:$(BUILD)/%=$(from)/%))
+	$(call install_as_one,$(full_programs:$(BUILD)/%=$(from)/%))
 	install -m 644 $(BUILD)/libglint.a $(DESTDIR)$(LIBDIR)
 	strip -g $(DESTDIR)$(LIBDIR)/libglint.a
 	sed 's/@version@/$(version)/; s/@zstd@/$(zstd_libs)/; s:@prefix@:$(pc_prefix):' stages/glint.pc >$(DESTDIR)$(LIBDIR)/pkgconfig/glint.pc
@@ -344,10 +346,10 @@ install: all man $(wildcard build-release/made)
 	    install -D -m 644 lib/$$header $(DESTDIR)$(PREFIX)/include/glint/$$header || exit 1; done
 	$(Q)for page in $(BUILD)/man/*.1; do \
 	    [ ! -e $$page ] || install -m 644 $$page $(DESTDIR)$(PREFIX)/share/man/man1; done
-	cp -R data/* pipelines schemas stages/plugin.mk $(share)
-	ln -sfn . $(share)/data
+	cp -R data pipelines schemas stages/plugin.mk $(share)
 	install -d $(share)/scripts
 	install -m 755 $(addprefix scripts/,$(scripts)) $(share)/scripts
+	install -D -m 644 scripts/support/help.sh $(share)/scripts/support/help.sh
 	install -m 644 scripts/README.md $(share)/scripts
 	$(Q)for module in $(package); do \
 	    install -D -m 644 $$module $(share)/$$module || exit 1; done
@@ -355,8 +357,7 @@ install: all man $(wildcard build-release/made)
 	    ln -sfn ../share/glint/scripts/$$name $(bin)/glint-$$name || exit 1; done
 	$(Q)for page in $(doc_pages); do \
 	    install -D -m 644 $$page $(doc)/$$page || exit 1; done
-	ln -sfn ../../glint $(doc)/data
-	ln -sfn ../../glint/pipelines ../../glint/schemas ../../glint/scripts $(doc)
+	ln -sfn $(addprefix ../../glint/,data pipelines schemas scripts) $(doc)
 	install -d $(doc)/build
 	ln -sfn ../../../../bin $(doc)/build/bin
 	install -m 644 stages/noise_none.c $(doc)/stages
@@ -378,7 +379,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all programs release printed unit hard soundness fuzz test check bench accuracy schemas format lint man install uninstall clean FORCE
+.PHONY: all programs release static printed unit hard soundness fuzz test check bench accuracy schemas format lint man install uninstall clean FORCE
 .PRECIOUS: $(BUILD)/tests/%.o
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)

@@ -27,7 +27,7 @@ int data_folder_list(const char *own, const char *kind, struct data_folders *fol
                      struct arena *arena, struct diag *diag)
 {
     const char *given = getenv("GLINT_DATA"), *beside = data_folder_of_program(arena);
-    const char *checkout = strcmp(kind, "pipelines") == 0 ? "../../" : "../../data/";
+    const char *inner = strcmp(kind, "pipelines") == 0 ? "" : "data/";
     *folders = (struct data_folders){0};
     if (own != NULL)
         folders->paths[folders->count++] = arena_format(arena, "%s/", own);
@@ -38,8 +38,8 @@ int data_folder_list(const char *own, const char *kind, struct data_folders *fol
     }
     if (*beside != '\0') {
         folders->paths[folders->count++] =
-            arena_format(arena, "%s../share/glint/%s/", beside, kind);
-        folders->paths[folders->count++] = arena_format(arena, "%s%s%s/", beside, checkout, kind);
+            arena_format(arena, "%s../share/glint/%s%s/", beside, inner, kind);
+        folders->paths[folders->count++] = arena_format(arena, "%s../../%s%s/", beside, inner, kind);
     }
     folders->paths[folders->count++] = arena_format(arena, "data/%s/", kind);
     return 0;

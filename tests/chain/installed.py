@@ -19,7 +19,7 @@ import tempfile
 PREFIX, BUILT = (os.path.abspath(folder) for folder in sys.argv[1:3])
 DOCUMENTS = os.path.join(PREFIX, "share/doc/glint")  # has the layout of the source tree
 PROGRAMS = os.path.join(PREFIX, "bin")
-SCRIPTS = ["glint-" + name for name in ("dataset", "check-set", "export", "make-radar", "realism", "tracker")]
+SCRIPTS = ["glint-" + name for name in ("demo", "dataset", "check-set", "export", "make-radar", "realism", "tracker")]
 MOST_BYTES = 4_000_000
 STRICT = "-std=c11 -D_XOPEN_SOURCE=700 -O2 -Wall -Wextra -Werror"
 ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C",
@@ -133,7 +133,7 @@ def build_plugins(folder):
         made = sorted(name for name in os.listdir(os.path.join(folder, plugin)) if name.startswith("glint-"))
         assert made == sorted(programs), f"{plugin} makes {made}"
         for program, words in programs.items():
-            at = f"GLINT_DATA={PREFIX}/share/glint"
+            at = f"GLINT_DATA={PREFIX}/share/glint/data"
             run(f"{at} {plugin}/{program} {words} >outside && {BUILT}/{program} {words} >inside", folder)
             assert os.path.getsize(os.path.join(folder, "inside")) > 1000, f"{program} {words} writes little"
             run("cmp outside inside", folder)
@@ -214,7 +214,7 @@ def check_names():
 def check_scripts(folder):
     """Users' programs do their work without the pages, from any folder: vehicles are found by the words of sets, a set is made,
     checked, exported and tracked, a data sheet becomes a radar, and Python imports glint as stages/README.md says."""
-    data = os.path.join(PREFIX, "share/glint")
+    data = os.path.join(PREFIX, "share/glint/data")
     for word, of_set in ("paper", "vehicles"), ("detailed", "detailed/vehicles"), ("surfaces", "surfaces/vehicles"):
         run(f"glint-traffic cut-in | glint-extract --vehicles {word} >word && "
             f"glint-traffic cut-in | glint-extract --vehicles {data}/{of_set} | cmp - word", folder)
@@ -229,7 +229,7 @@ def check_scripts(folder):
     code = "import glint; print(sum(len(one['targets']) for one in glint.frames('list.jsonl.gz')))"
     with_path = "PYTHONPATH=$(pkg-config --variable=datadir glint)/scripts"
     assert int(run(f'{with_path} python3 -B -c "{code}"', folder)) > 0
-    assert "m/s" in run(f"python3 -B {data}/pipelines/live.py", folder)
+    assert "m/s" in run(f"python3 -B {PREFIX}/share/glint/pipelines/live.py", folder)
     refusal = run("glint-export kitti --out kitti seen.jsonl", folder, expected=73)
     assert refusal.startswith("glint-export: --out 'kitti': is there already"), refusal
     if shutil.which("gnuplot"):

@@ -74,14 +74,19 @@ def number_of_job(printed):
     return found[1]
 
 
+def write_script(path, work, name, **words):
+    """Writes a script of the shell: the text `name` of data/sets/ with these words in their places."""
+    write_whole(path, work, "#!/bin/sh\n" + text_of(name).format(**words))
+
+
 def submit(parts, folder, plan_folder):
     """Submits what is missing, as few arrays as may be, and the check that depends on all of them."""
     place, work = place_of(folder), os.path.join(os.path.abspath(folder), WORK)
     make_folder(place)
     quoted = shlex.quote(os.path.abspath(folder))
-    write_whole(f"{place}/part.sh", work, text_of("slurm-batch.txt").format(folder=quoted))
+    write_script(f"{place}/part.sh", work, "slurm-batch.txt", folder=quoted)
     program, plan_folder = (shlex.quote(os.path.abspath(path)) for path in (sys.argv[0], plan_folder))
-    write_whole(f"{place}/check.sh", work, text_of("slurm-check.txt").format(folder=quoted, program=program, plan_folder=plan_folder))
+    write_script(f"{place}/check.sh", work, "slurm-check.txt", folder=quoted, program=program, plan_folder=plan_folder)
     ids = [number_of_job(ask(array_words(folder, first, tasks))) for first, tasks in arrays(parts, most_tasks())]
     check = number_of_job(ask(["sbatch", "--parsable", f"--dependency=afterany:{':'.join(ids)}",
                                f"--output={place}/check.out", f"{place}/check.sh"]))

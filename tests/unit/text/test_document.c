@@ -78,7 +78,7 @@ TEST_OF(scratch, for_an_unknown_name_the_message_lists_the_places)
         snprintf(begin, sizeof begin, "there is no sensors/nowhere.csv; looked in %s/sensors/, /",
                  scratch->directory);
     assert_memory_equal(diag.text, begin, (size_t)length);
-    assert_non_null(strstr(diag.text, "../share/glint/sensors/, /"));
+    assert_non_null(strstr(diag.text, "../share/glint/data/sensors/, /"));
     assert_non_null(strstr(diag.text, "../../data/sensors/, data/sensors/"));
     assert_int_equal(diag.code, DIAG_CONFIG);
 }
