@@ -39,7 +39,8 @@ int data_folder_list(const char *own, const char *kind, struct data_folders *fol
     if (*beside != '\0') {
         folders->paths[folders->count++] =
             arena_format(arena, "%s../share/glint/%s%s/", beside, inner, kind);
-        folders->paths[folders->count++] = arena_format(arena, "%s../../%s%s/", beside, inner, kind);
+        folders->paths[folders->count++] =
+            arena_format(arena, "%s../../%s%s/", beside, inner, kind);
     }
     folders->paths[folders->count++] = arena_format(arena, "data/%s/", kind);
     return 0;

@@ -1,8 +1,8 @@
 /* Folders of data, where documents are looked up by name.
  *
- * These are $GLINT_DATA, then ../share/glint/data and ../../data beside the executable, then ./data.
- * Each has a folder for every kind of documents, as data/vehicles. A GLINT_DATA that is no folder
- * is refused (DIAG_CONFIG). */
+ * These are $GLINT_DATA, then ../share/glint/data and ../../data beside the executable, then
+ * ./data. Each has a folder for every kind of documents, as data/vehicles. A GLINT_DATA that is no
+ * folder is refused (DIAG_CONFIG). */
 #pragma once
 
 #include "base/arena.h"
@@ -23,7 +23,7 @@ struct data_folders {
 };
 
 /* own is a folder of the user that is searched first and holds documents of this kind alone, or
- * NULL. The folder of shipped pipelines lies beside data/, not in it. The folders need not be there.
- * 0, or -1 after a message. */
+ * NULL. The folder of shipped pipelines lies beside data/, not in it. The folders need not be
+ * there. 0, or -1 after a message. */
 int data_folder_list(const char *own, const char *kind, struct data_folders *folders,
                      struct arena *arena, struct diag *diag);
