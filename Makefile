@@ -328,7 +328,7 @@ install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
         ln -f $(bin)/$(notdir $(firstword $(1))) $(bin)/$$name || exit 1; done
 # What a stage outside this tree is built from: headers, the library, the rules of plug-ins, and how to ask for them.
 # Sources of plug-ins lie beside the pages as examples.
-plugin_sources = $(foreach p,$(all_plugins),$(wildcard $(addprefix stages/$(p)/,Makefile *.[ch] *.def *.proto *.json)))
+plugin_sources = $(foreach p,$(all_plugins),$(wildcard $(addprefix stages/$(p)/,Makefile *.[ch] *.def *.proto *.json *.msg)))
 headers = $(wildcard lib/*/*.h lib/*/*.def)
 # The prefix from the folder of glint.pc, so that an installation can be moved; absolute if LIBDIR lies elsewhere.
 pc_prefix = $(if $(filter $(PREFIX)/%,$(LIBDIR)),$${pcfiledir}/../$(shell echo $(LIBDIR:$(PREFIX)/%=%) | sed 's:[^/]\{1,\}:..:g'),$(PREFIX))

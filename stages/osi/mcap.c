@@ -1,20 +1,26 @@
-/* MCAP: one indexed file with what viewers draw, the frames themselves, and messages of OSI. */
+/* MCAP: one indexed file for viewers, with the frames themselves and messages of OSI, or for ROS 2.
+ */
 #include "export/record_schema.h"
 #include "foxglove.h"
 #include "frame/frame_text.h"
 #include "mcap_file.h"
+#include "osi_trace.h"
+#include "ros.h"
 #include "run/stage.h"
 
 #include <protobuf-c/protobuf-c.h>
 
 struct mcap_stage {
-    struct osi_trace trace; /* first: its option is the stage's */
+    struct trace trace; /* first: its option is the stage's */
+    bool ros2;
     struct mcap_file file;
+    size_t shared; /* channels that are of no sensor */
     struct intern sensors;
     struct text message;
 };
 
-enum { OSI = 1, FRAMES, SCENE, SENSORS }; /* channels; SENSORS is that of the first sensor */
+enum { OSI = 1, FRAMES, SCENE };      /* channels of a file for viewers, before those of sensors */
+enum { TRANSFORMS = 1, ROS_OBJECTS }; /* channels of a file for ROS 2 */
 
 /* The interface of OSI as a FileDescriptorSet (Makefile). */
 extern const char osi_trace_descriptors[];
@@ -39,20 +45,32 @@ static const char *const of_file[] = {"version",
 static const char *const of_osi[] = {"net.asam.osi.trace.channel.osi_version", VERSION,
                                      "net.asam.osi.trace.channel.protobuf_version",
                                      PROTOBUF_C_VERSION, NULL};
+/* rosbag2 plays topics with its default quality of service. */
+static const char *const of_ros[] = {"offered_qos_profiles", "", NULL};
 
-static uint16_t add_json(struct mcap_file *file, const char *topic, const char *name,
-                         const char *schema)
+/* ---- channels ---- */
+
+static void add_json(struct mcap_file *file, const char *topic, const char *name,
+                     const char *schema)
 {
-    return mcap_file_add_channel(
+    mcap_file_add_channel(
         file, topic,
         &(struct mcap_schema){name, "jsonschema", "json", schema, strlen(schema), none});
 }
 
-static int mcap_start(void *state, struct runner *runner)
+static void add_ros(struct mcap_file *file, const char *topic, const char *name,
+                    const char *definition)
 {
-    struct mcap_stage *own = state;
-    own->trace.arena = own->file.arena = runner_arena(runner);
-    mcap_file_begin(&own->file, "net.asam.osi.trace", of_file);
+    mcap_file_add_channel(
+        file, topic,
+        &(struct mcap_schema){name, "ros2msg", "cdr", definition, strlen(definition), of_ros});
+}
+
+static void begin_views(struct mcap_stage *own)
+{
+    own->trace.end_s = OSI_TRACE_END_S;
+    mcap_file_begin(&own->file, "");
+    mcap_file_add_metadata(&own->file, "net.asam.osi.trace", of_file);
     mcap_file_add_channel(&own->file, "/osi/SensorData",
                           &(struct mcap_schema){"osi3.SensorData", "protobuf", "protobuf",
                                                 osi_trace_descriptors, osi_trace_size, of_osi});
@@ -61,11 +79,55 @@ static int mcap_start(void *state, struct runner *runner)
     add_json(&own->file, "/frames", "glint.frame", own->message.bytes);
     add_json(&own->file, "/scene", "foxglove.SceneUpdate", foxglove_scene_schema);
     own->message.length = 0;
+}
+
+static void begin_ros(struct mcap_stage *own)
+{
+    own->trace.begin_s = ROS_BEGIN_S;
+    own->trace.end_s = ROS_END_S;
+    mcap_file_begin(&own->file, "ros2");
+    add_ros(&own->file, "/tf", "tf2_msgs/msg/TFMessage", ros_transforms);
+    add_ros(&own->file, "/objects", "visualization_msgs/msg/MarkerArray", ros_markers);
+}
+
+static int mcap_start(void *state, struct runner *runner)
+{
+    struct mcap_stage *own = state;
+    own->trace.arena = own->file.arena = runner_arena(runner);
+    if (own->ros2)
+        begin_ros(own);
+    else
+        begin_views(own);
+    own->shared = own->file.channels.count;
     return !runner_output_is_terminal(runner)
                ? 0
                : diag_fail(runner_diag(runner), DIAG_USAGE,
                            "standard output is a terminal; write the file: -o FILE");
 }
+
+/* The channel of a sensor, which is added for its first scan; 0 after a message. */
+static uint16_t channel_of(struct mcap_stage *own, const char *sensor, struct diag *diag)
+{
+    size_t channel = own->shared + 1 + intern_word(&own->sensors, sensor, own->trace.arena);
+    const char *topic = arena_format(own->trace.frame->arena, "/radar/%s", sensor);
+    if (channel <= own->file.channels.count)
+        return (uint16_t)channel;
+    if (channel > UINT16_MAX)
+        diag_fail(diag, DIAG_DATA, "sensors: MCAP has room for %d channels", UINT16_MAX);
+    else if (!own->ros2)
+        add_json(&own->file, topic, "foxglove.PointCloud", foxglove_points_schema);
+    else if (ros_takes_name(sensor))
+        add_ros(&own->file, topic, "sensor_msgs/msg/PointCloud2", ros_point_cloud);
+    else
+        diag_fail(
+            diag, DIAG_DATA,
+            "sensors: \"%s\" is no name in ROS 2; expected at most 200 letters, digits and _, "
+            "no digit first",
+            sensor);
+    return channel == own->file.channels.count ? (uint16_t)channel : 0;
+}
+
+/* ---- messages ---- */
 
 static void add_message(struct mcap_stage *own, uint16_t channel)
 {
@@ -73,18 +135,45 @@ static void add_message(struct mcap_stage *own, uint16_t channel)
     own->message.length = 0;
 }
 
-/* Adds the points of a scan, and the channel of its sensor if it is the first. */
-static int add_points(struct mcap_stage *own, const struct frame *frame,
-                      const struct sensor_view *sensor, struct diag *diag)
+static int add_views(struct mcap_stage *own, struct diag *diag)
 {
-    uint32_t channel = SENSORS + intern_word(&own->sensors, sensor->name, own->trace.arena);
-    if (channel > UINT16_MAX)
-        return diag_fail(diag, DIAG_DATA, "sensors: MCAP has room for %d channels", UINT16_MAX);
-    if (channel > own->file.channels.count)
-        add_json(&own->file, arena_format(frame->arena, "/radar/%s", sensor->name),
-                 "foxglove.PointCloud", foxglove_points_schema);
-    foxglove_add_points(&own->trace, frame, sensor, &own->message);
-    add_message(own, (uint16_t)channel);
+    osi_trace_add(&own->trace, &own->message);
+    add_message(own, OSI);
+    if (frame_text_write(own->trace.frame, &own->message, diag) != 0)
+        return -1;
+    own->message.length--; /* the newline */
+    add_message(own, FRAMES);
+    foxglove_add_scene(&own->trace, &own->message);
+    add_message(own, SCENE);
+    return 0;
+}
+
+/* Scans may be older than the first frame. */
+static void add_ros_scene(struct mcap_stage *own)
+{
+    double age_s = trace_age_s(own->trace.frame);
+    double time_s = own->trace.frame->time_s + own->trace.shift_s;
+    bool first = own->file.messages == 0;
+    if (first && age_s > 0 && age_s <= time_s) {
+        ros_add_transforms(&own->trace, age_s, &own->message);
+        add_message(own, TRANSFORMS);
+    }
+    ros_add_transforms(&own->trace, 0, &own->message);
+    add_message(own, TRANSFORMS);
+    ros_add_boxes(&own->trace, &own->message);
+    add_message(own, ROS_OBJECTS);
+}
+
+static int add_scan(struct mcap_stage *own, const struct sensor_view *sensor, struct diag *diag)
+{
+    uint16_t channel = channel_of(own, sensor->name, diag);
+    if (channel == 0)
+        return -1;
+    if (own->ros2)
+        ros_add_points(&own->trace, sensor, &own->message);
+    else
+        foxglove_add_points(&own->trace, sensor, &own->message);
+    add_message(own, channel);
     return 0;
 }
 
@@ -99,19 +188,15 @@ static int mcap_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct mcap_stage *own = state;
     struct diag *diag = runner_diag(runner);
-    if (osi_trace_take(&own->trace, frame, diag) != 0 ||
-        osi_trace_add(&own->trace, frame, &own->message, diag) != 0)
+    if (trace_take(&own->trace, frame, diag) != 0)
         return -1;
-    add_message(own, OSI);
-    if (frame_text_write(frame, &own->message, diag) != 0)
+    if (own->ros2)
+        add_ros_scene(own);
+    else if (add_views(own, diag) != 0)
         return -1;
-    own->message.length--; /* the newline */
-    add_message(own, FRAMES);
-    foxglove_add_scene(&own->trace, frame, &own->message);
-    add_message(own, SCENE);
     for (size_t i = 0; i < frame->sensors.list.count; i++)
         if (frame->sensors.list.items[i].measured &&
-            add_points(own, frame, &frame->sensors.list.items[i], diag) != 0)
+            add_scan(own, &frame->sensors.list.items[i], diag) != 0)
             return -1;
     return send(own, runner);
 }
@@ -130,7 +215,12 @@ static void mcap_release(void *state)
     text_free(&own->message);
 }
 
-static const struct field mcap_fields[] = {OSI_TRACE_OPTION, {0}};
+static const struct field mcap_fields[] = {
+    TRACE_OPTION,
+    {OPTIONAL_FLAG(struct mcap_stage, ros2,
+                   "for ROS 2: points, transforms and boxes; times then begin at 1 s or later")},
+    {0},
+};
 
 const struct stage stage_mcap = {
     .name = "mcap",
@@ -138,8 +228,10 @@ const struct stage stage_mcap = {
     .details =
         "Viewers draw the targets of each sensor (/radar/SENSOR) and the boxes of objects with "
         "their ids and classes (/scene). /frames has the frames as JSON with all labels, "
-        "/osi/SensorData the messages that glint-osi writes. data/exports/README.md describes the "
-        "file. It holds one scene; frames need --sections quality.",
+        "/osi/SensorData the messages that glint-osi writes. With --ros2 the file is a bag of "
+        "ROS 2: a PointCloud2 of each sensor (/radar/SENSOR), /tf, and a MarkerArray of the "
+        "objects (/objects). data/exports/README.md describes both. A file holds one scene; "
+        "frames need --sections quality.",
     .options = STAGE_OPTIONS(struct mcap_stage, mcap_fields),
     .sink = true,
     .reads = PART_OBJECTS | PART_SENSORS | PART_TARGETS,

@@ -62,15 +62,20 @@ static uint32_t crc_of(uint32_t crc, const char *bytes, size_t length)
     return (uint32_t)crc32_z(crc, (const unsigned char *)bytes, length);
 }
 
-void mcap_file_begin(struct mcap_file *mcap, const char *name, const char *const *pairs)
+void mcap_file_begin(struct mcap_file *mcap, const char *profile)
 {
-    struct text map = map_of(pairs), *out = &mcap->out;
-    text_add(out, magic, sizeof magic - 1);
-    RECORD(out, HEADER, WORD(""), WORD("glint"));
-    uint64_t begin = out->length;
-    RECORD(out, METADATA, WORD(name), TEXT(4, map));
-    RECORD(&mcap->groups[MCAP_METADATA], METADATA_INDEX, U64(begin), U64(out->length - begin),
+    text_add(&mcap->out, magic, sizeof magic - 1);
+    RECORD(&mcap->out, HEADER, WORD(profile), WORD("glint"));
+}
+
+void mcap_file_add_metadata(struct mcap_file *mcap, const char *name, const char *const *pairs)
+{
+    struct text map = map_of(pairs);
+    uint64_t begin = place(mcap);
+    RECORD(&mcap->out, METADATA, WORD(name), TEXT(4, map));
+    RECORD(&mcap->groups[MCAP_METADATA], METADATA_INDEX, U64(begin), U64(place(mcap) - begin),
            WORD(name));
+    mcap->metadata++;
     text_free(&map);
 }
 
@@ -151,7 +156,7 @@ static void add_statistics(struct mcap_file *mcap)
     for (size_t i = 0; i < channels; i++)
         ADD(&counts, U16(i + 1), U64(mcap->channels.items[i].messages));
     RECORD(&mcap->groups[MCAP_STATISTICS], STATISTICS, U64(mcap->messages), U16(channels),
-           U32(channels), U32(0), U32(1), U32(mcap->chunks), U64(mcap->begin_ns),
+           U32(channels), U32(0), U32(mcap->metadata), U32(mcap->chunks), U64(mcap->begin_ns),
            U64(mcap->last_ns), TEXT(4, counts));
     text_free(&counts);
 }

@@ -37,15 +37,18 @@ struct mcap_file {
     uint64_t sent; /* bytes of the file before out */
     uint32_t crc;  /* of those bytes */
     struct text groups[MCAP_GROUPS];
-    uint32_t chunks;
+    uint32_t metadata, chunks;
     LIST_OF(struct mcap_channel) channels; /* by id, from 1 on */
     struct text chunk;                     /* records of the open chunk */
     uint64_t begin_ns, first_ns, last_ns;  /* first message of file and chunk; latest message */
     uint64_t messages;
 };
 
-/* Begins a file with metadata, pairs as in a schema. */
-void mcap_file_begin(struct mcap_file *mcap, const char *name, const char *const *pairs);
+/* Begins a file of a profile, which may be "". */
+void mcap_file_begin(struct mcap_file *mcap, const char *profile);
+
+/* Adds metadata, pairs as in a schema. */
+void mcap_file_add_metadata(struct mcap_file *mcap, const char *name, const char *const *pairs);
 
 /* Returns the id of a new channel, which must not exceed 65,535. */
 uint16_t mcap_file_add_channel(struct mcap_file *mcap, const char *topic,

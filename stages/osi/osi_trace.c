@@ -1,81 +1,9 @@
 #include "osi_trace.h"
 #include "base/elementary.h"
 #include "base/number.h"
-#include "frame/frame_order.h"
 #include "osi_trace.pb-c.h"
 
-static const uint64_t second_ns = 1000000000;
-
 static const double no_object = 0x1p64; /* in OSI the greatest number */
-
-/* ---- frames that a trace takes ---- */
-
-uint64_t osi_trace_ns(const struct osi_trace *trace, double time_s)
-{
-    double shifted_s = time_s + trace->shift_s, whole_s = floor(shifted_s);
-    return (uint64_t)whole_s * second_ns + (uint64_t)round((shifted_s - whole_s) * 1e9);
-}
-
-/* The age of the oldest scan: where the first frame is at 0 s, it was made that long before 0. */
-static double first_shift_s(const struct frame *frame)
-{
-    double age_s = 0;
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        age_s = elementary_max(age_s, frame->sensors.list.items[i].age_s);
-    return frame->time_s >= 0 && frame->time_s < age_s ? age_s : 0;
-}
-
-static int check_times(struct osi_trace *trace, const struct frame *frame, bool first,
-                       struct diag *diag)
-{
-    double last_s = frame->time_s + trace->shift_s, first_s = last_s;
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (frame->sensors.list.items[i].measured)
-            first_s = elementary_min(first_s, last_s - frame->sensors.list.items[i].age_s);
-    if (first_s < 0 || last_s > 1e10)
-        return diag_fail(diag, DIAG_DATA,
-                         "time_s: a measurement at %.12g s; expected one in [0, 1e10] s: "
-                         "--shift-s is added to all times",
-                         first_s);
-    uint64_t before_ns = trace->time_ns;
-    trace->time_ns = osi_trace_ns(trace, frame->time_s);
-    if (!first && trace->time_ns <= before_ns)
-        return diag_fail(diag, DIAG_DATA, "time_s: %.12g after %.12g; expected ascending times",
-                         last_s, (double)before_ns / 1e9);
-    return 0;
-}
-
-static int check_objects(const struct frame *frame, struct diag *diag)
-{
-    for (size_t i = 0; i < frame->objects.count; i++) {
-        const struct object *object = &frame->objects.items[i];
-        if (object->length_m == 0 || object->width_m == 0 || object->height_m == 0)
-            return diag_fail(diag, DIAG_DATA,
-                             "objects: \"%s\" has no length, width or height; expected "
-                             "glint-extract before this one",
-                             object->id);
-    }
-    return 0;
-}
-
-int osi_trace_take(struct osi_trace *trace, struct frame *frame, struct diag *diag)
-{
-    bool first = trace->scene == NULL;
-    if (first && isinf(trace->shift_s))
-        trace->shift_s = first_shift_s(frame);
-    if (first) {
-        trace->scene = arena_text(trace->arena, frame->scene, strlen(frame->scene));
-        trace->seed = frame->seed;
-    }
-    if (strcmp(trace->scene, frame->scene) != 0 || trace->seed != frame->seed)
-        return diag_fail(diag, DIAG_DATA,
-                         "scene: \"%s\" after \"%s\"; expected one scene of one seed", frame->scene,
-                         trace->scene);
-    frame_order_objects(frame);
-    return check_times(trace, frame, first, diag) != 0 ? -1 : check_objects(frame, diag);
-}
-
-/* ---- messages ---- */
 
 #define SET(message, member, value) ((message)->has_##member = 1, (message)->member = (value))
 #define NEW(trace, message) new_message(trace, &osi3__##message##__descriptor)
@@ -85,7 +13,7 @@ int osi_trace_take(struct osi_trace *trace, struct frame *frame, struct diag *di
     numbers(trace, &osi3__##message##__descriptor, (const double[]){__VA_ARGS__},                  \
             sizeof((double[]){__VA_ARGS__}) / sizeof(double))
 
-static void *new_message(struct osi_trace *trace, const ProtobufCMessageDescriptor *descriptor)
+static void *new_message(struct trace *trace, const ProtobufCMessageDescriptor *descriptor)
 {
     void *message = arena_get(trace->frame->arena, descriptor->sizeof_message);
     protobuf_c_message_init(descriptor, message);
@@ -93,7 +21,7 @@ static void *new_message(struct osi_trace *trace, const ProtobufCMessageDescript
 }
 
 /* A message with these values of its first fields, which are numbers. */
-static void *numbers(struct osi_trace *trace, const ProtobufCMessageDescriptor *descriptor,
+static void *numbers(struct trace *trace, const ProtobufCMessageDescriptor *descriptor,
                      const double *values, size_t count)
 {
     char *message = new_message(trace, descriptor);
@@ -111,31 +39,31 @@ static void *numbers(struct osi_trace *trace, const ProtobufCMessageDescriptor *
     return message;
 }
 
-static Osi3__InterfaceVersion *version(struct osi_trace *trace)
+static Osi3__InterfaceVersion *version(struct trace *trace)
 {
     return NUMBERS(trace, interface_version, 3, 8, 0);
 }
 
-static Osi3__Timestamp *stamp(struct osi_trace *trace, double time_s)
+static Osi3__Timestamp *stamp(struct trace *trace, double time_s)
 {
-    uint64_t time_ns = osi_trace_ns(trace, time_s), whole_s = time_ns / second_ns;
-    return NUMBERS(trace, timestamp, (double)whole_s, (double)(time_ns % second_ns));
+    uint64_t time_ns = trace_ns(trace, time_s), whole_s = time_ns / TRACE_SECOND_NS;
+    return NUMBERS(trace, timestamp, (double)whole_s, (double)(time_ns % TRACE_SECOND_NS));
 }
 
-static Osi3__Identifier *object_id(struct osi_trace *trace, const char *id)
+static Osi3__Identifier *object_id(struct trace *trace, const char *id)
 {
     enum { MOST_DIGITS = 15 };
-    uint32_t place = intern_word(&trace->objects, id, trace->arena);
+    uint64_t named = OSI_TRACE_NAMED + trace_object(trace, id) - 1;
     size_t digits = strspn(id, "0123456789");
     bool zeros = id[0] == '0' && digits > 1;
-    double number = (double)(OSI_TRACE_NAMED + place);
+    double number = (double)named;
     if (id[digits] == '\0' && digits <= MOST_DIGITS && !zeros)
         number_read(id, id + digits, &number);
     return NUMBERS(trace, identifier, number);
 }
 
 /* The height of a mount is not known. */
-static Osi3__MountingPosition *mounting(struct osi_trace *trace, double x, double y, double yaw)
+static Osi3__MountingPosition *mounting(struct trace *trace, double x, double y, double yaw)
 {
     Osi3__MountingPosition *mounting = NEW(trace, mounting_position);
     mounting->position = NUMBERS(trace, vector3d, x, y);
@@ -170,7 +98,7 @@ static struct type type_of(const struct object *object)
 }
 
 /* The id and the class as texts, for which OSI has no other field. */
-static Osi3__ExternalReference *source(struct osi_trace *trace, const struct object *object)
+static Osi3__ExternalReference *source(struct trace *trace, const struct object *object)
 {
     Osi3__ExternalReference *source = NEW(trace, external_reference);
     source->type = (char *)"glint.object";
@@ -182,7 +110,7 @@ static Osi3__ExternalReference *source(struct osi_trace *trace, const struct obj
 }
 
 /* The box stands on the plane z = 0. */
-static Osi3__Base *body(struct osi_trace *trace, const struct object *object)
+static Osi3__Base *body(struct trace *trace, const struct object *object)
 {
     const struct frame *frame = trace->frame;
     Osi3__Base *base = NEW(trace, base);
@@ -194,7 +122,7 @@ static Osi3__Base *body(struct osi_trace *trace, const struct object *object)
     return base;
 }
 
-static void add_stationary(struct osi_trace *trace, const struct object *object, int32_t type,
+static void add_stationary(struct trace *trace, const struct object *object, int32_t type,
                            Osi3__GroundTruth *truth)
 {
     Osi3__StationaryObject *own = NEW(trace, stationary_object);
@@ -206,7 +134,7 @@ static void add_stationary(struct osi_trace *trace, const struct object *object,
     truth->stationary_object[truth->n_stationary_object++] = own;
 }
 
-static void add_moving(struct osi_trace *trace, const struct object *object, struct type type,
+static void add_moving(struct trace *trace, const struct object *object, struct type type,
                        Osi3__GroundTruth *truth)
 {
     Osi3__MovingObject *own = NEW(trace, moving_object);
@@ -228,7 +156,7 @@ static void add_moving(struct osi_trace *trace, const struct object *object, str
     truth->moving_object[truth->n_moving_object++] = own;
 }
 
-static Osi3__GroundTruth *ground_truth(struct osi_trace *trace)
+static Osi3__GroundTruth *ground_truth(struct trace *trace)
 {
     const struct frame *frame = trace->frame;
     Osi3__GroundTruth *truth = NEW(trace, ground_truth);
@@ -248,7 +176,7 @@ static Osi3__GroundTruth *ground_truth(struct osi_trace *trace)
 }
 
 /* The view of all sensors together, whose frame is that of the vehicle. */
-static Osi3__SensorView *sensor_view(struct osi_trace *trace)
+static Osi3__SensorView *sensor_view(struct trace *trace)
 {
     Osi3__SensorView *view = NEW(trace, sensor_view);
     view->global_ground_truth = ground_truth(trace);
@@ -276,7 +204,7 @@ static Osi3__DetectionClassification class_of(const struct contributor *from)
 
 /* The radial velocity of OSI is positive towards the sensor. A range rate that may be folded has an
  * ambiguity of its own, as its alternatives are in no list. */
-static Osi3__RadarDetection *detection_of(struct osi_trace *trace, const struct target *target,
+static Osi3__RadarDetection *detection_of(struct trace *trace, const struct target *target,
                                           double number)
 {
     const struct quality *quality = &target->quality;
@@ -309,7 +237,7 @@ static Osi3__RadarDetection *detection_of(struct osi_trace *trace, const struct 
 }
 
 /* A frame's line has room for fewer targets than a count of 32 bits. */
-static Osi3__RadarDetectionData *radar_of(struct osi_trace *trace, const struct sensor_view *sensor)
+static Osi3__RadarDetectionData *radar_of(struct trace *trace, const struct sensor_view *sensor)
 {
     const struct frame *frame = trace->frame;
     double axle_x_m = frame_rear_axle_x_m(frame, frame_object(frame, frame->ego));
@@ -337,7 +265,7 @@ static Osi3__RadarDetectionData *radar_of(struct osi_trace *trace, const struct 
     return own;
 }
 
-static Osi3__SensorData *sensor_data(struct osi_trace *trace)
+static Osi3__SensorData *sensor_data(struct trace *trace)
 {
     const struct frame *frame = trace->frame;
     double youngest_s = (double)INFINITY;
@@ -362,16 +290,9 @@ static Osi3__SensorData *sensor_data(struct osi_trace *trace)
     return own;
 }
 
-int osi_trace_add(struct osi_trace *trace, const struct frame *frame, struct text *text,
-                  struct diag *diag)
+void osi_trace_add(struct trace *trace, struct text *text)
 {
-    if (!frame_carries(frame, CARRY_QUALITY))
-        return diag_fail(diag, DIAG_DATA,
-                         "quality: missing; expected --sections quality at glint-noise or before, "
-                         "for OSI's errors, rcs, snr and existence");
-    trace->frame = frame;
     const Osi3__SensorData *data = sensor_data(trace);
     char *room = text_room(text, osi3__sensor_data__get_packed_size(data));
     text->length += osi3__sensor_data__pack(data, (uint8_t *)room);
-    return 0;
 }

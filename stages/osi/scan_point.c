@@ -1,0 +1,17 @@
+#include "scan_point.h"
+
+struct scan_point scan_point_of(struct trace *trace, const struct target *target)
+{
+    const struct contributor *from = frame_strongest(target);
+    struct scan_point point = {.place_m = frame_target_place(target),
+                               .path = PATH_FALSE_ALARM,
+                               .contributors = (uint32_t)target->contributors.count};
+    if ((target->present & VALUE_ELEVATION) != 0)
+        point.up_m = target->range_m * elementary_sin(target->elevation_rad);
+    if (from == NULL)
+        return point;
+    point.path = from->id.path;
+    if (frame_object_of(trace->frame, &from->id) != NULL)
+        point.object = trace_object(trace, from->id.object);
+    return point;
+}

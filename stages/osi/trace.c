@@ -1,0 +1,84 @@
+#include "trace.h"
+#include "base/elementary.h"
+#include "frame/frame_order.h"
+
+uint64_t trace_ns(const struct trace *trace, double time_s)
+{
+    double shifted_s = time_s + trace->shift_s, whole_s = floor(shifted_s);
+    return (uint64_t)whole_s * TRACE_SECOND_NS + (uint64_t)round((shifted_s - whole_s) * 1e9);
+}
+
+uint32_t trace_object(struct trace *trace, const char *id)
+{
+    return intern_word(&trace->objects, id, trace->arena) + 1;
+}
+
+double trace_age_s(const struct frame *frame)
+{
+    double age_s = 0;
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        age_s = elementary_max(age_s, frame->sensors.list.items[i].age_s);
+    return age_s;
+}
+
+/* Where the first frame is at 0 s, its oldest scan was made that long before 0. */
+static double first_shift_s(const struct trace *trace, const struct frame *frame)
+{
+    double shift_s = trace->begin_s + trace_age_s(frame);
+    return frame->time_s >= 0 && frame->time_s < shift_s ? shift_s : 0;
+}
+
+static int check_times(struct trace *trace, const struct frame *frame, bool first,
+                       struct diag *diag)
+{
+    double last_s = frame->time_s + trace->shift_s, first_s = last_s;
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (frame->sensors.list.items[i].measured)
+            first_s = elementary_min(first_s, last_s - frame->sensors.list.items[i].age_s);
+    if (first_s < 0 || last_s > trace->end_s)
+        return diag_fail(diag, DIAG_DATA,
+                         "time_s: a measurement at %.12g s; expected one in [0, %.12g] s: "
+                         "--shift-s is added to all times",
+                         first_s, trace->end_s);
+    uint64_t before_ns = trace->time_ns;
+    trace->time_ns = trace_ns(trace, frame->time_s);
+    if (!first && trace->time_ns <= before_ns)
+        return diag_fail(diag, DIAG_DATA, "time_s: %.12g after %.12g; expected ascending times",
+                         last_s, (double)before_ns / 1e9);
+    return 0;
+}
+
+static int check_objects(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        if (object->length_m == 0 || object->width_m == 0 || object->height_m == 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "objects: \"%s\" has no length, width or height; expected "
+                             "glint-extract before this one",
+                             object->id);
+    }
+    return 0;
+}
+
+int trace_take(struct trace *trace, struct frame *frame, struct diag *diag)
+{
+    bool first = trace->scene == NULL;
+    if (first && isinf(trace->shift_s))
+        trace->shift_s = first_shift_s(trace, frame);
+    if (first) {
+        trace->scene = arena_text(trace->arena, frame->scene, strlen(frame->scene));
+        trace->seed = frame->seed;
+    }
+    if (strcmp(trace->scene, frame->scene) != 0 || trace->seed != frame->seed)
+        return diag_fail(diag, DIAG_DATA,
+                         "scene: \"%s\" after \"%s\"; expected one scene of one seed", frame->scene,
+                         trace->scene);
+    if (!frame_carries(frame, CARRY_QUALITY))
+        return diag_fail(diag, DIAG_DATA,
+                         "quality: missing; expected --sections quality at glint-noise or before, "
+                         "for errors, rcs, snr and existence");
+    frame_order_objects(frame);
+    trace->frame = frame;
+    return check_times(trace, frame, first, diag) != 0 ? -1 : check_objects(frame, diag);
+}
