@@ -82,12 +82,18 @@ void csv_columns_add_cell(const struct field *field, const void *base, struct te
         text_add_word(row, FIELD_LOAD(bool, field, base) ? "true" : "false");
 }
 
-/* Is there a value to write? Flags are always there, numbers where columns are to have zeros. */
+static bool has_word(const struct field *field, const void *owner)
+{
+    return field->kind == FIELD_CHOICE && field->choices[FIELD_LOAD(int, field, owner)] != NULL;
+}
+
+/* Is there a value to write? Flags are always there, choices where they have a word, numbers where
+ * columns are to have zeros. */
 static bool has_value(const struct csv_columns *columns, const struct csv_column *column,
                       const void *owner)
 {
     enum field_kind kind = column->field->kind;
-    return !column->field->optional || kind == FIELD_FLAG ||
+    return !column->field->optional || kind == FIELD_FLAG || has_word(column->field, owner) ||
            (columns->zeros && (kind == FIELD_REAL || kind == FIELD_INTEGER)) ||
            field_present(column->record, column->field, owner);
 }

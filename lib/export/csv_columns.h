@@ -4,8 +4,8 @@
  * choices, seeds and sets, whose words stand in one cell with blanks between them. The members of
  * an embedded struct are columns as well, with its name before theirs (margins_sight_m). Lists and
  * raw members are no columns. A cell is empty where a line of JSON would lack the member
- * (record_write.h), unless zeros says otherwise; a flag is always true or false. Numbers are the
- * shortest that read back to the same double. */
+ * (record_write.h), unless zeros says otherwise; a flag is always true or false, and a choice that
+ * may be absent has its word. Numbers are the shortest that read back to the same double. */
 #pragma once
 
 #include "base/text.h"

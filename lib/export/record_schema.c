@@ -101,7 +101,7 @@ static json_t *schema_of(const struct record *record, enum record_schema_kind ki
 {
     json_t *required = json_array(), *properties = json_object();
     for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (!field->optional && kind != SCHEMA_EXTENDING)
+        if (!field->optional && field != record->inherited && kind != SCHEMA_EXTENDING)
             json_array_append_new(required, json_string(field->name));
         json_object_set_new(properties, field->name, member_schema(field, kind));
     }

@@ -27,17 +27,21 @@
 #define EXTRA(owner) FIELD_RAW_OF(owner, extra, "the user's own, passed on byte for byte")
 #define ECHO_ID(owner, member, kind_, help_)                                                       \
     FIELD_NAMED(member), .kind = (kind_), .offset = offsetof(owner, id.member), .help = (help_)
-#define ECHO_NAMES(owner)                                                                          \
-    {ECHO_ID(owner, object, FIELD_NAME, "id of the object")},                                      \
-        {ECHO_ID(owner, reflector, FIELD_NAME, "name of the reflector in its set")},               \
-        {ECHO_ID(owner, path, FIELD_CHOICE, "path of the echo's wave"), .choices = frame_paths},   \
-        {ECHO_ID(owner, mirror, FIELD_NAME, "id of the object that mirrors, on paths by a wall"),  \
-         FIELD_OPTIONAL},                                                                          \
+#define ECHO_REFLECTOR(owner)                                                                      \
+    ECHO_ID(owner, reflector, FIELD_NAME, "name of the reflector in its set")
+#define ECHO_PATH(owner)                                                                           \
+    ECHO_ID(owner, path, FIELD_CHOICE, "path of the echo's wave"), .choices = frame_paths
+#define ECHO_MIRROR(owner)                                                                         \
+    {ECHO_ID(owner, mirror, FIELD_NAME, "id of the object that mirrors, on paths by a wall"),      \
+     FIELD_OPTIONAL},                                                                              \
     {                                                                                              \
         ECHO_ID(owner, number, FIELD_INTEGER,                                                      \
                 "from 1, if there may be several that are else alike"),                            \
             .low = 0, .high = 1e9, FIELD_OPTIONAL                                                  \
     }
+#define ECHO_NAMES(owner)                                                                          \
+    {ECHO_ID(owner, object, FIELD_NAME, "id of the object")}, {ECHO_REFLECTOR(owner)},             \
+        {ECHO_PATH(owner)}, ECHO_MIRROR(owner)
 #define IDEAL_VALUES(owner)                                                                        \
     {RANGE(owner, range_m, "from the sensor to the reflector, exact")},                            \
         {AZIMUTH(owner, azimuth_rad, "from boresight, positive to the left, exact")},              \
@@ -285,7 +289,10 @@ const struct record target_record = {
     .present_offset = offsetof(struct target, present)};
 
 static const struct field lost_echo_fields[] = {
-    ECHO_NAMES(struct lost_echo),
+    {ECHO_ID(struct lost_echo, object, FIELD_NAME, "id of the object")},
+    {ECHO_REFLECTOR(struct lost_echo)},
+    {ECHO_PATH(struct lost_echo), FIELD_OPTIONAL},
+    ECHO_MIRROR(struct lost_echo),
     {OPTIONAL_REAL(struct lost_echo, range_m, 0, 1e8,
                    "of the echo, or of a reflector without one")},
     {AZIMUTH(struct lost_echo, azimuth_rad, "of the same"), FIELD_OPTIONAL},
@@ -296,7 +303,8 @@ static const struct field lost_echo_fields[] = {
 };
 
 const struct record lost_echo_record = {FIELD_TABLE(struct lost_echo, lost_echo_fields, "lost echo",
-                                                    "An echo that is part of no target.")};
+                                                    "An echo that is part of no target."),
+                                        .inherited = &lost_echo_fields[0]};
 
 static const struct field lost_group_fields[] = {
     {NAME(struct lost_group, sensor, "name in the suite")},
@@ -307,7 +315,9 @@ static const struct field lost_group_fields[] = {
     {OPTIONAL_CHOICE(struct lost_group, effect, effects_names,
                      "effect to which the reason belongs"),
      .absent = EFFECT_NONE},
-    {FIELD_LIST_OF(struct lost_group, echoes, &lost_echo_record, "by object, reflector, path")},
+    {FIELD_LIST_OF(struct lost_group, echoes, &lost_echo_record,
+                   "by object, reflector, path; absent are the object of the echo before and the "
+                   "path direct")},
     {0},
 };
 

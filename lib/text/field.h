@@ -62,7 +62,8 @@ struct field_gone {
  * A record with groups has their bits in an unsigned member at present_offset: the members of a
  * group are absent unless its bit is set. A member for which 0 is a value like any other needs a
  * group. A record with steady lists has, at document_offset, a pointer to the struct of the
- * document that it was copied from, or NULL. */
+ * document that it was copied from, or NULL. An inherited name is absent in text where the item
+ * before in the list has the same; a struct always has it. */
 struct record {
     const char *name;
     const char *help;
@@ -70,6 +71,7 @@ struct record {
     const struct field *fields;
     size_t present_offset;
     size_t document_offset;
+    const struct field *inherited; /* one of fields; NULL: none */
     const struct field_gone *gone; /* ends without a name; NULL: none */
 };
 

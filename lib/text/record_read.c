@@ -87,6 +87,17 @@ static int read_choice(struct json_scan *scan, const struct field *field, void *
     return field_add_to_set(field, base, name.text, name.length, scan->diag);
 }
 
+/* Adds an item to a list of records or names. It begins with the name that it may inherit. */
+static void *add_item(const struct field *field, void *base, struct arena *arena)
+{
+    char *item = field_list_add(field, base, arena);
+    const struct field *inherited = field->kind == FIELD_LIST ? field->record->inherited : NULL;
+    if (inherited != NULL && field_list(field, base).count > 1)
+        FIELD_STORE(const char *, inherited, item,
+                    FIELD_LOAD(const char *, inherited, item - field->record->size));
+    return item;
+}
+
 /* An item is read like a member without a name. */
 static int read_list(struct reader *reader, const struct field *field, void *base)
 {
@@ -105,7 +116,7 @@ static int read_list(struct reader *reader, const struct field *field, void *bas
         if (field->kind == FIELD_SET) {
             if (read_choice(scan, field, base, i) != 0)
                 return -1;
-        } else if (read_member(reader, &item, field_list_add(field, base, scan->arena)) != 0) {
+        } else if (read_member(reader, &item, add_item(field, base, scan->arena)) != 0) {
             return diag_prefix(scan->diag, "%s[%zu]", field->name, i);
         }
         i++;
@@ -349,7 +360,12 @@ static int read_members(struct reader *reader, const struct record *record, void
     return json_scan_take(scan, '}') ? 0 : unexpected(scan, "',' or '}'");
 }
 
-/* Reads an object into a zeroed struct. */
+static bool inherits(const struct record *record, const struct field *field, const void *base)
+{
+    return field == record->inherited && FIELD_LOAD(const char *, field, base) != NULL;
+}
+
+/* Reads an object into a struct that is zeroed, but for a name that it may inherit. */
 static int read_record(struct reader *reader, const struct record *record, void *base)
 {
     struct json_scan *scan = &reader->scan;
@@ -365,7 +381,7 @@ static int read_record(struct reader *reader, const struct record *record, void 
                 return 0;
             if (field->optional)
                 field_set_absent(field, base);
-            else if (field->group == 0)
+            else if (field->group == 0 && !inherits(record, field, base))
                 return field_refuse(field, "missing", scan->diag);
         }
     return 0;

@@ -198,7 +198,8 @@ static void make_room(struct writer *writer, size_t size)
     writer->end = text->bytes + text->room;
 }
 
-static void write_record(const struct record *record, const void *base, struct writer *writer);
+static void write_record(const struct record *record, const void *base, const struct field *told,
+                         struct writer *writer);
 
 static void write_word(const char *word, struct writer *writer)
 {
@@ -222,6 +223,17 @@ static void write_choice(const char *choice, struct writer *writer)
     *writer->at++ = '"';
 }
 
+/* Returns the name that an item inherits from the item before, or NULL. */
+static const struct field *told_before(const struct record *record, const char *item)
+{
+    const struct field *field = record->inherited;
+    if (field == NULL)
+        return NULL;
+    const char *name = FIELD_LOAD(const char *, field, item);
+    const char *before = FIELD_LOAD(const char *, field, item - record->size);
+    return name == before || strcmp(name, before) == 0 ? field : NULL;
+}
+
 static void write_list(const struct field *field, const void *base, struct writer *writer)
 {
     struct field_list list = field_list(field, base);
@@ -229,10 +241,12 @@ static void write_list(const struct field *field, const void *base, struct write
     for (size_t i = 0; i < list.count; i++) {
         if (i > 0)
             *writer->at++ = ',';
-        if (field->kind == FIELD_LIST)
-            write_record(field->record, (const char *)list.items + i * field->record->size, writer);
-        else
+        if (field->kind == FIELD_NAMES) {
             write_name(((const char *const *)list.items)[i], writer);
+            continue;
+        }
+        const char *item = (const char *)list.items + i * field->record->size;
+        write_record(field->record, item, i > 0 ? told_before(field->record, item) : NULL, writer);
     }
     *writer->at++ = ']';
 }
@@ -313,7 +327,7 @@ static void write_member(const struct record *record, const struct field *field,
         write_choice(field->choices[FIELD_LOAD(int, field, base)], writer);
         break;
     case FIELD_RECORD:
-        write_record(field->record, (const char *)base + field->offset, writer);
+        write_record(field->record, (const char *)base + field->offset, NULL, writer);
         break;
     case FIELD_LIST:
     case FIELD_NAMES:
@@ -328,11 +342,13 @@ static void write_member(const struct record *record, const struct field *field,
     }
 }
 
-static void write_record(const struct record *record, const void *base, struct writer *writer)
+/* Writes all members that are present but the one that is told already, if any. */
+static void write_record(const struct record *record, const void *base, const struct field *told,
+                         struct writer *writer)
 {
     char separator = '{';
     for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (field->optional && !field_present(record, field, base))
+        if (field == told || (field->optional && !field_present(record, field, base)))
             continue;
         make_room(writer, MEMBER_ROOM);
         memcpy(writer->at, field->key, FIELD_KEY_SIZE);
@@ -352,7 +368,7 @@ void record_write(const struct record *record, const void *base, struct list_cac
 {
     char *at = text_room(text, MEMBER_ROOM);
     struct writer writer = {text, at, text->bytes + text->room, cache};
-    write_record(record, base, &writer);
+    write_record(record, base, NULL, &writer);
     *writer.at++ = '\n';
     text->length = (size_t)(writer.at - text->bytes);
 }

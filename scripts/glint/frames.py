@@ -65,8 +65,11 @@ SENSOR = {"name": NAME, "mount_x_m": PLACE, "mount_y_m": PLACE, "mount_z_m": num
 TARGET = {"sensor": NAME, "range_m": number(0, 1e7), "azimuth_rad": number(-math.pi, math.pi),
           "range_rate_mps": number(-1e6, 1e6), "amplitude_db": SPEED, "elevation_rad": ANGLE, "quality": QUALITY,
           "contributors": [{"object": NAME, "reflector": NAME, "weight": number(0, 1)}]}
+LOST = {"echoes": (lambda value: type(value) is list and all(type(one) is dict for one in value)
+                   and all(NAME[0](one.get("object")) for one in value[:1]), "an array of objects, the first of which names its object")}
 FRAME = {"scene": NAME, "seed": SEED, "frame": WHOLE, "time_s": number(-1e10, 1e10), "ego": NAME, "origin_x_m": ORIGIN,
-         "origin_y_m": ORIGIN, "objects": [OBJECT], "sensors": {"list": [SENSOR]}, "targets": [TARGET]}
+         "origin_y_m": ORIGIN, "objects": [OBJECT], "sensors": {"list": [SENSOR]}, "targets": [TARGET],
+         "lost": [LOST]}
 OPTIONAL = {*FRAME, "age_s", "elevation_rad", "mount_z_m", "quality"}
 
 
@@ -188,6 +191,7 @@ def _parsed(file, name, needs, check):
             wrong = fault(frame, FRAME, OPTIONAL - {*needs}) or unjoined(frame) if check else fault(frame, {})
             if wrong:
                 raise BadFrame(wrong.lstrip(".: "))
+            name_lost(frame)
             frame = Frame(frame)
             frame.place = f"{name}:{number_of_line}"
             yield frame
@@ -197,6 +201,16 @@ def _parsed(file, name, needs, check):
         raise BadFrame(f"{name}:{number_of_line}: {error}{expected}") from None
     except OSError as error:
         raise OSError(error.errno, f"{name}: {error.strerror}") from None
+
+
+def name_lost(frame):
+    """Gives each lost echo its object and its path. A line leaves out the object of the echo before, and the path "direct"."""
+    for group in frame.get("lost", ()):
+        of = None
+        for echo in group["echoes"]:
+            of = echo.setdefault("object", of)
+            echo.setdefault("path", "direct")
+    return frame
 
 
 def place_of(frame):

@@ -14,7 +14,18 @@ let browser;
 function stream(pipeline) {
     const text = execFileSync('glint', [path.join(root, 'pipelines', pipeline + '.sh')],
         {maxBuffer: 1 << 28, cwd: root});
-    return text.toString().trim().split('\n').map(line => JSON.parse(line));
+    return text.toString().trim().split('\n').map(line => nameLost(JSON.parse(line)));
+}
+
+// Gives each lost echo its object and its path, which a line leaves out where they are those of the echo before, and direct.
+function nameLost(frame) {
+    for (const {echoes} of frame.lost || []) {
+        echoes.forEach((echo, i) => {
+            echo.object = echo.object || echoes[i - 1].object;
+            echo.path = echo.path || 'direct';
+        });
+    }
+    return frame;
 }
 
 function write(frames) {

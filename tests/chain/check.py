@@ -22,6 +22,8 @@ import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.append(os.path.join(ROOT, "tests", "support"))
+sys.path.append(os.path.join(ROOT, "scripts"))
+import glint  # noqa: E402
 from sizes import quick  # noqa: E402
 
 CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
@@ -138,6 +140,15 @@ def truth(bin_dir, text):
         frames[number]["targets"][0]["contributors"][0]["range_m"] += 1e-3
         done = run("glint-check --every 4", bin_dir, lines_of(frames))
         check(done.returncode == wanted, f"frame {number} of --every 4: {done.stderr.decode()}")
+
+
+def every_lost_echo_may_name_its_object_and_path(bin_dir, text):
+    """As in streams of earlier versions."""
+    full = lines_of(glint.name_lost(json.loads(line)) for line in text.splitlines())
+    check(full.count(b'"object"') > 1.5 * text.count(b'"object"'), "most lost echoes are of the object before")
+    for command in ("glint-check", "glint-summary", "glint-view -o /dev/stdout"):
+        short, told = run(command, bin_dir, text), run(command, bin_dir, full)
+        check(told.returncode == 0 and told.stdout == short.stdout, f"{command}: {told.stderr.decode()}")
 
 
 def ghosts_are_counted(bin_dir):
@@ -431,6 +442,7 @@ def main():
     text = stream_of(PLANTED, bin_dir)
     for part in (values, truth):
         part(bin_dir, text)
+    every_lost_echo_may_name_its_object_and_path(bin_dir, text)
     ghosts_are_counted(bin_dir)
     told = [flips(bin_dir, stream_of(SOUND[0][0], bin_dir)), sets(bin_dir)]
     for fault in faults[:10]:

@@ -16,6 +16,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+import glint  # noqa: E402
+
 PREFIX, BUILT = (os.path.abspath(folder) for folder in sys.argv[1:3])
 DOCUMENTS = os.path.join(PREFIX, "share/doc/glint")  # has the layout of the source tree
 PROGRAMS = os.path.join(PREFIX, "bin")
@@ -37,7 +40,7 @@ def run(command, folder="/", expected=0):
 
 
 def frames(command, folder="/"):
-    return [json.loads(line) for line in run(command, folder).splitlines()]
+    return [glint.name_lost(json.loads(line)) for line in run(command, folder).splitlines()]
 
 
 def check_programs():

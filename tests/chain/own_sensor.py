@@ -14,6 +14,9 @@ import tempfile
 
 sys.dont_write_bytecode = True
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+sys.path.append(os.path.join(ROOT, "scripts"))
+import glint  # noqa: E402
+
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"],
                    PYTHONDONTWRITEBYTECODE="1")
 FRONT = "glint-traffic cut-in | glint-extract | glint-ideal --sensors srr24-pair --sections account"
@@ -28,7 +31,7 @@ def run(command, text="", expected=0):
 
 
 def frames(text):
-    return [json.loads(line) for line in text.splitlines()]
+    return [glint.name_lost(json.loads(line)) for line in text.splitlines()]
 
 
 def key(sensor, echo):

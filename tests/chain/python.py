@@ -2,6 +2,7 @@
 """scripts/glint and scripts/tracker do what they say: python3 tests/chain/python.py BIN_DIR"""
 import gzip
 import importlib.util
+import itertools
 import json
 import math
 import os
@@ -294,6 +295,27 @@ def columns_are_those_of_the_frames(folder):
             raise AssertionError(f"no {message}")
 
 
+def lost_echoes_have_their_objects_and_paths(folder):
+    chain = "glint-traffic walled-road | glint-extract | glint-ideal --sensors lrr77-full --sections account | glint-sensor | glint-noise"
+    first = shell(chain, folder).splitlines()[0]
+    short, path = json.loads(first)["lost"], os.path.join(folder, "list.jsonl")
+    for line, told in ((first, True), (json.dumps(glint.name_lost(json.loads(first))), True),
+                       (first.replace('"echoes":[{"object"', '"echoes":[{"by"', 1), False)):
+        with open(path, "w") as file:
+            file.write(line + "\n")
+        try:
+            [frame] = glint.frames(path)
+        except glint.BadFrame as error:
+            assert not told and "list.jsonl:1: lost[0].echoes: [{" in str(error), error
+            continue
+        assert told
+        for group, before in zip(frame["lost"], short, strict=True):
+            of = list(itertools.accumulate((one.get("object") for one in before["echoes"]), lambda last, one: one or last))
+            assert [one["object"] for one in group["echoes"]] == of
+            assert [one["path"] for one in group["echoes"]] == [one.get("path", "direct") for one in before["echoes"]]
+    assert any("path" in one for group in short for one in group["echoes"]) and of.count(of[-1]) > 1
+
+
 def a_stage_that_changes_nothing_changes_no_byte_of_the_list(folder):
     with open(os.path.join(folder, "same.py"), "w") as file:
         file.write("import glint\n\nglint.stage(lambda frame: frame)\n")
@@ -366,7 +388,8 @@ def false_alarms_make_few_tracks(folder):
 def main():
     tests = (places_are_in_the_system_that_is_asked_for, what_stands_has_no_rate_over_ground,
                  frames_are_read_from_files_of_both_kinds, frames_are_read_without_a_check, a_stage_that_changes_nothing_changes_no_byte_of_the_list,
-                 columns_have_the_numbers_of_quality, an_elevation_is_a_height_and_shortens_the_way_ahead, detections_are_placed_from_where_the_ego_was,
+                 columns_have_the_numbers_of_quality, lost_echoes_have_their_objects_and_paths,
+                 an_elevation_is_a_height_and_shortens_the_way_ahead, detections_are_placed_from_where_the_ego_was,
                  what_glint_refuses_the_tracker_refuses, bytes_that_glint_refuses_the_tracker_refuses,
                  faults_outside_the_input_have_a_line_and_a_status, scenes_of_two_seeds_share_no_tracks,
                  frames_py_works_alone_as_a_copy_called_glint_py, workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected,

@@ -15,6 +15,8 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+sys.path.append(os.path.join(ROOT, "scripts"))
+import glint  # noqa: E402
 import recorded  # noqa: E402
 from recorded import BIN, check  # noqa: E402
 
@@ -30,7 +32,7 @@ def run(text, data=None):
     done = subprocess.run([BIN + "/glint", "-c", text], env=ENV, cwd=ROOT, input=data, capture_output=True, text=True,
                           check=False)
     check(done.returncode == 0, f"{text}: {done.stderr}")
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    return [glint.name_lost(json.loads(line)) for line in done.stdout.splitlines()]
 
 
 def level_of(share):

@@ -17,6 +17,9 @@ sys.dont_write_bytecode = True
 import oracle  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "scripts"))
+import glint  # noqa: E402
+
 TAU = math.tau
 RELATIVE = ABSOLUTE = 1e-9
 FAINT = 1e-12  # near V = 0 and near +-90 degrees rounding of the angle alone moves cross sections and weights
@@ -30,7 +33,7 @@ def lines_of(frames):
 
 
 def parsed(text):
-    return [json.loads(line) for line in text.splitlines()]
+    return [glint.name_lost(json.loads(line)) for line in text.splitlines()]
 
 
 class Bench:

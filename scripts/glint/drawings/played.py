@@ -50,7 +50,7 @@ class Bench:
         done = subprocess.run([self.glint, "-c", pipeline], cwd=self.folder, check=True,
                               env={**os.environ, "GLINT_DATA": self.folder},
                               stdout=subprocess.PIPE)
-        return [json.loads(line) for line in done.stdout.splitlines()]
+        return [glint.name_lost(json.loads(line)) for line in done.stdout.splitlines()]
 
     def still(self, scenario, time_s, sensor="glint-sensor", noise="glint-noise"):
         """The frame of a scenario nearest to a time, with its target list."""

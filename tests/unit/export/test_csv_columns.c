@@ -100,6 +100,27 @@ TEST(zeros_stand_for_absent_numbers_where_they_are_wanted_but_not_in_an_absent_s
                   "0,0,0,0,false,,none,0,,0,2\n");
 }
 
+TEST(a_choice_has_its_word_where_a_line_would_lack_it_and_none_if_it_has_no_word)
+{
+    struct choices {
+        enum colour usual;
+        int shade;
+    };
+    static const struct field fields[] = {
+        {OPTIONAL_CHOICE(struct choices, usual, colours, "absent: none")},
+        {OPTIONAL_CHOICE(struct choices, shade, colours, "absent: no word"), .absent = 2},
+        {0},
+    };
+    static const struct record record = {
+        FIELD_TABLE(struct choices, fields, "choices", "For tests.")};
+    struct csv_columns columns = {0};
+    struct text *row = check_text();
+    csv_columns_add(&columns, &record, none, check_arena());
+    csv_columns_write(&columns, &(struct choices){COLOUR_NONE, 2}, row);
+    text_add(row, "", 1);
+    assert_string_equal(row->bytes, "none,,");
+}
+
 TEST(names_are_quoted_where_they_must_be)
 {
     static const char *const without[] = {"x_m",    "known_m", "whole", "absent", "flag",

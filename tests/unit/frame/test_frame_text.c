@@ -51,8 +51,10 @@
     "\"sight_m\":1e-09,\"threshold_db\":3,\"leader_db\":0,\"cell_edge\":0.5,\"sign\":1e-14,"       \
     "\"limit_db\":10000,\"limit_m\":2},\"extra\":[]}],"
 #define LOST                                                                                       \
-    "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"blocked\",\"echoes\":[{" NAMES   \
-    ",\"by\":\"e\",\"shortfall_db\":3" SIGHT "}]}],"
+    "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"blocked\",\"echoes\":["          \
+    "{\"object\":\"e\",\"reflector\":\"p\",\"by\":\"e\",\"shortfall_db\":3" SIGHT "},"             \
+    "{\"reflector\":\"q\",\"path\":\"object_wall\",\"mirror\":\"w\"},"                             \
+    "{\"object\":\"f\",\"reflector\":\"p\"},{\"reflector\":\"q\"}]}],"
 #define COUNTS                                                                                     \
     "\"counts\":[{\"sensor\":\"f\",\"pairs\":2,\"paths\":[{\"path\":\"direct\",\"echoes\":1}]}],"
 #define VISIBILITY                                                                                 \
@@ -206,6 +208,30 @@ TEST(a_number_may_be_spelled_in_any_way)
     }
 }
 
+TEST(a_lost_echo_may_name_an_object_that_the_echo_before_named_and_the_direct_path)
+{
+    char *line = with("{\"reflector\":\"q\",\"path\":\"object_wall\",\"mirror\":\"w\"}",
+                      "{\"object\":\"e\",\"reflector\":\"q\",\"path\":\"object_wall\","
+                      "\"mirror\":\"w\"}");
+    assert_reads_as_rich(line);
+    free(line);
+    line =
+        with("{\"reflector\":\"q\"}", "{\"object\":\"f\",\"reflector\":\"q\",\"path\":\"direct\"}");
+    assert_reads_as_rich(line);
+    free(line);
+}
+
+TEST(a_lost_echo_without_an_object_is_of_the_object_of_the_echo_before)
+{
+    struct frame frame = {.arena = check_arena()};
+    struct diag diag;
+    assert_int_equal(read_line(rich, &frame, &diag), 0);
+    const struct lost_echo *echoes = frame.lost.items[0].echoes.items;
+    assert_true(echoes[1].id.object == frame.ego && echoes[1].id.path == PATH_OBJECT_WALL);
+    assert_string_equal(echoes[2].id.object, "f");
+    assert_true(echoes[3].id.object == echoes[2].id.object && echoes[3].id.path == PATH_DIRECT);
+}
+
 TEST(what_is_absent_stays_absent)
 {
     static const char head[] = "{\"version\":0,\"scene\":\"a\",\"frame\":0,\"time_s\":0,"
@@ -254,6 +280,8 @@ TEST(faults_are_named_with_their_path_value_and_expectation)
         {"\"last\":true", "\"last\":1", "last: a number; expected true or false"},
         {"\"last\":true", "\"last\":trve", "last: 't' where true or false is expected"},
         {"\"scene\":\"cut-in\"", "\"scene\":3", "scene: a number; expected a name"},
+        {"\"echoes\":[{\"object\":\"e\",", "\"echoes\":[{",
+         "lost[0].echoes[0].object: missing; expected a name"},
         {"\"scene\":\"cut-in\"", "\"scene\":\"\"", "scene: a name of 0 bytes; expected 1 to 1024"},
         {"\"scene\":\"cut-in\"", "\"scene\":\"a\\nb\"", "scene: control character 0x0a in a name"},
         {"\"scene\":\"cut-in\"", "\"scene\":\"\xff\"", "scene: byte 0xff in a string is not UTF-8"},
