@@ -30,6 +30,7 @@ from scripts import in_a_fork, members  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 FORMATS = "nuscenes", "truckscenes", "kitti", "vod"
+ALL = *FORMATS, "openpcdet"  # which leaves out scans without a box
 QUALITY = {"snr_db": 20, "rcs_dbsm": 5.5, "range_sd_m": 0.1, "range_rate_sd_mps": 0.05, "azimuth_sd_rad": 0.01, "existence": 0.995,
            "range_rate_interval_mps": 97.3, "ambiguity_number": 0, "range_rate_over_ground_mps": 2.0, "x_centre_m": 12.25, "x_rear_axle_m": 13.5}
 
@@ -402,7 +403,7 @@ def lines_tables_and_sets_give_the_same_bytes(folder):
     """So does another run; only the split of a set has another name."""
     shell("glint-traffic cut-in | glint-extract | glint-ideal --sensors radarscenes77-full --sections quality,visibility | glint-sensor"
           " | glint-noise | head -50 > list.jsonl; gzip -k list.jsonl; glint-tables tables list.jsonl; glint-tables --plain --part 3 plain list.jsonl", folder)
-    for form in FORMATS:
+    for form in ALL:
         for i, name in enumerate(("list.jsonl", "list.jsonl", "list.jsonl.gz", "tables", "plain")):
             export(folder, form, "--out", f"{form}-{i}", name)
         for i in range(1, 5):
@@ -528,7 +529,7 @@ def scenes_may_be_played_at_once(folder):
         one, two = ([frame_of(objects, [target()], i, scene=name) | {"last": ends and i == 3} for i in range(first, 4)] for name, first in (("a", 0), ("b", 1)))
         save(folder, "after.jsonl", one + two)
         save(folder, "at-once.jsonl", sorted(one + two, key=lambda frame: (frame["frame"], frame["scene"])))
-        for form in FORMATS:
+        for form in ALL:
             for name in ("after", "at-once"):
                 export(folder, form, "--out", f"{form}-{name}-{ends}", name + ".jsonl")
             same(f"{folder}/{form}-after-{ends}", f"{folder}/{form}-at-once-{ends}")
@@ -558,7 +559,7 @@ def a_scene_without_a_scan_is_told(folder):
     objects = [body("ego", vx=1), body("other", x=12)]
     frames = [frame_of(objects, [target()]), *(frame_of(objects, [], i, [{"measured": False}], scene="idle") for i in range(2))]
     save(folder, "idle.jsonl", frames)
-    for form in FORMATS:
+    for form in ALL:
         said = export(folder, form, "--out", form, "idle.jsonl")
         assert said.startswith("export: 1 of 2 scenes have no scan and are left out; the first is idle with seed 1, at idle.jsonl:2\n"), said
 
@@ -596,6 +597,29 @@ def a_plan_that_cannot_be_exported_makes_no_folder(folder):
         save(folder, "wrong.json", [plan | members])
         done = subprocess.run([SCRIPTS + "/dataset", "wrong.json", "--out", "wrong"], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         assert done.returncode == 65 and wrong in done.stderr and not os.path.exists(folder + "/wrong"), done.stderr
+
+
+def what_nobody_measured_is_said(folder):
+    """Once, on stderr: heights of points and radars, levels of visibility, and what the layout's document calls constant, which the
+    page has, too. Where targets have an elevation, radars a height and boxes a visibility, nothing is said of them."""
+    lacking = [frame_of([body("ego"), body("other", x=12)], [target(), target()], i) for i in range(2)]
+    for frame in lacking:
+        del frame["sensors"]["list"][0]["mount_z_m"]
+    sightings = {"sensor": "front", "object": "other", "reflectors": 2, "in_range": 1, "in_view": 1, "visibility": "v80-100"}
+    known = [frame_of([body("ego"), body("other", x=12)], [target() | {"elevation_rad": 0.01}], i, visibility=[sightings]) for i in range(2)]
+    with open(ROOT + "/data/exports/README.md", encoding="utf-8") as file:
+        page = " ".join(file.read().split())
+    for form in ALL:
+        with open(f"{ROOT}/data/exports/{form}.json", encoding="utf-8") as file:
+            constants = [f"export: {text}" for text in json.load(file).get("constants", ())]
+        said = [export(folder, form, "--out", f"{form}-{name}", save(folder, "hand.jsonl", frames)).splitlines() for name, frames in (
+            ("lacking", lacking), ("known", known))]
+        measured = ["export: z is 0 in 4 of 4 points: their radars measure no elevation",
+                    "export: 0.5 m is taken as the height of radars that have no mount_z_m: front"]
+        assert [line for line in said[0] if line in measured] == measured, said
+        assert any("in 2 of 2 boxes" in line for line in said[0]) == (form != "openpcdet"), said
+        assert [line for line in said[1] if "7 columns" not in line] == constants == [line for line in said[0] if line in constants], said
+        assert all(text.replace("export: ", "") in page for text in constants), constants
 
 
 # --- refusals -------------------------------------------------------------------------------------
@@ -683,7 +707,7 @@ def any_member_of_a_layout_may_be_wrong(folder):
     save(folder, "hand.jsonl", [frame_of([body("ego"), body("other", x=12)], [target()])])
     os.environ.update(ENVIRONMENT)
     os.chdir(folder)
-    for form in ("nuscenes", "kitti"):
+    for form in ("nuscenes", "kitti", "openpcdet"):
         with open(f"{ROOT}/data/exports/{form}.json", encoding="utf-8") as file:
             good = json.load(file)
         for path in [(), *members(good)]:
@@ -802,7 +826,7 @@ def main():
                  every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
                  every_option_of_a_source_is_exported, scenes_may_be_played_at_once, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
                  a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
-                 lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_formats_cannot_hold_is_refused,
+                 lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_nobody_measured_is_said, what_formats_cannot_hold_is_refused,
                  any_member_may_be_wrong, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,
                  killed_runs_leave_no_folder_of_the_name, pcl_reads_the_radar_files):
         if chosen and test.__name__ not in chosen:

@@ -11,6 +11,7 @@ WIDTH, HEIGHT = 1936, 1216  # of the camera's picture, as View-of-Delft's
 WIDEST_RAD = math.radians(160)  # field of view of the camera, at most
 NEAR_M = 0.1  # boxes are cut there before they are projected
 GOLDEN = (math.sqrt(5) - 1) / 2  # whose multiples lie far apart in [0, 1)
+UNKNOWN = "occluded is 3, unknown, in {} of {} boxes: --sections visibility tells it of those in view"
 OCCLUDED = {None: 3, 0: 2, 1: 1, 2: 1, 3: 0}  # by level of visibility
 
 
@@ -60,6 +61,7 @@ class Writer(Numbered):
                 cells = (math.remainder(turn - math.atan2(-y, x), math.tau), *seen[:4], box["height_m"], box["width_m"], box["length_m"], -y, z, x)
                 found.append((" ".join([self.layout["classes"].get(box["class"], "Misc"), f"{seen[4]:.6f}", str(OCCLUDED[levels.get(box["id"])]),
                                         *(f"{number(one, 6):.6f}" for one in cells), self.angle(turn), *self.layout["behind"]]) + "\n", box))
+        self.output.count(UNKNOWN, sum(box["id"] not in levels for _, box in found), len(found))
         return found
 
     def turn_rad(self, i):
@@ -74,7 +76,7 @@ class Writer(Numbered):
     def close(self):
         super().close()
         if self.layout.get("columns") == 7:
-            self.output.note("points have 7 columns: stock loaders of KITTI take 4, and get them by --columns 4")
+            self.output.note("points have 7 columns, of which time is 0: stock loaders of KITTI take 4, and get them by --columns 4")
         for root in self.counts:
             root = os.path.join(self.output.folder, root)
             os.symlink("training", os.path.join(root, "testing"))  # where readers look for the split test

@@ -11,6 +11,7 @@ from glint.sets.plan import BAD_DATA, Fault
 NO_POINT = *(math.nan,) * 3, 0, 0, *(math.nan,) * 5, *(0,) * 8  # a scan of nuScenes without targets
 MOVING_MPS, MOST_POINTS = 0.5, 1 << 15  # what is slower stands; numbers of points have 16 bits
 BEGIN_US, GAP_US, END_US = 10 ** 15, 10 ** 6, 2 ** 53  # of the first scene; between scenes; of what all readers of JSON can count
+UNKNOWN = "visibility_token is empty in {} of {} boxes: --sections visibility gives it to those in view"
 PDH0 = 0.25, 0.5, 0.75, 0.9, 0.99, 0.999  # limits between the codes 1 to 7 of the probability of a false alarm
 MOTIONS = {"ego_motion_cabin", "ego_motion_chassis"}
 KINDS = {"f": (4, "F"), "h": (2, "I"), "b": (1, "I")}  # size and type of PCD
@@ -224,6 +225,7 @@ class Writer:
                  "translation": [number(box["x_m"]), number(box["y_m"]), number(box["height_m"] / 2)], "rotation": turn(box["yaw_rad"]),
                  "size": [number(box["width_m"]), number(box["length_m"]), number(box["height_m"])],
                  "num_lidar_pts": 0, "num_radar_pts": points} for sample, box, level, points in found]
+        self.output.count(UNKNOWN, sum(level is None for _, _, level, _ in found), len(found))
         self.rows("instance", {"token": own, "category_token": category, "nbr_annotations": len(rows),
                                "first_annotation_token": rows[0]["token"], "last_annotation_token": rows[-1]["token"]})
         self.output.boxes.writerow((own, *self.scene["identity"], name, kind))
