@@ -9,6 +9,8 @@ struct parser {
     size_t line;
     struct arena *arena;
     struct diag *diag;
+    struct pipeline *pipeline;
+    const char *input_end; /* the line that ends the here-document; NULL: there is none */
 };
 
 static int refuse(const struct parser *parser, const char *what)
@@ -31,6 +33,25 @@ static char take(struct parser *parser)
     return character;
 }
 
+/* The text from here to the line that ends it is the here-document. */
+static void take_input(struct parser *parser)
+{
+    struct pipeline *pipeline = parser->pipeline;
+    pipeline->input = parser->at;
+    while (parser->at < parser->end) {
+        const char *line = parser->at;
+        const char *newline = memchr(line, '\n', (size_t)(parser->end - line));
+        size_t length = (size_t)((newline != NULL ? newline : parser->end) - line);
+        if (text_is(line, length, parser->input_end)) {
+            parser->at += length;
+            return;
+        }
+        parser->at += length + (newline != NULL);
+        parser->line++;
+        pipeline->input_length = (size_t)(parser->at - pipeline->input);
+    }
+}
+
 /* Skips blanks, comments and continued lines, and newlines where a pipeline may go on after them.
  */
 static void skip(struct parser *parser, bool newlines)
@@ -43,6 +64,8 @@ static void skip(struct parser *parser, bool newlines)
             take(parser);
         } else if (character == ' ' || character == '\t' || (newlines && character == '\n')) {
             take(parser);
+            if (character == '\n' && parser->input_end != NULL && parser->pipeline->input == NULL)
+                take_input(parser);
         } else if (character == '#') {
             while (parser->at < parser->end && *parser->at != '\n')
                 parser->at++;
@@ -124,6 +147,22 @@ static int read_word(struct parser *parser, const char **word)
     return result;
 }
 
+/* Takes <<'WORD' behind the words of the first command; false: something else stands there. */
+static bool take_input_end(struct parser *parser)
+{
+    const char *word = parser->at + 3;
+    if (parser->end - parser->at < 4 || memcmp(parser->at, "<<'", 3) != 0 ||
+        parser->pipeline->commands.count > 0 || parser->input_end != NULL)
+        return false;
+    const char *quote = memchr(word, '\'', (size_t)(parser->end - word));
+    if (quote == NULL || quote == word || memchr(word, '\n', (size_t)(quote - word)) != NULL ||
+        (quote + 1 < parser->end && !ends_word(quote[1])))
+        return false;
+    parser->input_end = arena_text(parser->arena, word, (size_t)(quote - word));
+    parser->at = quote + 1;
+    return true;
+}
+
 /* Reads words up to a newline, a bar or the end of the text. */
 static int read_command(struct parser *parser, struct command *command)
 {
@@ -132,6 +171,8 @@ static int read_command(struct parser *parser, struct command *command)
         skip(parser, false);
         if (ends_word(peek(parser)))
             return 0;
+        if (command->words.count > 0 && take_input_end(parser))
+            continue;
         const char *word;
         if (read_word(parser, &word) != 0)
             return -1;
@@ -169,7 +210,8 @@ static int add_command(struct pipeline *pipeline, const struct command *command,
 {
     if (command->words.count == 0)
         return refuse(parser, "a command is missing before |");
-    if (pipeline->commands.count == 0 && !piped && is_pipefail(command))
+    bool is_plain = !piped && parser->input_end == NULL;
+    if (pipeline->commands.count == 0 && is_plain && is_pipefail(command))
         return 0;
     if (strcmp(command->words.items[0], "set") == 0)
         return diag_fail(parser->diag, DIAG_USAGE,
@@ -182,7 +224,7 @@ static int add_command(struct pipeline *pipeline, const struct command *command,
 int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, struct arena *arena,
                    struct diag *diag)
 {
-    struct parser parser = {text, text + length, 1, arena, diag};
+    struct parser parser = {text, text + length, 1, arena, diag, pipeline, NULL};
     *pipeline = (struct pipeline){0};
     if (refuse_nul(&parser) != 0)
         return -1;
@@ -190,8 +232,13 @@ int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, s
     for (;;) {
         skip(&parser, true);
         bool more = piped || pipeline->commands.count == 0; /* commands may follow */
-        if (parser.at == parser.end)
-            return more ? refuse(&parser, "a command is missing") : 0;
+        if (parser.at == parser.end && more)
+            return refuse(&parser, "a command is missing");
+        if (parser.at == parser.end) {
+            if (parser.input_end != NULL && pipeline->input == NULL)
+                pipeline->input = parser.end;
+            return 0;
+        }
         if (!more)
             return refuse(&parser, "a second pipeline");
         struct command command = {0};

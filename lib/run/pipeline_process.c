@@ -1,5 +1,6 @@
 #include "run/pipeline_process.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,9 +46,10 @@ static const char usage[] =
     "\n"
     "FILE is a script that bash would run too, with the same output and exit code. It\n"
     "holds one pipeline: words, quotes, comments, continued lines, |, and the line\n"
-    "`set -o pipefail`. Anything else is refused, with its line. If any program\n"
-    "fails, the file of -o stays as it was. A name without dot and slash is that of a\n"
-    "file or else of an installed pipeline: glint two-vehicles.\n"
+    "`set -o pipefail`; frames for the first program may stand below, between <<'END'\n"
+    "and END. Anything else is refused, with its line. If any program fails, the file\n"
+    "of -o stays as it was. A name without dot and slash is that of a file or else of\n"
+    "an installed pipeline: glint two-vehicles.\n"
     "\n"
     "Options:\n"
     "  -c TEXT              run TEXT instead of a file\n"
@@ -145,6 +147,23 @@ static int run_commands(const struct pipeline *pipeline, struct runner *runners,
     return chain_run(runners, count);
 }
 
+/* Lets standard input have the bytes of the here-document, from a file without a name. */
+static int give_input(const struct pipeline *pipeline, struct diag *diag)
+{
+    if (pipeline->input == NULL)
+        return 0;
+    FILE *file = tmpfile();
+    bool given = file != NULL &&
+                 output_write_all(fileno(file), pipeline->input, pipeline->input_length) == 0 &&
+                 lseek(fileno(file), 0, SEEK_SET) == 0 && dup2(fileno(file), STDIN_FILENO) >= 0;
+    if (!given)
+        diag_fail(diag, diag_code_by_errno(DIAG_IO), " a file for its here-document: %s",
+                  strerror(errno));
+    if (file != NULL)
+        fclose(file);
+    return given ? 0 : -1;
+}
+
 static int run_text(const char *name, const char *text, size_t length, struct arena *arena)
 {
     struct diag diag = {0};
@@ -156,7 +175,9 @@ static int run_text(const char *name, const char *text, size_t length, struct ar
     }
     size_t count = pipeline.commands.count;
     struct runner *runners = arena_get(arena, count * sizeof *runners);
-    int code = run_commands(&pipeline, runners, arena, &diag);
+    int code = give_input(&pipeline, &diag);
+    if (code == 0)
+        code = run_commands(&pipeline, runners, arena, &diag);
     for (size_t i = 0; i < count; i++)
         runner_free(&runners[i]);
     if (diag.code == DIAG_OK)
@@ -172,13 +193,22 @@ static const char *find_script(const char *name, struct arena *arena, struct dia
                                    : document_find(NULL, "pipelines", name, ".sh", arena, diag);
 }
 
+static int read_script(const char *path, struct text *text, struct diag *diag)
+{
+    enum { MOST = 1 << 30 }; /* a here-document may be long */
+    struct input *input = input_open(path, diag);
+    int result = input != NULL ? input_all(input, MOST, text, diag) : -1;
+    input_close(input);
+    return result == 0 ? 0 : diag_prefix(diag, "%s: ", path);
+}
+
 static int run_file(const char *name, struct arena *arena)
 {
     struct diag diag = {0};
     struct text text = {0};
     int code;
     const char *path = find_script(name, arena, &diag);
-    if (path == NULL || document_bytes(path, &text, &diag) != 0)
+    if (path == NULL || read_script(path, &text, &diag) != 0)
         code = complain(&diag);
     else
         code = run_text(path, text.bytes, text.length, arena);

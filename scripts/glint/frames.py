@@ -459,14 +459,16 @@ class Loop:
 
     A chain that has not answered after timeout_s is a TimeoutError; one that ends, or answers no targets, is a ChainError
     with the messages of its stages. Both end the chain; restart() starts it again, at frame 0. A chain of glint's stages is one
-    process, unless fused is false; one with stages of your own is a process for each.
+    process, unless fused is false; one with stages of your own is a process for each. record: a file for the chain and all frames
+    that it is given, which `glint FILE` plays again; what a restart begins goes to FILE.2, FILE.3 and so on.
     """
 
-    def __init__(self, chain, interval_s=0.05, timeout_s=10, scene="live", seed=1, fused=True):
+    def __init__(self, chain, interval_s=0.05, timeout_s=10, scene="live", seed=1, fused=True, record=None):
         self.commands = stages_of(chain)
         if fused and all(stage[0].startswith("glint-") for stage in self.commands):
             self.commands = [["glint", "-c", " | ".join(map(shlex.join, self.commands))]]
         self.chain, self.timeout_s, self.processes = chain, timeout_s, []
+        self.record, self.recording, self.starts = record, None, 0
         self.head = {"version": 0, "scene": scene, "interval_s": interval_s, "seed": str(seed)}
         self.restart()
 
@@ -485,6 +487,15 @@ class Loop:
                 before.close()  # the next one has it, and alone: its end is told to the one before
         for pipe in (self.processes[0].stdin, self.processes[-1].stdout):
             os.set_blocking(pipe.fileno(), False)
+        self.starts += 1
+        if self.record is not None:
+            self._begin_recording(self.record if self.starts == 1 else f"{self.record}.{self.starts}")
+
+    def _begin_recording(self, path):
+        first, *others = map(shlex.join, stages_of(self.chain))
+        chain = " | ".join([f"{first} <<'END'", *others])
+        self.recording = open(path, "wb", buffering=0)
+        self.recording.write(f"# A recording of glint.Loop: `glint FILE` plays it.\nset -o pipefail\n{chain}\n".encode())
 
     def step(self, ego, objects, **members):
         """The targets of the next frame; members: others of the frame, as conditions."""
@@ -496,6 +507,8 @@ class Loop:
         if not self.processes:
             raise ChainError("the chain has ended; restart() starts it again")
         text = json.dumps(frame, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+        if self.recording:
+            self.recording.write(text)
         try:
             answer = decoded(self._exchange(text))
             if not all(answer[name] == frame[name] for name in ("scene", "frame")) or "targets" not in answer:
@@ -535,6 +548,10 @@ class Loop:
     def end(self, patience_s=0):
         """Ends the chain, by force what has not ended after patience_s; the exit status of the last stage that failed, or 0."""
         processes, self.processes, end_s = self.processes, [], time.monotonic() + patience_s
+        if self.recording:
+            self.recording.write(b"END\n")
+            self.recording.close()
+            self.recording = None
         for process in processes[:1]:
             process.stdin.close()
         for process in processes:

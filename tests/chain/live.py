@@ -302,6 +302,56 @@ def loops(folder):
     yield from large_frames(folder)
 
 
+class Heard(glint.Loop):
+    """A loop that keeps the bytes of its answers."""
+
+    def restart(self):
+        self.heard = b""
+        super().restart()
+
+    def _exchange(self, text):
+        line = super()._exchange(text)
+        self.heard += line + b"\n"
+        return line
+
+
+def played(words, expected, status=0):
+    """What is wrong with what a recording gives when it is played: bytes, exit status."""
+    done = subprocess.run(words, capture_output=True, check=False, timeout=PATIENCE_S)
+    good = done.stdout == expected and done.returncode == status
+    return None if good else f"{len(done.stdout)} bytes of {len(expected)}, exit {done.returncode}: {done.stderr[-200:]}"
+
+
+def recordings(folder):
+    """A recording gives the bytes of its loop again, from glint and from bash, whole, broken off and after a fault."""
+    path, crowd = os.path.join(folder, "loop.sh"), [*OBJECTS, dict(OBJECTS[1], id="it's \u00fc", x_m=30, y_m=3)]
+    with Heard(CHAIN, record=path, scene="a 'b' $c") as loop:
+        for number in range(40):
+            loop.step("ego", [dict(one, x_m=one["x_m"] + number) for one in crowd], conditions={"rain_mmph": number})
+        unended = open(path, "rb").read()
+        heard = loop.heard
+        loop.restart()
+        loop.step("ego", OBJECTS)
+        again = loop.heard
+    yield "a recording names itself", None if unended.startswith(b"# A recording of glint.Loop") else unended[:99]
+    for program in ("glint", "bash"):
+        yield f"{program} plays a recording", played([program, path], heard)
+        yield f"{program} plays what a restart began", played([program, f"{path}.2"], again)
+    with open(path, "wb") as file:
+        file.write(unended)
+    for program in ("glint", "bash"):
+        yield f"{program} plays a recording without an end", played([program, path], heard)
+    with Heard(STAGES, record=path) as loop:
+        loop.step("ego", OBJECTS)
+        yield "a fault", fails(loop, glint.ChainError, "exit status 65: glint-extract: ", objects=OBJECTS[1:])
+    for program in ("glint", "bash"):
+        yield f"{program} plays a fault", played([program, path], loop.heard, 65)
+    with Heard(f"{STAGES} | sed -u 's/\"leader/\"first/'", record=path) as loop:
+        loop.step("ego", OBJECTS)
+    yield "bash plays stages of one's own", played(["bash", path], loop.heard) or (None if b'"first"' in loop.heard else "no first")
+    yield "glint does not", played(["glint", path], b"", 64)
+
+
 def large_frames(folder):
     """Frames and answers of several pipes' size, and stages that read late: nobody waits for the other."""
     crowd = [OBJECTS[0]] + [dict(OBJECTS[1], id=f"o{i}", x_m=10 + i % 40, y_m=2 * (i // 40) - 40) for i in range(1500)]
@@ -360,7 +410,7 @@ def main():
     faults = 0
     with tempfile.TemporaryDirectory() as folder:
         for checks in (ways(frames, folder), sinks(frames[:8], folder), late_truth(frames, folder), simulator(),
-                       loops(folder), other_simulators()):
+                       loops(folder), recordings(folder), other_simulators()):
             for name, fault in checks:
                 print(f"{name}: {fault or 'good'}", flush=True)
                 faults += fault is not None

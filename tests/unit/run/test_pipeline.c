@@ -139,6 +139,42 @@ TEST(bash_sees_the_same_words_in_random_texts)
                  b + (same < 20 ? 0 : same - 20));
 }
 
+static void expect_input(const char *text, const char *input)
+{
+    struct pipeline pipeline;
+    assert_done(parse, text, &pipeline, check_arena());
+    assert_non_null(pipeline.input);
+    assert_int_equal(pipeline.input_length, strlen(input));
+    assert_memory_equal(pipeline.input, input, strlen(input));
+}
+
+TEST(a_here_document_is_what_bash_gives_the_first_command)
+{
+    static const char *const cases[][2] = {
+        {"cat - <<'END'\nEND\n", ""},
+        {"cat <<'END'\n$one `two` \\\n\n END\nEND \n<<'END'\nEND\n",
+         "$one `two` \\\n\n END\nEND \n<<'END'\n"},
+        {"set -o pipefail # why\n cat <<'a b' - | cat |\n'a b'x\na b\n\n # more\n cat\n",
+         "'a b'x\n"},
+        {"cat - \\\n <<'E' # END\ntext\nEND\nE\n", "text\nEND\n"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct text *script = check_text();
+        text_add_word(script, cases[i][0]);
+        struct text *answer = asked_of_bash(script);
+        text_add(answer, "", 1);
+        assert_string_equal(answer->bytes, cases[i][1]);
+        expect_input(cases[i][0], cases[i][1]);
+    }
+}
+
+TEST(a_here_document_without_its_last_line_ends_with_the_text)
+{
+    expect_input("a <<'END'\none\ntw", "one\ntw");
+    expect_input("a <<'END'\n", "");
+    expect_input("a <<'END' | b", "");
+}
+
 TEST(everything_else_is_refused_with_its_line)
 {
 #define VARIABLE "variables and substitutions are not understood here"
@@ -147,43 +183,53 @@ TEST(everything_else_is_refused_with_its_line)
 #define MORE "only one pipeline of words and | is understood here"
     static const struct {
         const char *text, *message;
-    } cases[] = {{"", "1: a command is missing"},
-                 {"# nothing\n", "2: a command is missing"},
-                 {"set -o pipefail\n", "2: a command is missing"},
-                 {"a |", "1: a command is missing"},
-                 {"a |\n\n", "3: a command is missing"},
-                 {"| a", "1: a command is missing before |"},
-                 {"a | | b", "1: a command is missing before |"},
-                 {"a || b", "1: " MORE},
-                 {"a |& b", "1: " MORE},
-                 {"a && b", "1: " MORE},
-                 {"a; b", "1: " MORE},
-                 {"a &", "1: " MORE},
-                 {"a\nb", "2: a second pipeline"},
-                 {"a\n| b", "2: a second pipeline"},
-                 {"a | b\n\n\nset -o pipefail", "4: a second pipeline"},
-                 {"(a)", "1: " MORE},
-                 {"{ a; }", "1: " MORE},
-                 {"a {b,c}", "1: " MORE},
-                 {"! a", "1: " MORE},
-                 {"\n\na $x", "3: " VARIABLE},
-                 {"a \"$x\"", "1: " VARIABLE},
-                 {"a `b`", "1: " VARIABLE},
-                 {"a \"`b`\"", "1: " VARIABLE},
-                 {"a $'b'", "1: " VARIABLE},
-                 {"X=1 a", "1: variables are not understood here"},
-                 {"x=1", "1: variables are not understood here"},
-                 {"a *.json", "1: " PATTERN},
-                 {"a b?", "1: " PATTERN},
-                 {"a [b]", "1: " PATTERN},
-                 {"a ~/b", "1: " PATTERN},
-                 {"a >b", "1: " REDIRECTION},
-                 {"a 2>b", "1: " REDIRECTION},
-                 {"a <b", "1: " REDIRECTION},
-                 {"a <<b\nb\n", "1: " REDIRECTION},
-                 {"a 'b\nc", "2: a quote is not closed"},
-                 {"a \"b\nc\n", "3: a quote is not closed"},
-                 {"a \"b\\", "1: a quote is not closed"}};
+    } cases[] = {
+        {"", "1: a command is missing"},
+        {"# nothing\n", "2: a command is missing"},
+        {"set -o pipefail\n", "2: a command is missing"},
+        {"a |", "1: a command is missing"},
+        {"a |\n\n", "3: a command is missing"},
+        {"| a", "1: a command is missing before |"},
+        {"a | | b", "1: a command is missing before |"},
+        {"a || b", "1: " MORE},
+        {"a |& b", "1: " MORE},
+        {"a && b", "1: " MORE},
+        {"a; b", "1: " MORE},
+        {"a &", "1: " MORE},
+        {"a\nb", "2: a second pipeline"},
+        {"a\n| b", "2: a second pipeline"},
+        {"a | b\n\n\nset -o pipefail", "4: a second pipeline"},
+        {"(a)", "1: " MORE},
+        {"{ a; }", "1: " MORE},
+        {"a {b,c}", "1: " MORE},
+        {"! a", "1: " MORE},
+        {"\n\na $x", "3: " VARIABLE},
+        {"a \"$x\"", "1: " VARIABLE},
+        {"a `b`", "1: " VARIABLE},
+        {"a \"`b`\"", "1: " VARIABLE},
+        {"a $'b'", "1: " VARIABLE},
+        {"X=1 a", "1: variables are not understood here"},
+        {"x=1", "1: variables are not understood here"},
+        {"a *.json", "1: " PATTERN},
+        {"a b?", "1: " PATTERN},
+        {"a [b]", "1: " PATTERN},
+        {"a ~/b", "1: " PATTERN},
+        {"a >b", "1: " REDIRECTION},
+        {"a 2>b", "1: " REDIRECTION},
+        {"a <b", "1: " REDIRECTION},
+        {"a <<b\nb\n", "1: " REDIRECTION},
+        {"a <<''\n\n", "1: " REDIRECTION},
+        {"a <<'b'c\nbc\n", "1: " REDIRECTION},
+        {"a <<'b\nc'\n", "1: " REDIRECTION},
+        {"a <<'b", "1: " REDIRECTION},
+        {"<<'b' a\nb\n", "1: " REDIRECTION},
+        {"a | b <<'c'\nc\n", "1: " REDIRECTION},
+        {"a <<'b' <<'c'\nb\nc\n", "1: " REDIRECTION},
+        {"set -o pipefail <<'b'\nb\na\n", "1: of set, only `set -o pipefail` is understood here"},
+        {"a <<'b'\nb\nc\n", "3: a second pipeline"},
+        {"a 'b\nc", "2: a quote is not closed"},
+        {"a \"b\nc\n", "3: a quote is not closed"},
+        {"a \"b\\", "1: a quote is not closed"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct pipeline pipeline;
         char message[128];
