@@ -300,7 +300,7 @@ lint: $(plugin_archives)
 	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib $(plugins:%=-iquote $(BUILD)/stages/%)' clang-tidy
 
 # Programs in Python are installed as glint-NAME: links to their files, beside which Python finds their package.
-scripts = demo dataset check-set export make-radar realism tracker
+scripts = demo dataset check-set export import make-radar realism tracker
 script_programs = $(scripts:%=$(BUILD)/scripts/glint-%)
 package = $(wildcard scripts/glint/*.py scripts/glint/*/*.py)
 $(script_programs): $(BUILD)/scripts/glint-%: scripts/%

@@ -227,6 +227,7 @@ static const struct recorded_column interaction_columns[] = {
     VALUE("psi_rad", yaw_rad, RECORDED_TOGETHER, -1e3, 1e3, 1, 0),
     SIZE("length", length_m, RECORDED_TOGETHER),
     SIZE("width", width_m, RECORDED_TOGETHER),
+    SIZE("height", height_m, RECORDED_OPTIONAL),
     {0},
 };
 

@@ -22,7 +22,7 @@ import glint  # noqa: E402
 PREFIX, BUILT = (os.path.abspath(folder) for folder in sys.argv[1:3])
 DOCUMENTS = os.path.join(PREFIX, "share/doc/glint")  # has the layout of the source tree
 PROGRAMS = os.path.join(PREFIX, "bin")
-SCRIPTS = ["glint-" + name for name in ("demo", "dataset", "check-set", "export", "make-radar", "realism", "tracker")]
+SCRIPTS = ["glint-" + name for name in ("demo", "dataset", "check-set", "export", "import", "make-radar", "realism", "tracker")]
 MOST_BYTES = 4_000_000
 STRICT = "-std=c11 -D_XOPEN_SOURCE=700 -O2 -Wall -Wextra -Werror"
 ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C",

@@ -1,5 +1,6 @@
 """Writes the layouts of nuScenes and of MAN TruckScenes: radar files, and tables of JSON that are linked by tokens."""
 import base64
+import csv
 import hashlib
 import math
 import struct
@@ -77,6 +78,8 @@ class Writer:
         for name, text in {self.lidar["path"]: "", **layout.get("files", {})}.items():
             output.write(name, base64.b64decode(text))
         self.tables = {name: output.file(f"{layout['version']}/{name}.json") for name in layout["tables"]}
+        self.egos = csv.writer(output.file("glint-egos.csv"), lineterminator="\n")
+        self.egos.writerow(("token", "scene", "seed", "object", "class", "length_m", "width_m", "height_m", "rear_axle_x_m"))
         self.before = dict.fromkeys(self.tables, "[\n")
         for name, rows in layout["tables"].items():
             self.rows(name, *rows)
@@ -147,6 +150,9 @@ class Writer:
         self.rows("scene", {"token": scene["token"], "log_token": "log" * ("log" in self.tables), "nbr_samples": len(keys),
                             "first_sample_token": names[keys[0]], "last_sample_token": names[keys[-1]], "name": scene["name"],
                             "description": self.described(frames[0][0])})
+        carrier = glint.ego(frames[0][0])
+        self.egos.writerow((scene["token"], *scene["identity"], *(carrier[name] for name in ("id", "class")),
+                            *(float(carrier[name]) for name in ("length_m", "width_m", "height_m")), axle_of(scene, carrier)))
         newest = {i: min(frames[i][1], key=lambda scan: scan["age_s"]) for i in keys}
         self.linked("sample", [{"token": names[i], "timestamp": newest[i]["at"], "scene_token": scene["token"]} for i in keys])
         sample_of = [names[next((key for key in keys if key >= i), keys[-1])] for i in range(len(frames))]

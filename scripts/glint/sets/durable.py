@@ -9,6 +9,8 @@ import secrets
 import shutil
 import socket
 
+from glint.sets.plan import CANNOT_CREATE, Fault
+
 TEMPORARY = ".tmp"
 MACHINE = socket.gethostname().replace(".", "-")
 with contextlib.suppress(OSError), open("/proc/sys/kernel/random/boot_id", encoding="ascii") as boot:
@@ -58,6 +60,18 @@ def temporary_folder(path, work):
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
         os.close(descriptor)
+
+
+@contextlib.contextmanager
+def new_folder(path, option):
+    """A folder that gets its name when the block ends well, and vanishes when it does not. It is the value of an option."""
+    above, name = os.path.split(os.path.abspath(path))
+    if not path or os.path.lexists(path) or not os.access(above, os.W_OK) or len(os.fsencode(name)) > 255:
+        raise Fault(CANNOT_CREATE, f"{option} {path!r}: is there already, or cannot be made; expected a new folder in one that is there")
+    remove_temporaries(above)
+    with temporary_folder(path, above) as folder:
+        yield folder
+        os.rename(folder, path)
 
 
 @contextlib.contextmanager

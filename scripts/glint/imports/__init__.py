@@ -1,0 +1,1 @@
+"""Boxes of other data sets as traffic, which scripts/import makes."""
