@@ -2,8 +2,7 @@
 #include "base/elementary.h"
 #include "base/number.h"
 #include "osi_trace.pb-c.h"
-
-static const double no_object = 0x1p64; /* in OSI the greatest number */
+#include "scan_point.h"
 
 #define SET(message, member, value) ((message)->has_##member = 1, (message)->member = (value))
 #define NEW(trace, message) new_message(trace, &osi3__##message##__descriptor)
@@ -32,7 +31,7 @@ static void *numbers(struct trace *trace, const ProtobufCMessageDescriptor *desc
         if (field->type == PROTOBUF_C_TYPE_DOUBLE)
             memcpy(at, &values[i], sizeof(double));
         else if (field->type == PROTOBUF_C_TYPE_UINT64 || field->type == PROTOBUF_C_TYPE_INT64)
-            memcpy(at, &(uint64_t){values[i] < 0x1p64 ? (uint64_t)values[i] : UINT64_MAX}, 8);
+            memcpy(at, &(uint64_t){(uint64_t)values[i]}, 8);
         else
             memcpy(at, &(uint32_t){(uint32_t)values[i]}, sizeof(uint32_t));
     }
@@ -62,12 +61,24 @@ static Osi3__Identifier *object_id(struct trace *trace, const char *id)
     return NUMBERS(trace, identifier, number);
 }
 
-/* The height of a mount is not known. */
-static Osi3__MountingPosition *mounting(struct trace *trace, double x, double y, double yaw)
+/* The origin of the vehicle: the middle of its rear axle, on the road. */
+static Osi3__MountingPosition *at_origin(struct trace *trace)
 {
     Osi3__MountingPosition *mounting = NEW(trace, mounting_position);
-    mounting->position = NUMBERS(trace, vector3d, x, y);
-    mounting->orientation = NUMBERS(trace, orientation3d, 0, 0, yaw);
+    mounting->position = NUMBERS(trace, vector3d, 0, 0, 0);
+    mounting->orientation = NUMBERS(trace, orientation3d, 0, 0, 0);
+    return mounting;
+}
+
+static Osi3__MountingPosition *mount_of(struct trace *trace, const struct sensor_view *sensor)
+{
+    const struct frame *frame = trace->frame;
+    double axle_x_m = frame_rear_axle_x_m(frame, frame_object(frame, frame->ego));
+    Osi3__MountingPosition *mounting = NEW(trace, mounting_position);
+    mounting->position = NUMBERS(trace, vector3d, sensor->mount_x_m - axle_x_m, sensor->mount_y_m);
+    if (sensor->mount_z_m != 0)
+        SET(mounting->position, z, sensor->mount_z_m);
+    mounting->orientation = NUMBERS(trace, orientation3d, 0, 0, sensor->mount_yaw_rad);
     return mounting;
 }
 
@@ -75,7 +86,7 @@ static Osi3__MountingPosition *mounting(struct trace *trace, double x, double y,
 
 enum object_kind { MOVING, VEHICLE, STATIONARY };
 
-enum { TYPE_OTHER = 1, TYPE_VEHICLE = 2 };
+enum { TYPE_OTHER = 1, TYPE_VEHICLE = 2, TYPE_PEDESTRIAN = 3 };
 
 struct type {
     enum object_kind kind;
@@ -83,14 +94,21 @@ struct type {
     const char *class;
 };
 
-static struct type type_of(const struct object *object)
+static bool is_host(const struct trace *trace, const struct object *object)
+{
+    return frame_same_name(object->id, trace->frame->ego);
+}
+
+/* A host is a moving object, even if it is a post beside the road. */
+static struct type type_of(const struct trace *trace, const struct object *object)
 {
     static const struct type types[] = {
 #define OSI_FIRST(kind, number, word, class) {kind, number, class},
 #include "osi_classes.def"
         {VEHICLE, TYPE_OTHER, "articulated_truck"},
     };
-    bool moves = object->vx_mps != 0 || object->vy_mps != 0 || object->yaw_rate_radps != 0;
+    bool moves = is_host(trace, object) || object->vx_mps != 0 || object->vy_mps != 0 ||
+                 object->yaw_rate_radps != 0;
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (strcmp(types[i].class, object->class) == 0 && !(moves && types[i].kind == STATIONARY))
             return types[i];
@@ -145,10 +163,13 @@ static void add_moving(struct trace *trace, const struct object *object, struct 
     own->n_source_reference = 1;
     *LIST(trace, own->source_reference, 1) = source(trace, object);
     SET(own, type, type.kind == VEHICLE ? TYPE_VEHICLE : type.number);
-    if (type.kind == VEHICLE) {
-        double axle_x_m = frame_rear_axle_x_m(trace->frame, object);
+    if (own->type == TYPE_PEDESTRIAN)
+        own->pedestrian_attributes = NEW(trace, moving_object__pedestrian_attributes);
+    if (type.kind == VEHICLE)
         own->vehicle_classification =
             NUMBERS(trace, moving_object__vehicle_classification, type.number);
+    if (type.kind == VEHICLE || is_host(trace, object)) {
+        double axle_x_m = frame_rear_axle_x_m(trace->frame, object);
         own->vehicle_attributes = NEW(trace, moving_object__vehicle_attributes);
         own->vehicle_attributes->bbcenter_to_rear =
             NUMBERS(trace, vector3d, axle_x_m, 0, -object->height_m / 2);
@@ -166,7 +187,7 @@ static Osi3__GroundTruth *ground_truth(struct trace *trace)
     LIST(trace, truth->moving_object, frame->objects.count);
     LIST(trace, truth->stationary_object, frame->objects.count);
     for (size_t i = 0; i < frame->objects.count; i++) {
-        struct type type = type_of(&frame->objects.items[i]);
+        struct type type = type_of(trace, &frame->objects.items[i]);
         if (type.kind == STATIONARY)
             add_stationary(trace, &frame->objects.items[i], type.number, truth);
         else
@@ -184,7 +205,7 @@ static Osi3__SensorView *sensor_view(struct trace *trace)
     view->timestamp = view->global_ground_truth->timestamp;
     view->host_vehicle_id = view->global_ground_truth->host_vehicle_id;
     view->sensor_id = NUMBERS(trace, identifier, 0);
-    view->mounting_position = mounting(trace, 0, 0, 0);
+    view->mounting_position = at_origin(trace);
     return view;
 }
 
@@ -202,24 +223,21 @@ static Osi3__DetectionClassification class_of(const struct contributor *from)
     return frame_shows_object(from->id.path) ? CLASS(OTHER) : CLASS(INVALID);
 }
 
-/* The radial velocity of OSI is positive towards the sensor. A range rate that may be folded has an
+/* The radial velocity of OSI is positive towards the sensor. Its elevation is a turn about the axis
+ * to the left, by the right-hand rule: positive is down. A range rate that may be folded has an
  * ambiguity of its own, as its alternatives are in no list. */
 static Osi3__RadarDetection *detection_of(struct trace *trace, const struct target *target,
                                           double number)
 {
     const struct quality *quality = &target->quality;
-    const struct contributor *from = frame_strongest(target);
-    bool known = from != NULL && frame_object_of(trace->frame, &from->id) != NULL;
     Osi3__RadarDetection *own = NEW(trace, radar_detection);
-    own->object_id =
-        known ? object_id(trace, from->id.object) : NUMBERS(trace, identifier, no_object);
-    own->position = NUMBERS(trace, spherical3d, target->range_m, target->azimuth_rad);
+    own->position = NUMBERS(trace, spherical3d, target->range_m, scan_point_azimuth_rad(target));
     if ((target->present & VALUE_ELEVATION) != 0)
-        SET(own->position, elevation, target->elevation_rad);
+        SET(own->position, elevation, 0 - target->elevation_rad);
     SET(own, radial_velocity, 0 - target->range_rate_mps);
     own->ambiguity_id =
         NUMBERS(trace, identifier, (quality->present & QUALITY_FOLDS) != 0 ? number : 0);
-    SET(own, classification, class_of(from));
+    SET(own, classification, class_of(frame_strongest(target)));
     if ((quality->present & QUALITY_NOISE) != 0) {
         SET(own, existence_probability, quality->existence);
         SET(own, snr, quality->snr_db);
@@ -240,13 +258,11 @@ static Osi3__RadarDetection *detection_of(struct trace *trace, const struct targ
 static Osi3__RadarDetectionData *radar_of(struct trace *trace, const struct sensor_view *sensor)
 {
     const struct frame *frame = trace->frame;
-    double axle_x_m = frame_rear_axle_x_m(frame, frame_object(frame, frame->ego));
     Osi3__RadarDetectionData *own = NEW(trace, radar_detection_data);
     Osi3__SensorDetectionHeader *header = own->header = NEW(trace, sensor_detection_header);
     header->measurement_time = stamp(trace, frame->time_s - sensor->age_s);
     SET(header, cycle_counter, (uint64_t)frame->frame);
-    header->mounting_position =
-        mounting(trace, sensor->mount_x_m - axle_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    header->mounting_position = mount_of(trace, sensor);
     SET(header, data_qualifier,
         OSI3__SENSOR_DETECTION_HEADER__DATA_QUALIFIER__DATA_QUALIFIER_AVAILABLE);
     SET(header, number_of_valid_detections, 0);
@@ -274,7 +290,7 @@ static Osi3__SensorData *sensor_data(struct trace *trace)
     own->version = features->version = version(trace);
     own->timestamp = stamp(trace, frame->time_s);
     own->sensor_id = NUMBERS(trace, identifier, 0);
-    own->mounting_position = mounting(trace, 0, 0, 0);
+    own->mounting_position = at_origin(trace);
     own->n_sensor_view = 1;
     *LIST(trace, own->sensor_view, 1) = sensor_view(trace);
     LIST(trace, features->radar_sensor, frame->sensors.list.count);

@@ -98,7 +98,7 @@ static bool add_point(struct cdr *cdr, const struct target *target, struct scan_
         target->amplitude_db,
         known(has & QUALITY_RCS, quality->rcs_dbsm),
         known(has & QUALITY_NOISE, quality->snr_db),
-        target->azimuth_rad,
+        scan_point_azimuth_rad(target),
         known(elevation, target->elevation_rad),
         target->range_m,
         known(has & QUALITY_ERRORS, quality->range_sd_m),

@@ -1,4 +1,13 @@
 #include "scan_point.h"
+#include "base/elementary.h"
+
+double scan_point_azimuth_rad(const struct target *target)
+{
+    struct vec2 place_m = frame_target_place(target);
+    if ((target->present & VALUE_ELEVATION) == 0)
+        return target->azimuth_rad;
+    return elementary_atan2(place_m.y, place_m.x);
+}
 
 struct scan_point scan_point_of(struct trace *trace, const struct target *target)
 {

@@ -11,5 +11,10 @@ struct scan_point {
     uint32_t contributors; /* how many */
 };
 
+/* The azimuth of a target about the vertical axis of its sensor, of which azimuth and elevation are
+ * turns one after the other. The reported azimuth of a sensor that measures elevation is another
+ * angle, that of a cone. */
+double scan_point_azimuth_rad(const struct target *target);
+
 /* The point of a target of the trace's frame. */
 struct scan_point scan_point_of(struct trace *trace, const struct target *target);

@@ -22,12 +22,13 @@ import zlib
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import recorded  # noqa: E402
+import osi_rules  # noqa: E402
 from osi_messages import decode, messages_in, value_of  # noqa: E402
 from recorded import BIN, DATA, check  # noqa: E402
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=os.path.join(ROOT, "data"))
-NAMED, NOBODY = 10**15, 2**64 - 1
+NAMED = 10**15
 PATHS = ["direct", "wall_object", "object_wall", "wall_object_wall", "wheel", "limb", "clutter", "false_alarm"]
 CLASSES = {"clutter": "OVERDRIVABLE", "false_alarm": "CLUTTER"} | {path: "INVALID" for path in PATHS[1:4]}
 
@@ -248,7 +249,7 @@ def scenes_by_hand(folder):
         near(value_of(car, "vehicle_attributes", "bbcenter_to_rear", "x"), -1.25, name)
         check((car["type"], pole["classification"][0]["type"]) in ((["TYPE_VEHICLE"], ["TYPE_POLE"]), (["2"], ["4"])), name)
         check(value_of(car, "id", "value") == value_of(truth, "host_vehicle_id", "value") == 1, name)
-        check(value_of(one, "object_id", "value") == value_of(pole, "id", "value") == NAMED + 1, f"{name}: {one['object_id']}")
+        check(value_of(pole, "id", "value") == NAMED + 1, f"{name}: {pole['id']}")
         check(one["classification"][0] == "DETECTION_CLASSIFICATION_OTHER", name)
         drawn_by_hand(name, lines, post, polar, pose)
 
@@ -285,17 +286,35 @@ def strongest(target):
     return max(target["contributors"], key=lambda part: part["weight"])
 
 
+def keeps_the_rules(data):
+    for version in ("3.7", "3.8"):
+        found = osi_rules.faults(data, version)
+        check(not found, f"rules of OSI {version}: {found}")
+    for radar in data["feature_data"][0].get("radar_sensor", []):
+        kinds = [one["classification"] for one in radar.get("detection", [])]
+        valid = sum(kind != ["DETECTION_CLASSIFICATION_INVALID"] for kind in kinds)
+        check(radar["header"][0]["number_of_valid_detections"] == [str(valid)], "the header counts the valid detections")
+
+
+def at_its_place(position, target):
+    """OSI turns a point of the x axis about y, and then about z; the sensor's azimuth is the angle from its yz plane's normal."""
+    distance, azimuth, pitch = (value_of(position, key) for key in ("distance", "azimuth", "elevation"))
+    ahead, up = distance * math.cos(pitch), -distance * math.sin(pitch)
+    near(ahead * math.sin(azimuth), target["range_m"] * math.sin(target["azimuth_rad"]), "y of a detection", 1e-9)
+    near(up, target["range_m"] * math.sin(target.get("elevation_rad", 0)), "z of a detection", 1e-9)
+    check("elevation" in position or azimuth == target["azimuth_rad"], "the azimuth in the plane is as it was reported")
+
+
 def compare_osi(lines):
     """Every number of every message; returns how often each path and merged target came."""
     counts = {}
     for frame, data in zip(frames_in(lines), osi_of(lines, "--shift-s 1"), strict=True):
         objects = {one["id"]: one for one in frame["objects"]}
+        keeps_the_rules(data)
         truth = data["sensor_view"][0]["global_ground_truth"][0]
-        names = {}
         for one in truth.get("moving_object", []) + truth.get("stationary_object", []):
             reference = one["source_reference"][0]
             name, kind = (text.strip('"') for text in reference["identifier"])
-            names[value_of(one, "id", "value")] = name
             own = objects.pop(name)
             check(kind == own["class"] and reference["type"] == ['"glint.object"'], f"class of {name}")
             for key, place in (("x_m", ("position", "x")), ("y_m", ("position", "y")), ("yaw_rad", ("orientation", "yaw")),
@@ -321,11 +340,10 @@ def compare_osi(lines):
                 kind = "OTHER" if part["object"] == "roadside" else CLASSES.get(path, "OTHER")
                 valid += kind != "INVALID"
                 check(one["classification"] == ["DETECTION_CLASSIFICATION_" + kind], f"{path} of {part['object']}: {one}")
-                known = value_of(one, "object_id", "value")
-                check(names.get(known) == part["object"] or (known == float(NOBODY) and path in PATHS[6:]), f"object of {part}")
-                for key, place, sign in (("range_m", ("position", "distance"), 1), ("azimuth_rad", ("position", "azimuth"), 1),
-                                         ("elevation_rad", ("position", "elevation"), 1), ("range_rate_mps", ("radial_velocity",), -1)):
+                for key, place, sign in (("range_m", ("position", "distance"), 1), ("elevation_rad", ("position", "elevation"), -1),
+                                         ("range_rate_mps", ("radial_velocity",), -1)):
                     check(value_of(one, *place) == sign * target.get(key, 0), f"{key} of a detection")
+                at_its_place(one["position"][0], target)
                 for key, place in (("range_sd_m", ("position_rmse", "distance")), ("azimuth_sd_rad", ("position_rmse", "azimuth")),
                                    ("elevation_sd_rad", ("position_rmse", "elevation")),
                                    ("range_rate_sd_mps", ("radial_velocity_rmse",)), ("rcs_dbsm", ("rcs",)), ("snr_db", ("snr",)),
@@ -400,6 +418,43 @@ def every_number(folder):
     missing = [key for key in [*PATHS, "merged"] if not sums.get(key)]
     check(not missing, f"the streams have no {missing}")
     print(f"traces: {sums['merged']} merged targets and targets by path:", {path: sums[path] for path in PATHS})
+
+
+def broken_once(data, kind, name, rule):
+    """A copy of a message SensorData in which one message of the kind breaks the rule of its field."""
+    copy = json.loads(json.dumps(data))
+    message = [one for of, one in osi_rules.messages_of(copy) if of == kind and (name in one or rule[:2] in (">=", "<="))][-1]
+    if rule[:2] in (">=", "<="):
+        message[name] = [str(float(rule[2:]) + (1 if rule[0] == "<" else -1))]
+    elif rule == "is_set" or rule.startswith("if_type"):
+        del message[name]
+    else:
+        message[name] = [{"value": ["7" if rule == "is_globally_unique" else "5"]}]  # of the host as well, or of no object
+    return copy
+
+
+def rules_of_osi(folder):
+    """The rules hold for hosts and objects of all kinds, are those of the interface, and none can be broken unseen."""
+    path = suite(folder, mount_x_m=0, mount_y_m=0, mount_yaw_rad=0)
+    kinds = ("car", "pedestrian", "bicycle", "post", "wall", "articulated_truck")
+    things = [thing(kind, kind, 15 + 5 * i, 0) for i, kind in enumerate(kinds)]
+    for kind in ("car", "pedestrian", "post", "truck"):
+        data, = osi_of(seen(path, scene(thing("7", kind, 0, 0), *things)))
+        keeps_the_rules(data)
+        moving = data["sensor_view"][0]["global_ground_truth"][0]["moving_object"]
+        host = next(one for one in moving if value_of(one, "id", "value") == 7)
+        check("bbcenter_to_rear" in host["vehicle_attributes"][0], f"the origin of a host that is a {kind}")
+    rules = osi_rules.table(osi_rules.RULES)
+    for (kind, name), those in rules.items():
+        for rule in those:
+            fault = osi_rules.faults(broken_once(data, kind, name, rule), "3.8")
+            check(f"{kind}.{name}: {rule}" in fault, f"{kind}.{name}: {rule} is broken unseen")
+    one = data["feature_data"][0]["radar_sensor"][0]["detection"][0]
+    one["object_id"] = [{"value": ["7"]}]
+    check(osi_rules.faults(data, "3.7") and not osi_rules.faults(data, "3.8"), "an object_id breaks a rule of 3.7 alone")
+    if DATA is not None:
+        published = osi_rules.published(os.path.join(DATA, "osi", "proto"))
+        check({key: published[key] for key in rules} == rules, "the rules are those of the interface")
 
 
 def metadata_of_osi():
@@ -595,6 +650,7 @@ with tempfile.TemporaryDirectory() as place_of_files:
     else:
         scenes_by_hand(place_of_files)
         every_number(place_of_files)
+        rules_of_osi(place_of_files)
         metadata_of_osi()
         ids_and_times(place_of_files)
         refusals(place_of_files)
