@@ -106,6 +106,7 @@ void frame_drop(struct frame *frame, unsigned parts)
     frame->ordered.lost *= frame->lost.count > 0;
     frame->ordered.counts *= frame->counts.count > 0;
     frame->present &= ~parts;
+    frame_alter(frame, parts);
 }
 
 static int has_id(const void *id, const void *object)

@@ -41,6 +41,9 @@ enum frame_part {
 
 _Static_assert(PART_VISIBILITY < 1U << 31, "a set of parts is an unsigned");
 
+/* The members that are in no part, in a set of parts. */
+#define PART_HEADER FIELD_UNGROUPED
+
 /* Parts of a frame, as one stage may have written them. */
 struct frame_parts {
     unsigned parts;    /* set of enum frame_part */
@@ -285,6 +288,7 @@ struct frame {
     LIST_OF(struct count) counts;
     LIST_OF(struct sighting) visibility;
     const char *extra;
+    struct field_line line;       /* that the frame was read from */
     const struct frame *document; /* NULL: no frame is copied from a document */
     unsigned present;             /* enum frame_part: the parts that the frame has, even if empty */
     struct arena *arena;
@@ -348,6 +352,12 @@ const char *frame_loss_words(const struct lost_group *group, struct arena *arena
 
 /* Removes parts of the frame. */
 void frame_drop(struct frame *frame, unsigned parts);
+
+/* Notes that parts are changed, so that they are not written as in the frame's line. */
+static inline void frame_alter(struct frame *frame, unsigned parts)
+{
+    frame->line.same &= ~parts;
+}
 
 /* The object with this id, or NULL: by bisection once frame_order_objects has sorted them. */
 struct object *frame_object(const struct frame *frame, const char *id);

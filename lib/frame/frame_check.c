@@ -187,7 +187,7 @@ int frame_check_parts(struct frame *frame, struct frame_parts written, struct di
 {
     unsigned whole = written.parts & ~(unsigned)PART_LOST;
     if (has_new_header(frame, written.before))
-        whole |= RECORD_WRITE_UNGROUPED;
+        whole |= FIELD_UNGROUPED;
     if (record_write_check(&frame_record, frame, whole, diag) != 0 ||
         ((written.parts & PART_LOST) != 0 && check_lost_members(frame, written.stage, diag) != 0))
         return -1;
@@ -234,9 +234,9 @@ int frame_check_extremes(const struct frame *frame, struct diag *diag)
             result = check_entry(&target_record, target, target->cell_amplitude, target->sensor,
                                  target->contributors.items[0].id.object, diag);
     }
-    return result != 0 ? -1
-                       : record_write_check(&frame_record, frame,
-                                            PART_COUNTS | RECORD_WRITE_UNGROUPED, diag);
+    return result != 0
+               ? -1
+               : record_write_check(&frame_record, frame, PART_COUNTS | FIELD_UNGROUPED, diag);
 }
 
 /* The place of an echo that is in no target. */

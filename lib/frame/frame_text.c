@@ -403,12 +403,27 @@ const struct record frame_record = {
     FIELD_TABLE(struct frame, frame_fields, "frame",
                 "All that is known about one scene in one interval of time."),
     .present_offset = offsetof(struct frame, present),
-    .document_offset = offsetof(struct frame, document)};
+    .document_offset = offsetof(struct frame, document),
+    .line_offset = offsetof(struct frame, line)};
+
+static int read(const char *line, size_t length, struct frame *frame, struct diag *diag)
+{
+    return record_read(line, length, &frame_record, frame, frame->arena, frame->list_cache, diag);
+}
 
 int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
 {
     frame_clear(frame);
-    return record_read(line, length, &frame_record, frame, frame->arena, frame->list_cache, diag);
+    return read(line, length, frame, diag);
+}
+
+int frame_text_take(const char *line, size_t length, struct frame *frame, struct diag *diag)
+{
+    frame_clear(frame);
+    size_t members = sizeof frame_fields / sizeof *frame_fields;
+    frame->line.texts = arena_get(frame->arena, members * sizeof *frame->line.texts);
+    frame->line.same = ~0U;
+    return read(line, length, frame, diag);
 }
 
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)

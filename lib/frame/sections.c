@@ -84,6 +84,7 @@ int sections_read(const char *text, struct sections_change *change, struct diag 
 
 static void clear_margins(struct frame *frame)
 {
+    frame_alter(frame, PART_ECHOES | PART_CELLS | PART_TARGETS | PART_LOST);
     const struct margins none = {0};
     for (size_t i = 0; i < frame->echoes.count; i++)
         frame->echoes.items[i].margins = none;
@@ -98,6 +99,7 @@ static void clear_margins(struct frame *frame)
 
 static void clear_quality(struct frame *frame)
 {
+    frame_alter(frame, PART_TARGETS);
     for (size_t i = 0; i < frame->targets.count; i++)
         frame->targets.items[i].quality = (struct quality){0};
 }
@@ -119,6 +121,8 @@ int sections_apply(const struct sections_change *change, struct frame *frame, st
     if ((before & ~wanted & CARRY_QUALITY) != 0)
         clear_quality(frame);
     frame->sections = wanted;
+    if (wanted != before)
+        frame_alter(frame, PART_HEADER);
     return 0;
 }
 

@@ -70,6 +70,7 @@ static void count_target(struct frame *frame, const struct target *target, size_
 
 void sightings_count_targets(struct frame *frame)
 {
+    frame_alter(frame, PART_VISIBILITY);
     for (size_t i = 0; i < frame->visibility.count; i++) {
         struct sighting *sighting = &frame->visibility.items[i];
         sighting->detections = sighting->merged = sighting->ghosts = 0;

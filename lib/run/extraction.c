@@ -91,6 +91,11 @@ bool extraction_describe_surface(struct extraction *extraction, const struct sur
     return true;
 }
 
+static bool lacks_size(const struct object *object)
+{
+    return object->length_m == 0 || object->width_m == 0 || object->height_m == 0;
+}
+
 /* An object of size zero takes its class's default size. */
 static void complete_size(struct object *object, const struct vehicle *vehicle)
 {
@@ -198,12 +203,14 @@ int extraction_step(struct extraction *extraction, struct frame *frame, struct r
 {
     struct object *const *object = frame_order_objects(frame);
     struct extracted_classes classes = {hash_table_begin(frame->objects.count, frame->arena), {0}};
+    bool completes = false;
     for (size_t i = 0; i < frame->objects.count; i++) {
         struct extracted_class *class =
             class_of(&classes, object[i], extraction->folder, frame, runner);
         if (class == NULL)
             return diag_prefix(runner_diag(runner),
                                "objects[%zu].class: ", (size_t)(object[i] - frame->objects.items));
+        completes = completes || lacks_size(object[i]);
         complete_size(object[i], class->vehicle);
         if (frame_same_name(object[i]->id, frame->ego))
             continue;
@@ -213,6 +220,8 @@ int extraction_step(struct extraction *extraction, struct frame *frame, struct r
             set = shared_set(frame, class, describe, extraction);
         *list_add(&set->objects, frame->arena) = object[i]->id;
     }
+    if (completes)
+        frame_alter(frame, PART_OBJECTS);
     note_documents(frame, &classes);
     return 0;
 }

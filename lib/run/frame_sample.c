@@ -58,6 +58,7 @@ int frame_sample_add(struct frame_sample *sample, const struct frame *frame, str
     struct text line = {0};
     frame_drop(&bare, ~(unsigned)(PART_OBJECTS | PART_VEHICLES | PART_REFLECTORS));
     bare.sections = CARRY_BY_DEFAULT;
+    frame_alter(&bare, PART_HEADER);
     int result = frame_text_write(&bare, &line, diag);
     if (result == 0)
         *list_add(&sample->list, sample->arena) = (struct sampled_frame){

@@ -20,12 +20,21 @@ static int open_next(struct frame_stream *stream, struct diag *diag)
 }
 
 /* Lines of other programs may have their parts in any order; stages rely on the canonical one. */
-int frame_stream_parse(const char *line, size_t length, struct frame *frame, struct diag *diag)
+static int order(struct frame *frame, struct diag *diag)
 {
-    if (frame_text_read(line, length, frame, diag) != 0)
-        return -1;
     frame_order(frame);
     return frame_check(frame, diag);
+}
+
+int frame_stream_parse(const char *line, size_t length, struct frame *frame, struct diag *diag)
+{
+    return frame_text_read(line, length, frame, diag) == 0 ? order(frame, diag) : -1;
+}
+
+/* The input keeps the line until the next one is asked for. */
+static int take(const char *line, size_t length, struct frame *frame, struct diag *diag)
+{
+    return frame_text_take(line, length, frame, diag) == 0 ? order(frame, diag) : -1;
 }
 
 /* A file of another format is named instead of its first line. */
@@ -50,7 +59,7 @@ int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct d
         int more = input_line(stream->input, FRAME_TEXT_SIZE, &line, &length, diag);
         if (more >= 0 || diag->code != DIAG_NO_INPUT) /* a folder has no lines */
             stream->line++;
-        if (more > 0 && frame_stream_parse(line, length, frame, diag) != 0)
+        if (more > 0 && take(line, length, frame, diag) != 0)
             more = -1;
         if (more < 0)
             name_format(stream, diag);

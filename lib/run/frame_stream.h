@@ -13,7 +13,8 @@ struct frame_stream {
     size_t path, line;        /* how many paths are open or done, and lines of the last of them */
 };
 
-/* The next frame, in canonical order and checked: 1; 0 at the end; -1 after a message. */
+/* The next frame, in canonical order and checked: 1; 0 at the end; -1 after a message. It keeps the
+ * texts of its line, which stays as it is until the next call (frame_text.h). */
 int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct diag *diag);
 
 /* One line, without its newline, as such a frame: 0, or -1 after a message. */

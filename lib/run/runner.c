@@ -209,6 +209,7 @@ static int finish_step(struct runner *runner, struct frame *frame,
     const struct frame_parts written = {stage->writes, stage->name, before};
     frame->present |= stage->writes & ~sections_left_out(frame);
     sections_drop(frame);
+    frame_alter(frame, stage->writes);
     if ((stage->writes & PART_TARGETS) != 0)
         sightings_count_targets(frame);
     frame_order_parts(frame, written);
@@ -260,8 +261,10 @@ static int check_account(const struct runner *runner, const struct frame *frame,
  * program reads, and must follow the frames before it (--complete). */
 static int take_frame(struct runner *runner, struct frame *frame)
 {
-    if (runner->common.seed_given)
+    if (runner->common.seed_given) {
         frame->seed = runner->common.seed;
+        frame_alter(frame, PART_HEADER);
+    }
     if (check_parts(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0 ||
         apply_sections(runner, frame) != 0)
         return -1;

@@ -33,6 +33,23 @@ enum field_kind {
 
 enum { FIELD_NAME_SIZE = 1024, FIELD_RAW_SIZE = 64 * 1024, FIELD_KEY_SIZE = 32 };
 
+/* A piece of text, which somebody else keeps; bytes NULL: none. */
+struct field_text {
+    const char *bytes;
+    size_t length;
+};
+
+/* The line that a struct was read from. Members whose group is in `same` still have the value that
+ * the line has, and are written word for word as there; FIELD_UNGROUPED stands for all members
+ * without a group. Stages that change a member take its group out. */
+struct field_line {
+    struct field_text *texts; /* by the fields of the record; NULL: there is no line */
+    unsigned same;
+};
+
+/* The members that are in no group, in a set of groups. */
+#define FIELD_UNGROUPED (1U << 31)
+
 struct record;
 
 struct field {
@@ -63,7 +80,8 @@ struct field_gone {
  * group are absent unless its bit is set. A member for which 0 is a value like any other needs a
  * group. A record with steady lists has, at document_offset, a pointer to the struct of the
  * document that it was copied from, or NULL. An inherited name is absent in text where the item
- * before in the list has the same; a struct always has it. */
+ * before in the list has the same; a struct always has it. A record that keeps its line
+ * has a struct field_line at line_offset. */
 struct record {
     const char *name;
     const char *help;
@@ -72,6 +90,7 @@ struct record {
     size_t present_offset;
     size_t document_offset;
     const struct field *inherited; /* one of fields; NULL: none */
+    size_t line_offset;            /* 0: it keeps no line */
     const struct field_gone *gone; /* ends without a name; NULL: none */
 };
 
@@ -145,6 +164,15 @@ static inline unsigned field_groups(const struct record *record, const void *bas
     unsigned present;
     memcpy(&present, (const char *)base + record->present_offset, sizeof present);
     return present;
+}
+
+/* The line of the struct at base; none unless the record keeps it. */
+static inline struct field_line field_line(const struct record *record, const void *base)
+{
+    struct field_line line = {0};
+    if (record->line_offset != 0)
+        memcpy(&line, (const char *)base + record->line_offset, sizeof line);
+    return line;
 }
 
 /* The unit that a name ends with, for messages and help: "m" for range_m, "" if the number has

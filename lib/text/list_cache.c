@@ -13,7 +13,7 @@ static struct list_cache_entry *note_found(struct list_cache *cache, struct list
     return list;
 }
 
-static bool begins_with(const char *text, const char *end, struct list_cache_text beginning)
+static bool begins_with(const char *text, const char *end, struct field_text beginning)
 {
     return beginning.bytes != NULL && beginning.length <= (size_t)(end - text) &&
            memcmp(beginning.bytes, text, beginning.length) == 0;
@@ -36,10 +36,10 @@ bool list_cache_full(const struct list_cache *cache)
     return cache->kept.count >= LIST_CACHE_MOST || cache->size >= LIST_CACHE_SIZE;
 }
 
-static struct list_cache_text copy(struct list_cache *cache, const char *text, size_t length)
+static struct field_text copy(struct list_cache *cache, const char *text, size_t length)
 {
     cache->size += length;
-    return (struct list_cache_text){arena_text(&cache->arena, text, length), length};
+    return (struct field_text){arena_text(&cache->arena, text, length), length};
 }
 
 static struct list_cache_entry *add(struct list_cache *cache, const struct field *field,

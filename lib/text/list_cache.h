@@ -9,17 +9,12 @@
 /* The largest number of lists kept, and of bytes of text after which none is added. */
 enum { LIST_CACHE_MOST = 256, LIST_CACHE_SIZE = 1024 * 1024 };
 
-struct list_cache_text {
-    const char *bytes; /* NULL: none yet */
-    size_t length;
-};
-
 /* A list that does not change any more: it was read from a line, or belongs to a document. */
 struct list_cache_entry {
-    const struct record *record;    /* record of the items */
-    LIST_OF(void) items;            /* without spare room, so that a list_add makes a copy */
-    struct list_cache_text read;    /* text of the list in the line it was read from */
-    struct list_cache_text written; /* text of the list in lines that are written */
+    const struct record *record; /* record of the items */
+    LIST_OF(void) items;         /* without spare room, so that a list_add makes a copy */
+    struct field_text read;      /* text of the list in the line it was read from */
+    struct field_text written;   /* text of the list in lines that are written */
 };
 
 /* A zeroed cache is empty. All its memory is its arena's. */

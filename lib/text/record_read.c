@@ -335,11 +335,26 @@ static const struct field *read_key(struct json_scan *scan, const struct record 
     return NULL;
 }
 
+/* Reads a member of a struct that keeps its line. */
+static int read_with_text(struct reader *reader, const struct record *record,
+                          const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    json_scan_peek(scan);
+    const char *begin = scan->at;
+    if (read_member(reader, field, base) != 0)
+        return -1;
+    field_line(record, base).texts[field - record->fields] =
+        (struct field_text){begin, (size_t)(scan->at - begin)};
+    return 0;
+}
+
 static int read_members(struct reader *reader, const struct record *record, void *base,
                         uint64_t *seen)
 {
     struct json_scan *scan = &reader->scan;
     const struct field *next = record->fields;
+    bool keeps_line = field_line(record, base).texts != NULL;
     do {
         const struct field *field = take_key(scan, next);
         if (field == NULL)
@@ -352,7 +367,8 @@ static int read_members(struct reader *reader, const struct record *record, void
             return field_twice(field, scan->diag);
         *word |= bit;
         next = field + 1;
-        if (read_member(reader, field, base) != 0)
+        if ((keeps_line ? read_with_text(reader, record, field, base)
+                        : read_member(reader, field, base)) != 0)
             return -1;
         if (field->group != 0)
             field_mark_present(record, field, base);

@@ -156,7 +156,7 @@ static int check_records(const struct record *record, struct items *items, unsig
 {
     const char *const first = items->first, *const end = first + items->count * items->size;
     const size_t size = items->size;
-    const bool ungrouped = (groups & RECORD_WRITE_UNGROUPED) != 0;
+    const bool ungrouped = (groups & FIELD_UNGROUPED) != 0;
     bool grouped = record->fields[0].group != 0;
     if (items->count == 0 || (grouped && groups_among(record, items) == 0))
         return 0;
@@ -200,6 +200,13 @@ static void make_room(struct writer *writer, size_t size)
 
 static void write_record(const struct record *record, const void *base, const struct field *told,
                          struct writer *writer);
+
+static void write_text(struct field_text text, struct writer *writer)
+{
+    make_room(writer, text.length + MEMBER_ROOM);
+    memcpy(writer->at, text.bytes, text.length);
+    writer->at += text.length;
+}
 
 static void write_word(const char *word, struct writer *writer)
 {
@@ -264,9 +271,7 @@ static void write_steady(const struct record *record, const struct field *field,
         const char *text = writer->text->bytes + begin;
         list_cache_keep_written(writer->cache, list, text, (size_t)(writer->at - text));
     } else {
-        make_room(writer, list->written.length + MEMBER_ROOM);
-        memcpy(writer->at, list->written.bytes, list->written.length);
-        writer->at += list->written.length;
+        write_text(list->written, writer);
     }
 }
 
@@ -363,12 +368,55 @@ static void write_record(const struct record *record, const void *base, const st
     *writer->at++ = '}';
 }
 
+/* Writes a member as a record of its own, {"x":1}, and puts the separator in place of the braces.
+ */
+static void write_alone(const struct record *record, const struct field *field, const void *base,
+                        char separator, struct writer *writer)
+{
+    const struct field fields[] = {*field, {0}};
+    struct record alone = *record;
+    alone.fields = fields;
+    size_t begin = (size_t)(writer->at - writer->text->bytes);
+    write_record(&alone, base, NULL, writer);
+    writer->text->bytes[begin] = separator;
+    writer->at--;
+}
+
+/* Writes a struct that was read from a line. */
+static void write_as_read(const struct record *record, const void *base, struct field_line line,
+                          struct writer *writer)
+{
+    char separator = '{';
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        struct field_text text = line.texts[field - record->fields];
+        unsigned group = field->group != 0 ? field->group : FIELD_UNGROUPED;
+        bool same = text.bytes != NULL && (line.same & group) != 0;
+        if (!same && !field_present(record, field, base))
+            continue;
+        if (same) {
+            make_room(writer, MEMBER_ROOM);
+            memcpy(writer->at, field->key, FIELD_KEY_SIZE);
+            *writer->at = separator;
+            writer->at += field->key_length;
+            write_text(text, writer);
+        } else {
+            write_alone(record, field, base, separator, writer);
+        }
+        separator = ',';
+    }
+    *writer->at++ = '}';
+}
+
 void record_write(const struct record *record, const void *base, struct list_cache *cache,
                   struct text *text)
 {
     char *at = text_room(text, MEMBER_ROOM);
     struct writer writer = {text, at, text->bytes + text->room, cache};
-    write_record(record, base, NULL, &writer);
+    struct field_line line = field_line(record, base);
+    if (line.texts != NULL)
+        write_as_read(record, base, line, &writer);
+    else
+        write_record(record, base, NULL, &writer);
     *writer.at++ = '\n';
     text->length = (size_t)(writer.at - text->bytes);
 }

@@ -6,9 +6,6 @@
 #include "base/text.h"
 #include "text/list_cache.h"
 
-/* The members that are in no group, in a set of groups. */
-#define RECORD_WRITE_UNGROUPED (1U << 31)
-
 /* Refuses a struct out of the bounds of its fields with "echoes[3].range_m: -1 is outside [0,
  * 1e+06] m", "name: missing" and the like. Covers embedded structs and lists, and accepts whatever
  * the reader of a line would. Of the record's own groups it checks only these; ~0U: all. A list

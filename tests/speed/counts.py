@@ -25,7 +25,7 @@ FIRST = 6
 # Functions whose inclusive counts tell the parts apart, those that visit a sensor for glint-sensor and
 # glint-noise; the rest is the runner's.
 PARTS = {"traffic": "traffic_next", "extract": "extract_step", "ideal": "ideal_step",
-         "sensor": "sense", "noise": "list_targets", "read": "frame_text_read",
+         "sensor": "sense", "noise": "list_targets", "read": "frame_text_take",
          "write": "frame_text_write"}
 
 
@@ -88,7 +88,7 @@ def read_dump(path):
 def instructions(binary, job):
     """Instructions per frame, from frame FIRST to the last but one: {"all": ...} and every part. Callgrind
     dumps its counts wherever a frame begins."""
-    begins = "runner_next" if job[1] == os.devnull else "frame_text_read"
+    begins = "runner_next" if job[1] == os.devnull else "frame_text_take"
     with tempfile.TemporaryDirectory() as folder:
         profile = os.path.join(folder, "callgrind")
         run("callgrind", binary, job, f"--callgrind-out-file={profile}", f"--dump-before={begins}")

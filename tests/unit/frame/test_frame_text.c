@@ -90,6 +90,38 @@ TEST(a_rich_frame_comes_back_byte_for_byte)
     assert_reads_as_rich(rich);
 }
 
+/* The frame of the line, after parts of it were altered and others dropped. */
+static void assert_written(const char *line, unsigned altered, unsigned dropped,
+                           const char *expected)
+{
+    struct frame frame = {.arena = check_arena()};
+    struct text *text = check_text();
+    assert_done(frame_text_take, line, strlen(line), &frame);
+    frame_alter(&frame, altered);
+    frame_drop(&frame, dropped);
+    assert_done(frame_text_write, &frame, text);
+    text_add(text, "", 1);
+    assert_string_equal(text->bytes, expected);
+}
+
+TEST(members_that_nobody_alters_are_written_word_for_word)
+{
+    static const char line[] =
+        "{\"scene\":\"\\u0061\",\"ego\":\"e\",\"objects\":[ ],\"lost\":[],\"seed\" : \"007\","
+        "\"version\":0e1,\"origin_x_m\":0.0,\"interval_s\":\t1.0 ,\"time_s\":1E-1,\"frame\":1e0}";
+    assert_written(line, 0, 0,
+                   "{\"version\":0e1,\"scene\":\"\\u0061\",\"frame\":1e0,\"time_s\":1E-1,"
+                   "\"interval_s\":1.0,\"seed\":\"007\",\"ego\":\"e\",\"origin_x_m\":0.0,"
+                   "\"objects\":[ ],\"lost\":[]}\n");
+    assert_written(line, PART_OBJECTS, PART_LOST,
+                   "{\"version\":0e1,\"scene\":\"\\u0061\",\"frame\":1e0,\"time_s\":1E-1,"
+                   "\"interval_s\":1.0,\"seed\":\"007\",\"ego\":\"e\",\"origin_x_m\":0.0,"
+                   "\"objects\":[]}\n");
+    assert_written(line, PART_HEADER, 0,
+                   "{\"version\":0,\"scene\":\"a\",\"frame\":1,\"time_s\":0.1,"
+                   "\"interval_s\":1,\"seed\":\"7\",\"ego\":\"e\",\"objects\":[ ],\"lost\":[]}\n");
+}
+
 /* The tree's text with its keys in another order, and white space where it may stand. */
 static void print_shuffled(json_t *tree, const char *key, uint64_t *random, struct text *text)
 {

@@ -131,7 +131,7 @@ TEST(members_of_no_group_are_checked_if_they_are_wanted)
     thing.gain = 1;
     assert_done(record_write_check, &record, &thing, IN_LATER | IN_PARTS);
     assert_refused(DIAG_DATA, "gain: 1 is outside [0, 0.1]", record_write_check, &record, &thing,
-                   RECORD_WRITE_UNGROUPED);
+                   FIELD_UNGROUPED);
 }
 
 /* A 0 of a group that is present is a value like any other. */
