@@ -4,8 +4,6 @@
 #include "run/cost_search.h"
 #include "run/tool.h"
 #include "run/trial_options.h"
-#include "text/output.h"
-#include "text/record_write.h"
 
 struct cost_state {
     struct trial_options options; /* first */
@@ -74,30 +72,28 @@ static int measure(struct cost_state *own, struct diag *diag)
     return own->chosen != NULL ? 0 : -1;
 }
 
-static int print(const struct cost_state *own, struct output *output, struct runner *runner)
+static int print(const struct cost_state *own, struct runner *runner)
 {
     const struct cost *cost = &own->cost;
-    struct text *text = output_text(output);
+    struct text text = {0};
     if (own->json || runner_output_ends(runner, ".json"))
-        record_write(&cost_table_record, &cost->table, NULL, text);
-    else
-        cost_write(cost, own->chosen, text);
-    return output_send(output, runner_diag(runner));
+        return runner_write_record(runner, &cost_table_record, &cost->table);
+    cost_write(cost, own->chosen, &text);
+    return runner_write_page(runner, &text);
 }
 
 static int cost_run(void *state, struct runner *runner)
 {
     struct cost_state *own = state;
     struct diag *diag = runner_diag(runner);
-    struct output *output;
-    if (begin(own, runner) != 0 || (output = runner_output(runner)) == NULL)
+    if (begin(own, runner) != 0 || runner_output(runner) == NULL)
         return -1;
     struct frame *frame;
     int more;
     while ((more = runner_frame_ascending(runner, &frame)) > 0)
         if (frame_sample_add(&own->cost.sample, frame, diag) != 0)
             return -1;
-    return more < 0 || measure(own, diag) != 0 ? -1 : print(own, output, runner);
+    return more < 0 || measure(own, diag) != 0 ? -1 : print(own, runner);
 }
 
 static void cost_release(void *state)

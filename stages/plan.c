@@ -4,8 +4,6 @@
 #include "run/plan.h"
 #include "run/tool.h"
 #include "run/trial_options.h"
-#include "text/output.h"
-#include "text/record_write.h"
 
 struct plan_state {
     struct trial_options options; /* first */
@@ -13,29 +11,26 @@ struct plan_state {
     struct plan plan;
 };
 
-static int print(const struct plan_state *own, struct output *output, struct runner *runner)
+static int print(const struct plan_state *own, struct runner *runner)
 {
-    struct text *text = output_text(output);
+    struct text text = {0};
     if (own->json || runner_output_ends(runner, ".json"))
-        record_write(&cost_table_record, &own->plan.table, NULL, text);
-    else
-        plan_write(&own->plan, own->all, text);
-    return output_send(output, runner_diag(runner));
+        return runner_write_record(runner, &cost_table_record, &own->plan.table);
+    plan_write(&own->plan, own->all, &text);
+    return runner_write_page(runner, &text);
 }
 
 static int plan_run(void *state, struct runner *runner)
 {
     struct plan_state *own = state;
-    struct output *output;
-    if (plan_begin(&own->plan, &own->options, runner) != 0 ||
-        (output = runner_output(runner)) == NULL)
+    if (plan_begin(&own->plan, &own->options, runner) != 0 || runner_output(runner) == NULL)
         return -1;
     struct frame *frame;
     int more;
     while ((more = runner_frame_ascending(runner, &frame)) > 0)
         if (plan_try(&own->plan, frame) != 0)
             return -1;
-    return more < 0 || plan_end(&own->plan) != 0 ? -1 : print(own, output, runner);
+    return more < 0 || plan_end(&own->plan) != 0 ? -1 : print(own, runner);
 }
 
 static void plan_release(void *state)

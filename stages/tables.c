@@ -134,7 +134,7 @@ static int write_counts(struct tables_state *own, struct runner *runner)
 {
     struct text text = {0};
     stream_counts_write(&own->counted, &text);
-    return runner_write_text(runner, &text);
+    return runner_write_page(runner, &text);
 }
 
 static int tables_run(void *state, struct runner *runner)

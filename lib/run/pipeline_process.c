@@ -19,6 +19,7 @@
 #include "text/input.h"
 #include "text/output.h"
 #include "text/path.h"
+#include "text/terminal.h"
 
 /* The text of `glint` without arguments. */
 static const char first_hour[] =
@@ -401,14 +402,16 @@ static int add_datasheet(const char *name, struct text *text, struct arena *aren
     return 0;
 }
 
-/* Prints what an option asks for: the text that this function adds for its value. */
+/* Prints what an option asks for: the text that this function adds for its value, which fits a
+ * terminal. */
 static int answer(int (*add)(const char *, struct text *, struct arena *, struct diag *),
                   const char *value, struct arena *arena)
 {
     struct diag diag = {0};
     struct text text = {0};
-    int code =
-        add(value, &text, arena, &diag) == 0 ? print(text.bytes, text.length) : complain(&diag);
+    int result = add(value, &text, arena, &diag);
+    terminal_fit(&text, terminal_columns(STDOUT_FILENO));
+    int code = result == 0 ? print(text.bytes, text.length) : complain(&diag);
     text_free(&text);
     return code;
 }

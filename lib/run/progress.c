@@ -6,7 +6,16 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "text/terminal.h"
+
 enum { BAR_WIDTH = 24, LINE_WIDTH = 72 };
+
+/* The last column of a terminal stays free: a cursor beside it may stand in the next line. */
+static int line_width(void)
+{
+    size_t columns = terminal_columns(STDERR_FILENO);
+    return columns > 0 && columns <= LINE_WIDTH ? (int)columns - 1 : LINE_WIDTH;
+}
 
 static const double QUIET_S = 1, PAUSE_S = 0.2;
 
@@ -50,13 +59,13 @@ void progress_show(struct progress *progress, double share)
     if (!(share > 0))
         return;
     progress_write(progress, now_s - progress->begin_s, share, line, sizeof line);
-    fprintf(stderr, "\r%-*s", LINE_WIDTH, line);
+    fprintf(stderr, "\r%-*.*s", line_width(), line_width(), line);
     progress->shown = true;
 }
 
 void progress_end(struct progress *progress)
 {
     if (progress->shown)
-        fprintf(stderr, "\r%*s\r", LINE_WIDTH, "");
+        fprintf(stderr, "\r%*s\r", line_width(), "");
     progress->shown = false;
 }

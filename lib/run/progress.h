@@ -1,7 +1,9 @@
 /* Rate and time left of long work, on stderr. The line appears where stderr is a terminal and the
  * work has lasted for a second, changes a few times a second, and is gone at the end:
  *
- *     [########                ]  33 %, 4100 frames/s, 0:00:12 left */
+ *     [########                ]  33 %, 4100 frames/s, 0:00:12 left
+ *
+ * In a narrow terminal its end is cut off. */
 #pragma once
 
 #include <stdbool.h>

@@ -14,6 +14,7 @@
 #include "text/packing.h"
 #include "text/path.h"
 #include "text/record_write.h"
+#include "text/terminal.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -56,6 +57,13 @@ int runner_write_text(struct runner *runner, struct text *text)
     int result = runner_write(runner, text->bytes, text->length);
     text_free(text);
     return result;
+}
+
+int runner_write_page(struct runner *runner, struct text *text)
+{
+    if (runner_output_is_terminal(runner))
+        terminal_fit(text, terminal_columns(STDOUT_FILENO));
+    return runner_write_text(runner, text);
 }
 
 int runner_write_record(struct runner *runner, const struct record *record, const void *base)

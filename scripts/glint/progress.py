@@ -20,6 +20,15 @@ BAR_WIDTH, LINE_WIDTH = 24, 72
 QUIET_S, PAUSE_S = 1, 0.2
 
 
+def line_width():
+    """Columns of the line; the last one of a terminal stays free, as a cursor beside it may stand in the next line."""
+    try:
+        columns = os.get_terminal_size(sys.stderr.fileno()).columns
+    except OSError:
+        columns = 0
+    return columns - 1 if 0 < columns <= LINE_WIDTH else LINE_WIDTH
+
+
 def told_file():
     """The file to which this process tells its share, or None: what it starts is no part of the whole."""
     process, _, path = os.environ.pop("GLINT_PROGRESS", "").partition(" ")
@@ -72,7 +81,7 @@ class Progress:
 
     def _draw(self, now, share):
         line = line_of(self.unit, self.count, now - self.begin, share)
-        print(f"\r{line:{LINE_WIDTH}}", end="", file=sys.stderr, flush=True)
+        print(f"\r{line:{line_width()}.{line_width()}}", end="", file=sys.stderr, flush=True)
         Progress.standing = True
 
     @staticmethod
@@ -80,7 +89,7 @@ class Progress:
         """Takes the line away; the next step brings it back."""
         with Progress.lock:
             if Progress.standing:
-                print(f"\r{'':{LINE_WIDTH}}\r", end="", file=sys.stderr, flush=True)
+                print(f"\r{'':{line_width()}}\r", end="", file=sys.stderr, flush=True)
             Progress.standing = False
 
     def over(self, items, expected=None, cost=None):

@@ -6,13 +6,16 @@ Usage: python3 tests/chain/progress.py BIN_DIR
 No test depends on the speed of the machine: a run takes over a second because nobody reads what it writes, or
 because it has work for hours and is ended; and a run that must be silent as it is short is measured.
 """
+import fcntl
 import os
 import pty
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import threading
 import time
 
@@ -32,9 +35,10 @@ BLOCKED_S = 1.1
 class Terminal:
     """What a program writes to a terminal of its own."""
 
-    def __init__(self, idle_s=0):
+    def __init__(self, idle_s=0, columns=0):
         self.idle_s = idle_s  # nobody looks at it for so long
         self.ours, self.theirs = pty.openpty()
+        fcntl.ioctl(self.theirs, termios.TIOCSWINSZ, struct.pack("4H", 24, columns, 0, 0))
         self.text, self.changed = b"", threading.Condition()
         self.reader = threading.Thread(target=self.read, daemon=True)
 
@@ -67,9 +71,9 @@ class Terminal:
         return self.text
 
 
-def on_terminal(command, stdin=subprocess.DEVNULL):
+def on_terminal(command, stdin=subprocess.DEVNULL, columns=0):
     """stderr of a run of over a second, and stdout, which nobody reads in the first."""
-    terminal = Terminal()
+    terminal = Terminal(columns=columns)
     process = terminal.start(command, stdin=stdin, stdout=subprocess.PIPE)
     time.sleep(BLOCKED_S)
     written = process.stdout.read()
@@ -148,6 +152,38 @@ def short_work_is_silent(_):
     return "no run takes under a second"
 
 
+def a_narrow_terminal_cuts_the_line_off(folder):
+    python = f"import sys, time; sys.path.insert(0, '{ROOT}/scripts'); from glint.progress import Progress\n" \
+             f"for n in Progress('runs').over(range(2)): time.sleep({BLOCKED_S})"
+    for command in (f"glint-extract {folder}/frames.jsonl", f"python3 -c \"{python}\""):
+        for columns in (40, 72, 73, 200):
+            text, _ = on_terminal(command, columns=columns)
+            width = min(columns - 1, 72)
+            if not re.match(rb"\r\[#* *", text) or {len(line) for line in text.split(b"\r")} != {0, width} or not ERASED.search(text):
+                return f"in {columns} columns: {text[:100]} from: {command}"
+    return None
+
+
+def tables_fit_a_terminal(folder):
+    """Their words are those of a file, and the pipeline of a plan stays as it is."""
+    with open(f"{folder}/few.jsonl", "wb") as few, open(f"{folder}/frames.jsonl", "rb") as frames:
+        few.writelines(frames.readlines()[:5])
+    plan = f"glint -c 'glint-extract {folder}/few.jsonl | glint-plan --sensors corner77'"
+    for command in ("glint --list pipelines", "glint --datasheet lrr77-full", f"glint-summary {folder}/lists.jsonl", plan):
+        wide = subprocess.run(command, shell=True, check=True, stdout=subprocess.PIPE).stdout.decode()
+        terminal = Terminal(columns=60)
+        terminal.start(f"{command} >&2", stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL).wait(PATIENCE_S)
+        lines = terminal.all().decode().split("\r\n")
+        commands = [line for line in wide.splitlines() if line.startswith(("glint-", "  |")) and command == plan]
+        if max(map(len, wide.splitlines())) <= 60 or any(len(line) > 60 for line in lines if line not in commands):
+            return f"no line, or one of the terminal, is too wide: {command}: {max(lines, key=len)}"
+        if command == plan and not {*commands} <= {*lines}:
+            return f"other commands than {commands}"
+        if command != plan and " ".join(lines).split() != wide.split():
+            return f"other words: {command}"
+    return None
+
+
 def frames_on_a_terminal_stay_whole(folder):
     """Frames that a terminal shows are no place for a line between them."""
     terminal = Terminal(BLOCKED_S)
@@ -194,7 +230,7 @@ def scripts_show_the_same_line(_):
 
 TESTS = [endless_work_tells_how_long_it_takes, a_stage_that_reads_a_file_tells_it_too,
          a_ladder_of_chains_tells_when_it_is_done, who_reads_a_pipe_leaves_it_to_the_other_side, nothing_is_printed_where_stderr_is_no_terminal,
-         short_work_is_silent, frames_on_a_terminal_stay_whole, a_page_is_not_written_to_a_terminal, scripts_show_the_same_line]
+         short_work_is_silent, a_narrow_terminal_cuts_the_line_off, tables_fit_a_terminal, frames_on_a_terminal_stay_whole, a_page_is_not_written_to_a_terminal, scripts_show_the_same_line]
 
 
 def lacks_terminal(test):
