@@ -64,7 +64,8 @@ void suite_choice_doubt(struct runner *runner, const struct suite *suite)
             if (!is_told(suite, i, one))
                 add_notice(runner, arena_format(&runner->arena,
                                                 "%s: sensors[%zu].%s: doubt: %g%s; automotive "
-                                                "radars have %g to %g%s",
+                                                "radars have %g to %g%s; correct it, or "
+                                                "go on if it is meant",
                                                 suite->given, i, one->member, one->value, one->unit,
                                                 one->least, one->most, one->unit));
         }
@@ -103,7 +104,8 @@ bool suite_choice_doubt_cells(struct runner *runner, const struct suite *suite,
                    arena_format(&runner->arena,
                                 "%s: sensors[%zu].cell_range_m: doubt: cells of %g m; the "
                                 "reflectors of the class \"%s\" are made for cells of at "
-                                "most %g m",
+                                "most %g m; for larger ones take --vehicles "
+                                "detailed",
                                 suite->given, i, cell_m, document->class, document->cell_max_m));
         return true;
     }

@@ -137,7 +137,8 @@ NOISE_TEST(reflectors_that_are_made_for_finer_cells_are_doubted)
     assert_string_equal(
         bench->runner.notices.items[0],
         "srr24-pair-every-frame: sensors[0].cell_range_m: doubt: cells of 0.3 m; "
-        "the reflectors of the class \"car\" are made for cells of at most 0.299 m");
+        "the reflectors of the class \"car\" are made for cells of at most 0.299 m; "
+        "for larger ones take --vehicles detailed");
 }
 
 /* Counts the visit at its sensor, and notes an effect. */
