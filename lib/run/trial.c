@@ -98,6 +98,7 @@ static int choose_vehicles(struct trial_bench *bench, const char *asked, const s
     const char *folder, *named_by = "--vehicles";
     struct arena *arena = runner_arena(bench->runner);
     bench->vehicles = asked;
+    bench->asks_vehicles = asked != NULL;
     if (asked == NULL) {
         bench->vehicles = suite->vehicles;
         named_by = arena_format(arena, "%s: vehicles", suite->given);
@@ -189,6 +190,9 @@ static int open_frame(struct trial_bench *bench, const struct sampled_frame *sam
         return -1;
     frame->seed = seed;
     bool extracts = (frame->present & PART_REFLECTORS) == 0;
+    if (!extracts && bench->asks_vehicles)
+        return diag_fail(runner_diag(bench->runner), DIAG_USAGE,
+                         "--vehicles: the frames have reflectors; give it to glint-extract");
     if (extracts && runner_try(bench->runner, bench->extract, frame) != 0)
         return -1;
     bench->extracts = bench->extracts || extracts;

@@ -54,6 +54,7 @@ struct trial_bench {
     const struct suite *suite;
     bool doubts_cells;    /* true once a frame's reflectors were doubted */
     const char *vehicles; /* that objects are extracted with; NULL: the paper's */
+    bool asks_vehicles;   /* by an option, which frames with reflectors refuse */
     bool extracts;        /* true once a frame without reflectors was extracted */
     const char *asked;    /* the effects of the whole chain, as they were asked for */
     uint64_t allowed;     /* their EFFECT_BITs */

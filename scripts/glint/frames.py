@@ -420,14 +420,14 @@ class Shards:
                 return iter(glint.Shards("set", "train", worker=worker.id, workers=worker.num_workers))
     """
 
-    def __init__(self, folder, split="*", suite="*", worker=0, workers=1):
+    def __init__(self, folder, split="*", suite="*", worker=0, workers=1, check=True):
         files = sorted(glob.glob(os.path.join(glob.escape(folder), split, suite, "*.jsonl.*")))
         if not files:
             raise FileNotFoundError(f"{folder}: no shards {split}/{suite}/*.jsonl.gz or .zst")
-        self.files = files[worker::workers]
+        self.files, self.check = files[worker::workers], check
 
     def __iter__(self):
-        return frames(*self.files) if self.files else iter(())
+        return frames(*self.files, check=self.check) if self.files else iter(())
 
 
 class ChainError(RuntimeError):

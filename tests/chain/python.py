@@ -348,6 +348,7 @@ def workers_share_the_shards_of_a_set(folder):
     read = [[frame["frame"] for frame in glint.Shards(os.path.join(folder, "set"), "train", worker=one, workers=2)]
             for one in (0, 1)]
     assert read == [[0, 2, 4], [1, 3]], read
+    assert [frame["frame"] for frame in glint.Shards(os.path.join(folder, "set"), check=False)] == [*range(5)]
     with open(os.path.join(folder, "set", "train", "lrr77", "2.jsonl.gz"), "wb"):
         pass
     try:
