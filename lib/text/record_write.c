@@ -278,10 +278,8 @@ static void write_steady(const struct record *record, const struct field *field,
 static void write_set(const struct field *field, uint64_t set, struct writer *writer)
 {
     *writer->at++ = '[';
-    for (int i = 0; set >> i != 0; i++) {
-        if ((set >> i & 1) == 0)
-            continue;
-        write_choice(field->choices[i], writer);
+    for (uint64_t rest = set; rest != 0; rest &= rest - 1) {
+        write_choice(field->choices[__builtin_ctzll(rest)], writer);
         *writer->at++ = ',';
     }
     writer->at -= set != 0; /* the last comma */
