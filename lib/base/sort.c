@@ -2,6 +2,9 @@
 
 #include <stdbool.h>
 
+/* So few items are inserted one by one. */
+enum { FEW = 12 };
+
 /* The addresses of the items in the order reached so far, and where each run in order ends. */
 struct sorting {
     int (*compare)(const void *, const void *);
@@ -81,11 +84,30 @@ static void move_items(char *items, size_t count, size_t size, const char **from
     }
 }
 
+/* Sets from to the addresses of few items in order. */
+static void insert_each(const char **from, const char *items, size_t count, size_t size,
+                        int (*compare)(const void *, const void *))
+{
+    for (size_t i = 0; i < count; i++) {
+        const char *item = items + i * size;
+        size_t at = i;
+        for (; at > 0 && compare(from[at - 1], item) > 0; at--)
+            from[at] = from[at - 1];
+        from[at] = item;
+    }
+}
+
 void sort_items(void *items, size_t count, size_t size, int (*compare)(const void *, const void *),
                 struct arena *arena)
 {
     if (is_sorted(items, count, size, compare))
         return;
+    if (count <= FEW) {
+        const char *from[FEW];
+        insert_each(from, items, count, size, compare);
+        move_items(items, count, size, from, arena);
+        return;
+    }
     struct sorting sorting = {
         .compare = compare,
         .from = arena_room(arena, count * sizeof(const char *)),
