@@ -138,5 +138,6 @@ void sections_drop(struct frame *frame)
     for (int i = 0; sections_names[i] != NULL; i++)
         if ((frame->sections & UINT64_C(1) << i) == 0 && (frame->present & places[i].after) != 0)
             dropped |= places[i].own;
-    frame_drop(frame, dropped);
+    if (dropped != 0)
+        frame_drop(frame, dropped);
 }

@@ -10,6 +10,8 @@ static double j1_of(double h)
 {
     if (fabs(h) > 1.5)
         return (units_si(h) - elementary_cos(h)) / h;
+    if (h == 0)
+        return h;
     double sum = 1;
     for (int k = 9; k >= 1; k--)
         sum = 1 - h * h / (2 * k * (2 * k + 3)) * sum;

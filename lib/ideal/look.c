@@ -46,15 +46,15 @@ static bool has_moved(const struct object *object, const struct motion *motion)
            object->yaw_rad != motion->yaw_rad;
 }
 
-static struct look_body body_at(const struct look *look, const struct object *object, double age_s)
+static void place_body(const struct look *look, const struct object *object, double age_s,
+                       struct look_body *body)
 {
-    struct look_body body = {.object = object, .box = box_at(object, age_s)};
-    body.moved = age_s != 0 && has_moved(object, &body.box.motion);
-    body.radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
-    body.sensor_m = vec2_turn_back(vec2_sub(look->pose.position_m, body.box.motion.position_m),
-                                   body.box.heading);
-    motion_box_outline(&body.box, body.corner);
-    return body;
+    *body = (struct look_body){.object = object, .box = box_at(object, age_s)};
+    body->moved = age_s != 0 && has_moved(object, &body->box.motion);
+    body->radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
+    body->sensor_m = vec2_turn_back(vec2_sub(look->pose.position_m, body->box.motion.position_m),
+                                    body->box.heading);
+    motion_box_outline(&body->box, body->corner);
 }
 
 static void place_bodies(struct look *look, double age_s)
@@ -64,7 +64,7 @@ static void place_bodies(struct look *look, double age_s)
     look->bodies = arena_room(frame->arena, frame->objects.count * sizeof *look->bodies);
     for (size_t i = 0; i < frame->objects.count; i++)
         if (!frame_same_name(objects[i]->id, frame->ego))
-            look->bodies[look->body_count++] = body_at(look, objects[i], age_s);
+            place_body(look, objects[i], age_s, &look->bodies[look->body_count++]);
 }
 
 static int attach_reflectors(struct look *look, struct diag *diag)

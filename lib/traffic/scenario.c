@@ -241,9 +241,11 @@ void scenario_fill(const struct scenario *scenario, int64_t number, struct frame
     frame->conditions = scenario->conditions;
     frame->roadside.items = scenario->roadside.items;
     frame->roadside.count = scenario->roadside.count;
-    for (size_t i = 0; i < scenario->objects.count; i++)
-        *list_add(&frame->objects, frame->arena) =
-            object_of(&scenario->objects.items[i], frame->time_s);
+    frame->objects.count = frame->objects.room = scenario->objects.count;
+    frame->objects.items =
+        arena_room(frame->arena, frame->objects.count * sizeof *frame->objects.items);
+    for (size_t i = 0; i < frame->objects.count; i++)
+        frame->objects.items[i] = object_of(&scenario->objects.items[i], frame->time_s);
 }
 
 int scenario_check_frame(const struct frame *frame, struct diag *diag)
