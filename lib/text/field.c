@@ -226,12 +226,8 @@ static uint64_t bits_of(double value)
     return bits;
 }
 
-bool field_present(const struct record *record, const struct field *field, const void *base)
+bool field_differs(const struct field *field, const void *base)
 {
-    if (field->group != 0)
-        return (field_groups(record, base) & field->group) != 0;
-    if (!field->optional)
-        return true;
     switch (field->kind) {
     case FIELD_REAL: /* bit by bit, because readers distinguish minus zero from zero */
         return FIELD_LOAD(uint64_t, field, base) != bits_of(field->absent);
@@ -259,8 +255,8 @@ bool field_present(const struct record *record, const struct field *field, const
 }
 
 /* True if any member is present. Members are all in groups, whose bits tell it at once, or none
- * is. */
-static bool any_present(const struct record *record, const void *base)
+ * is. Kept out of field_differs, which would otherwise save registers for every member. */
+__attribute__((noinline)) static bool any_present(const struct record *record, const void *base)
 {
     if (record->fields[0].group != 0)
         return field_groups(record, base) != 0;

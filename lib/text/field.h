@@ -206,8 +206,17 @@ int field_add_to_set(const struct field *field, void *base, const char *text, si
  * one. */
 int field_read_number(const char *text, size_t length, double *value);
 
+/* True if the member differs from its value when absent; one of a group has none. */
+bool field_differs(const struct field *field, const void *base);
+
 /* True if the member is required, or differs from its value when absent. */
-bool field_present(const struct record *record, const struct field *field, const void *base);
+static inline bool field_present(const struct record *record, const struct field *field,
+                                 const void *base)
+{
+    if (field->group != 0)
+        return (field_groups(record, base) & field->group) != 0;
+    return !field->optional || field_differs(field, base);
+}
 
 /* True if both structs have the same text (record_write.h). */
 bool field_same(const struct record *record, const void *one, const void *other);
