@@ -245,6 +245,12 @@ __attribute__((noinline)) static size_t write_long(double value, char *text)
 
 size_t number_write(double value, char *text)
 {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    if (bits == 0) {
+        *text = '0';
+        return 1;
+    }
     const double magnitude = fabs(value);
     /* Two decimals of so few digits are never the same double, so no decimal is shorter. */
     const uint32_t near = magnitude < FOUR_PLACES_TO ? (uint32_t)(magnitude * 1e4 + 0.5) : 0;
@@ -253,7 +259,7 @@ size_t number_write(double value, char *text)
     *text = '-';
     char *at = put_ten_thousandths(near, text + (signbit(value) != 0));
     /* "-0" would lose its sign in every reader that takes it for an integer. */
-    if (near == 0 && at > text + 1) {
+    if (near == 0) {
         memcpy(at, ".0", 2);
         at += 2;
     }
