@@ -434,16 +434,6 @@ int field_twice(const struct field *field, struct diag *diag)
     return diag_fail(diag, DIAG_DATA, "%s: the key stands twice", field->name);
 }
 
-bool field_unchanged(const struct record *record, const struct field *field, const void *base)
-{
-    const void *document;
-    memcpy(&document, (const char *)base + record->document_offset, sizeof document);
-    if (document == NULL)
-        return false;
-    struct field_list list = field_list(field, base), read = field_list(field, document);
-    return list.items == read.items && list.count == read.count;
-}
-
 void *field_list_add(const struct field *field, void *base, struct arena *arena)
 {
     assert(field->kind == FIELD_NAMES || field->kind == FIELD_LIST);

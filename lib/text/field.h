@@ -256,7 +256,16 @@ static inline struct field_list field_list(const struct field *field, const void
 }
 
 /* True if this steady list is still the list of the document, which does not change. */
-bool field_unchanged(const struct record *record, const struct field *field, const void *base);
+static inline bool field_unchanged(const struct record *record, const struct field *field,
+                                   const void *base)
+{
+    const void *document;
+    memcpy(&document, (const char *)base + record->document_offset, sizeof document);
+    if (document == NULL)
+        return false;
+    struct field_list list = field_list(field, base), read = field_list(field, document);
+    return list.items == read.items && list.count == read.count;
+}
 
 /* Appends one zeroed item to the list member and returns its address. For FIELD_NAMES the item is a
  * const char *. */

@@ -185,8 +185,9 @@ struct writer {
     struct list_cache *cache; /* or NULL */
 };
 
-/* Room for a key, a number and the brackets around them. */
-enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8 };
+/* Room for a key, a number and the brackets around them; and for a record of as many numbers as it
+ * may have, so that none of them needs to look for room. */
+enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8, RECORD_ROOM = FIELD_MOST * MEMBER_ROOM };
 
 static void make_room(struct writer *writer, size_t size)
 {
@@ -300,13 +301,10 @@ static void write_seed(uint64_t seed, struct writer *writer)
     *writer->at++ = '"';
 }
 
+/* Writes a member that may be of any length. */
 static void write_member(const struct record *record, const struct field *field, const void *base,
                          struct writer *writer)
 {
-    if (field->kind == FIELD_REAL) { /* as most are */
-        writer->at += number_write(FIELD_LOAD(double, field, base), writer->at);
-        return;
-    }
     switch (field->kind) {
     case FIELD_INTEGER:
         write_whole(FIELD_LOAD(int64_t, field, base), writer);
@@ -343,6 +341,7 @@ static void write_member(const struct record *record, const struct field *field,
     case FIELD_NOTES:
         break;
     }
+    make_room(writer, RECORD_ROOM);
 }
 
 /* Writes all members that are present but the one that is told already, if any. */
@@ -350,17 +349,19 @@ static void write_record(const struct record *record, const void *base, const st
                          struct writer *writer)
 {
     char separator = '{';
+    make_room(writer, RECORD_ROOM);
     for (const struct field *field = record->fields; field->name != NULL; field++) {
         if (field == told || (field->optional && !field_present(record, field, base)))
             continue;
-        make_room(writer, MEMBER_ROOM);
         memcpy(writer->at, field->key, FIELD_KEY_SIZE);
         *writer->at = separator;
         writer->at += field->key_length;
-        write_member(record, field, base, writer);
         separator = ',';
+        if (field->kind == FIELD_REAL) /* as most are */
+            writer->at += number_write(FIELD_LOAD(double, field, base), writer->at);
+        else
+            write_member(record, field, base, writer);
     }
-    make_room(writer, MEMBER_ROOM);
     if (separator == '{')
         *writer->at++ = '{';
     *writer->at++ = '}';
@@ -408,7 +409,7 @@ static void write_as_read(const struct record *record, const void *base, struct 
 void record_write(const struct record *record, const void *base, struct list_cache *cache,
                   struct text *text)
 {
-    char *at = text_room(text, MEMBER_ROOM);
+    char *at = text_room(text, RECORD_ROOM);
     struct writer writer = {text, at, text->bytes + text->room, cache};
     struct field_line line = field_line(record, base);
     if (line.texts != NULL)

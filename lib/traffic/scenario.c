@@ -219,17 +219,22 @@ struct scenario *scenario_draw(const struct scenario_document *document,
     return NULL;
 }
 
-static struct object object_of(const struct actor *actor, double time_s)
+static void place_object(const struct actor *actor, double time_s, struct object *object)
 {
     double travelled_m;
     struct motion motion = actor_motion(actor, time_s, &travelled_m);
-    return frame_object_in((struct object){.id = actor->id,
-                                           .class = actor->class,
-                                           .length_m = actor->length_m,
-                                           .width_m = actor->width_m,
-                                           .height_m = actor->height_m,
-                                           .travelled_m = travelled_m},
-                           motion);
+    *object = (struct object){.id = actor->id,
+                              .class = actor->class,
+                              .x_m = motion.position_m.x,
+                              .y_m = motion.position_m.y,
+                              .yaw_rad = motion.yaw_rad,
+                              .vx_mps = motion.velocity_mps.x,
+                              .vy_mps = motion.velocity_mps.y,
+                              .yaw_rate_radps = motion.yaw_rate_radps,
+                              .length_m = actor->length_m,
+                              .width_m = actor->width_m,
+                              .height_m = actor->height_m,
+                              .travelled_m = travelled_m};
 }
 
 void scenario_fill(const struct scenario *scenario, int64_t number, struct frame *frame)
@@ -245,7 +250,7 @@ void scenario_fill(const struct scenario *scenario, int64_t number, struct frame
     frame->objects.items =
         arena_room(frame->arena, frame->objects.count * sizeof *frame->objects.items);
     for (size_t i = 0; i < frame->objects.count; i++)
-        frame->objects.items[i] = object_of(&scenario->objects.items[i], frame->time_s);
+        place_object(&scenario->objects.items[i], frame->time_s, &frame->objects.items[i]);
 }
 
 int scenario_check_frame(const struct frame *frame, struct diag *diag)
