@@ -21,20 +21,6 @@ static bool is_reached(const void *of, size_t row)
     return number_of(numbers, row) <= numbers->at;
 }
 
-/* The last row that is reached, from low on; high is not reached. */
-static size_t bisect(size_t low, size_t high, bool (*reached)(const void *of, size_t row),
-                     const void *of)
-{
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (reached(of, middle))
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 /* The row at or before the place if all steps are even; the last row is beyond the place. */
 static size_t guess_row(const struct numbers *numbers, size_t count)
 {
@@ -52,13 +38,8 @@ size_t search_row(const double *first, size_t stride, size_t count, double at)
         return count - 1;
     size_t guess = guess_row(&numbers, count);
     if (!is_reached(&numbers, guess))
-        return bisect(0, guess, is_reached, &numbers);
+        return search_last(0, guess, is_reached, &numbers);
     if (!is_reached(&numbers, guess + 1))
         return guess;
-    return bisect(guess + 1, count - 1, is_reached, &numbers);
-}
-
-size_t search_last(size_t count, bool (*reached)(const void *of, size_t row), const void *of)
-{
-    return bisect(0, count, reached, of);
+    return search_last(guess + 1, count - 1, is_reached, &numbers);
 }

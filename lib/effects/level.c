@@ -50,14 +50,10 @@ static bool has_width(const struct class_level *level)
 static bool described(const struct effect_scan *scan)
 {
     struct class_level width = widths_of_sensor(scan->sensor);
-    if (frame_object(scan->frame, scan->frame->ego) == NULL)
-        return false;
-    if (has_width(&width))
-        return true;
-    for (size_t i = 0; i < scan->frame->vehicles.count; i++)
-        if (has_width(&scan->frame->vehicles.items[i].level))
-            return true;
-    return false;
+    bool varies = has_width(&width);
+    for (size_t i = 0; i < scan->frame->vehicles.count && !varies; i++)
+        varies = has_width(&scan->frame->vehicles.items[i].level);
+    return varies && frame_object(scan->frame, scan->frame->ego) != NULL;
 }
 
 static double driven_m(const struct effect_scan *scan, const struct object *object)

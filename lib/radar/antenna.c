@@ -103,7 +103,7 @@ static double table_azimuth(const struct antenna *antenna, struct antenna_pair p
         return antenna->rows[0].azimuth_rad;
     if (is_above(&search, last))
         return antenna->rows[last].azimuth_rad;
-    const struct antenna_row *low = &antenna->rows[search_last(last, is_above, &search)];
+    const struct antenna_row *low = &antenna->rows[search_last(0, last, is_above, &search)];
     const struct antenna_row *high = low + 1;
     double above = row_cross(pair, low);
     double below = -row_cross(pair, high);

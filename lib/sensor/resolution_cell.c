@@ -164,7 +164,7 @@ void resolution_cell_set_elevation(const struct sensor *sensor, const struct rec
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell)
 {
-    double *range = arena_get(arena, 4 * count * sizeof *range);
+    double *range = arena_room(arena, 4 * count * sizeof *range);
     double *rate = range + count;
     double *weight = rate + count;
     double *azimuth = weight + count;
@@ -178,8 +178,10 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
         weight[i] = echoes[i].amplitude;
         cell->amplitude += echoes[i].amplitude;
     }
+    cell->members.items = arena_room(arena, count * sizeof *cell->members.items);
+    cell->members.count = cell->members.room = count;
     for (size_t i = 0; i < count; i++) {
-        struct contributor *member = list_add(&cell->members, arena);
+        struct contributor *member = &cell->members.items[i];
         *member = echoes[i].echo;
         member->weight = echoes[i].amplitude / cell->amplitude;
     }

@@ -86,7 +86,7 @@ TEST(the_last_row_that_is_reached_is_found)
 {
     for (size_t count = 1; count < 20; count++)
         for (size_t last = 0; last < count; last++)
-            assert_int_equal(search_last(count, is_at_most, &last), last);
+            assert_int_equal(search_last(0, count, is_at_most, &last), last);
 }
 
 static bool is_never(const void *of, size_t row)
@@ -98,6 +98,6 @@ static bool is_never(const void *of, size_t row)
 
 TEST(where_no_row_is_reached_the_first_one_is_found)
 {
-    assert_int_equal(search_last(9, is_never, NULL), 0);
-    assert_int_equal(search_last(0, is_never, NULL), 0);
+    assert_int_equal(search_last(0, 9, is_never, NULL), 0);
+    assert_int_equal(search_last(0, 0, is_never, NULL), 0);
 }
