@@ -12,7 +12,7 @@
 struct tables_state {
     const char *folder;
     const char *copy; /* file for a copy of the frames; NULL: no copy */
-    bool plain, npy, without_objects, counts;
+    bool plain, zstd, npy, without_objects, counts;
     int64_t part;
     struct output *outputs[TABLE_COUNT], *copied, *named;
     struct detection_tables tables;
@@ -20,62 +20,63 @@ struct tables_state {
     struct stream_counts counted;
 };
 
-static int make_folder(const char *folder, struct diag *diag)
+static const char *ending_of(const struct tables_state *own)
 {
-    if (mkdir(folder, 0777) == 0 || errno == EEXIST)
-        return 0;
-    return diag_fail(diag, DIAG_CANNOT_CREATE, "DIR: %s: %s", folder, strerror(errno));
-}
-
-static int open_arrays(struct tables_state *own, struct runner *runner)
-{
-    own->names = npy_columns_begin(runner_arena(runner));
-    own->tables.names = &own->names;
+    if (own->npy)
+        return ".npy";
     if (own->plain)
-        return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--plain: is for tables of CSV; expected it without --npy");
-    for (int i = 0; i < TABLE_COUNT; i++) {
-        const char *name = arena_format(runner_arena(runner), "%s.npy", detection_tables_names[i]);
-        own->outputs[i] = runner_output_in(runner, own->folder, name);
-        if (own->outputs[i] == NULL)
-            return -1;
-        own->tables.rows[i] = output_text(own->outputs[i]);
-    }
-    own->named = runner_output_in(runner, own->folder, "names.json");
-    return own->named != NULL ? 0 : -1;
+        return ".csv";
+    return own->zstd ? ".csv.zst" : ".csv.gz";
 }
 
-/* Refuses a folder that has a table of the other kind, packed or plain, as readers take both. */
-static int open_tables(struct tables_state *own, struct runner *runner)
+/* Refuses a folder that has a table of CSV of another kind, as readers take all of them. */
+static int refuse_other(const char *name, const struct tables_state *own, struct runner *runner)
 {
-    for (int i = 0; i < TABLE_COUNT; i++) {
-        const char *plain = arena_format(runner_arena(runner), "%s.csv", detection_tables_names[i]);
-        const char *packed = arena_format(runner_arena(runner), "%s.gz", plain);
+    static const char *const endings[] = {".csv", ".csv.gz", ".csv.zst", NULL};
+    for (int i = 0; endings[i] != NULL; i++) {
         const char *other =
-            arena_format(runner_arena(runner), "%s/%s", own->folder, own->plain ? packed : plain);
-        if (access(other, F_OK) == 0)
+            arena_format(runner_arena(runner), "%s/%s%s", own->folder, name, endings[i]);
+        if (strcmp(ending_of(own), endings[i]) != 0 && access(other, F_OK) == 0)
             return diag_fail(runner_diag(runner), DIAG_CANNOT_CREATE,
                              "%s: a table of another run; remove it, or name another folder",
                              other);
-        own->outputs[i] = runner_output_in(runner, own->folder, own->plain ? plain : packed);
-        if (own->outputs[i] == NULL)
-            return -1;
-        own->tables.rows[i] = output_text(own->outputs[i]);
     }
     return 0;
 }
 
+static int open_names(struct tables_state *own, struct runner *runner)
+{
+    own->names = npy_columns_begin(runner_arena(runner));
+    own->tables.names = &own->names;
+    own->named = runner_output_in(runner, own->folder, "names.json");
+    return own->named != NULL ? 0 : -1;
+}
+
 static int open_outputs(struct tables_state *own, struct runner *runner)
 {
-    if (make_folder(own->folder, runner_diag(runner)) != 0)
-        return -1;
-    return own->npy ? open_arrays(own, runner) : open_tables(own, runner);
+    if (mkdir(own->folder, 0777) != 0 && errno != EEXIST)
+        return diag_fail(runner_diag(runner), DIAG_CANNOT_CREATE, "DIR: %s: %s", own->folder,
+                         strerror(errno));
+    for (int i = 0; i < TABLE_COUNT; i++) {
+        const char *name = detection_tables_names[i];
+        if (!own->npy && refuse_other(name, own, runner) != 0)
+            return -1;
+        own->outputs[i] = runner_output_in(
+            runner, own->folder, arena_format(runner_arena(runner), "%s%s", name, ending_of(own)));
+        if (own->outputs[i] == NULL)
+            return -1;
+        own->tables.rows[i] = output_text(own->outputs[i]);
+    }
+    return own->npy ? open_names(own, runner) : 0;
 }
 
 /* Opens the outputs besides the folder: the copy and the counts. */
 static int open_others(struct tables_state *own, struct runner *runner)
 {
     own->counted.arena = runner_arena(runner);
+    if (own->plain + own->zstd + own->npy > 1)
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--plain, --zstd, --npy: expected one of them");
     if (own->without_objects && own->copy == NULL)
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--without-objects: is for a copy; expected --copy FILE, too");
@@ -134,6 +135,7 @@ static int write_counts(struct tables_state *own, struct runner *runner)
 {
     struct text text = {0};
     stream_counts_write(&own->counted, &text);
+    detection_tables_write_counts(&own->tables, &text);
     return runner_write_page(runner, &text);
 }
 
@@ -165,10 +167,12 @@ static const struct field tables_options[] = {
                    "the folder for the seven tables; it is made if it does not exist")},
     {OPTIONAL_FLAG(struct tables_state, plain, "write .csv instead of .csv.gz")},
     {OPTIONAL_FLAG(struct tables_state, npy, "write arrays of NumPy, .npy, and names.json")},
+    {OPTIONAL_FLAG(struct tables_state, zstd, "write .csv.zst instead of .csv.gz")},
     {OPTIONAL_NAME(struct tables_state, copy, "also write the frames to this file"),
      .word = "FILE"},
     {OPTIONAL_FLAG(struct tables_state, without_objects, "leave the objects out of the copy")},
-    {OPTIONAL_FLAG(struct tables_state, counts, "print counts as glint-summary does")},
+    {OPTIONAL_FLAG(struct tables_state, counts,
+                   "print counts as glint-summary does, and of the tables' rows")},
     {OPTIONAL_INTEGER(struct tables_state, part, 0, 9e6,
                       "number of this part of a set; its keys begin at 1e9 times the number")},
     {0},
@@ -183,8 +187,8 @@ const struct stage stage_tables = {
         "that join the rows of two tables. The parts of one set need different keys: --part gives "
         "each part its own. --npy writes arrays of NumPy, in which text is a number: the place of "
         "a name in names.json. schemas/README.md describes the tables. A folder that has a table "
-        "of the other kind, packed (.csv.gz) or plain (.csv), is refused, as readers take both. "
-        "Old tables go before the first new one comes: where a run is killed meanwhile, some "
+        "of another kind, packed (.csv.gz, .csv.zst) or plain (.csv), is refused, as readers take "
+        "all. Old tables go before the first new one comes: where a run is killed meanwhile, some "
         "tables are missing, and none is older than another. Run it again then.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",

@@ -1,5 +1,7 @@
 #include "export/detection_tables.h"
 
+#include <inttypes.h>
+
 #include "frame/frame_order.h"
 #include "geometry/kinematics.h"
 
@@ -455,4 +457,11 @@ int detection_tables_add(struct detection_tables *tables, struct frame *frame, s
     write_row(&writing, TABLE_FRAMES, STRUCTS(&writing.row, &writing.row, &writing.rows));
     tables->object_key += (int64_t)frame->objects.count;
     return 0;
+}
+
+void detection_tables_write_counts(const struct detection_tables *tables, struct text *text)
+{
+    text_format(text, "rows of tables\n");
+    for (int i = 0; i < TABLE_COUNT; i++)
+        text_format(text, "%9" PRId64 "  %s\n", tables->row_counts[i], detection_tables_names[i]);
 }

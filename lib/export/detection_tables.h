@@ -64,3 +64,6 @@ void detection_tables_write_head(const struct detection_tables *tables, enum tab
 /* Appends the rows of a frame in canonical order, which must have sensors and targets. Fails with
  * DIAG_DATA where there are no keys left. */
 int detection_tables_add(struct detection_tables *tables, struct frame *frame, struct diag *diag);
+
+/* Writes how many rows each table has, as lines. */
+void detection_tables_write_counts(const struct detection_tables *tables, struct text *text);

@@ -271,7 +271,7 @@ def counts_add_up_at_the_edges(folder):
 
 
 def what_is_kept_is_the_same_however_it_is_packed(folder):
-    """Compares sets of tables with whole lines, with lines without objects, and alone; lines packed by gzip and by zstd."""
+    """Compares sets of tables with whole lines, with lines without objects, and alone; all packed by gzip and by zstd."""
     def by_path(place):
         return {one["path"]: one["content_hash"] for one in manifest(place)["resources"]}
 
@@ -286,9 +286,12 @@ def what_is_kept_is_the_same_however_it_is_packed(folder):
         del frame["objects"]
         frame["sections"].remove("objects")
     assert [json.loads(line) for line in frames_of(bare, "all/*").splitlines()] == expected
-    by_zstd = made(folder, snapshots(20, compression="zstd", level=3), "zstd")
+    by_zstd = made(folder, snapshots(20, tables=True, compression="zstd", level=3), "zstd")
     unpacked = run(["bash", "-c", f"zstd -dcq {by_zstd}/all/*/*.jsonl.zst"]).stdout
     assert unpacked.encode() == lines
+    assert {path.replace(".gz", ".zst"): content for path, content in by_path(whole).items()} == by_path(by_zstd)
+    assert {one["path"].split(".")[0]: one["rows"] for one in manifest(whole)["resources"]} == {
+        one["path"].split(".")[0]: one["rows"] for one in manifest(by_zstd)["resources"]}
     for place in (whole, bare, by_zstd):
         done = run([CHECK_SET, place, "--all"])
         assert done.returncode == 0, done.stdout
@@ -591,6 +594,7 @@ def what_cannot_be_made_is_refused(folder):
         (snapshots(9, lines="some"), "/lines: 'some'; expected one of ['whole', 'without_objects', 'none']"),
         (snapshots(9, tables=True, lines="none", level=3), "/level: a set without lines has none"),
         (snapshots(9, level=10), "/level: 10; expected at most 9 for gzip"),
+        (snapshots(9, tables="parquet", lines="none", compression="zstd"), "/compression: Parquet has its own"),
         (snapshots(9, tables="excel"), "/tables: 'excel'; expected one of"),
         (snapshots(9, tables=1), "/tables: 1; expected one of"),
         (plan_of([medium | {"scenario": "cut-in"}]), "expected one of random, scenario, recording"),

@@ -255,16 +255,20 @@ def check_stream(stream, schema, bin_dir, seen):
 
 
 def check_ways(bin_dir):
-    """The same bytes fused and piped, packed and plain; and keys of parts that differ by 1e9."""
+    """The same bytes fused and piped, packed in both ways and plain; and keys of parts that differ by 1e9."""
     stream = STREAMS[0]
     with tempfile.TemporaryDirectory() as folder:
         os.makedirs(f"{folder}/plain")
         run(f"{stream} | glint-tables {folder}", bin_dir)
+        run(f"{stream} | glint-tables --zstd {folder}/zstd", bin_dir)
         quoted = stream.replace("'", "'\\''")
         run(f"glint -c '{quoted} | glint-tables --plain {folder}/plain'", bin_dir)
         for table in TABLES:
             with gzip.open(f"{folder}/{table}.csv.gz") as packed, open(f"{folder}/plain/{table}.csv", "rb") as plain:
-                check(packed.read() == plain.read(), f"{table}.csv has other bytes in one process")
+                content = plain.read()
+                check(packed.read() == content, f"{table}.csv has other bytes in one process")
+            by_zstd = subprocess.run(["zstd", "-dcq", f"{folder}/zstd/{table}.csv.zst"], stdout=subprocess.PIPE, check=True).stdout
+            check(by_zstd == content, f"{table}.csv.zst has other bytes")
         run(f"{stream} | glint-tables --plain --part 7 {folder}/plain", bin_dir)
         for table in TABLES:
             for part, whole in zip(read(f"{folder}/plain/{table}.csv"), read(f"{folder}/{table}.csv.gz")):
@@ -274,10 +278,10 @@ def check_ways(bin_dir):
 
 
 def check_one_run(bin_dir):
-    """A folder never holds tables of two runs: beside one of the other kind none is written, and what is there stays."""
+    """A folder never holds tables of two runs: beside one of another kind none is written, and what is there stays."""
     stream, environment = "glint pipelines/two-vehicles.sh", dict(os.environ, GLINT_DATA=ROOT + "/data")
     frames = run(stream, bin_dir)
-    for first, second, kind in (("", "--plain", ".csv.gz"), ("--plain", "", ".csv")):
+    for first, second, kind in (("", "--plain", ".csv.gz"), ("--plain", "", ".csv"), ("--zstd", "", ".csv.zst"), ("", "--zstd", ".csv.gz")):
         with tempfile.TemporaryDirectory() as folder:
             run(f"glint-tables {first} {folder}", bin_dir, frames)
             with open(f"{folder}/notes.csv", "w", encoding="utf-8") as file:

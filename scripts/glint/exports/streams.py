@@ -2,6 +2,7 @@
 import csv
 import glob
 import gzip
+import io
 import itertools
 import json
 import math
@@ -17,6 +18,7 @@ from glint.places import DATA, SCHEMAS
 from glint.progress import Progress
 from glint.sets import schema
 from glint.sets.plan import BAD_DATA, NO_INPUT, Fault, read_json
+from glint.sets.tables import opened
 
 HEIGHT_M = 0.5  # of a sensor that has none: usual for radars
 LEVELS = "v0-40", "v40-60", "v60-80", "v80-100"
@@ -40,9 +42,9 @@ def rows(folder, name):
     """The rows of a table, without empty cells; each knows its place."""
     of, path = {"integer": int, "number": float, "boolean": "true".__eq__, "string": str}, os.path.join(folder, name + ".csv")
     types = {one["name"]: of[one["type"]] for one in read_json(os.path.join(SCHEMAS, "tables.json"))[name]["fields"]}
-    place = path = path + ".gz" * (not os.path.exists(path))
+    place = path = next(filter(os.path.exists, (path, path + ".zst")), path + ".gz")
     try:
-        with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="utf-8", newline="") as file:
+        with io.TextIOWrapper(opened(path), encoding="utf-8", newline="") as file:
             table = csv.DictReader(file, strict=True)
             if not table.fieldnames:
                 raise ValueError("no heading")

@@ -13,8 +13,8 @@ DOCUMENTS = "documents"
 FOLDERS = {"recording": "trajectories", "scenario": "scenarios", "suite": "sensors", "export": "exports"}
 
 
-def program_version():
-    done = subprocess.run([GLINT, "--version"], check=True, stdout=subprocess.PIPE, text=True)
+def program_version(program=GLINT):
+    done = subprocess.run([program, "--version"], check=True, stdout=subprocess.PIPE, text=True)
     return done.stdout.strip()
 
 

@@ -62,7 +62,7 @@ def word_of_make(path):
 
 def makefile_of(layout, plan_folder):
     shards = layout["shards"]
-    rules = "\n".join(f"parts part-{i}: work/part-{i}.json  # {shard['split']}/{shard['suite']}" for i, shard in enumerate(shards))
+    rules = "\n".join(f"part-{i}: work/part-{i}.json  # {shard['split']}/{shard['suite']}" for i, shard in enumerate(shards))
     return text_of("makefile.txt").format(name=layout["plan"]["name"], count=len(shards), rules=rules,
                            program=word_of_make(os.path.join(SCRIPTS, "dataset")),
                            plan_folder=word_of_make(plan_folder))

@@ -29,7 +29,9 @@ class Pace:
         self.path, self.slot, self.frames, self.made, self.next_s = os.path.join(folder, PATH), part + HEAD, frames, 0, 0
 
     def add(self, lines):
-        self.made += bytes(lines).count(b"\n")
+        if not sys.stderr.isatty():
+            return
+        self.made += lines.count(b"\n")
         if time.monotonic() >= self.next_s:
             self.show(min(self.made, self.frames))
 

@@ -6,6 +6,7 @@ import shlex
 import shutil
 
 import glint
+from glint import zstd
 from glint.places import DATA
 from glint.sets import schema
 
@@ -125,16 +126,17 @@ def check_files(plan):
     """Refuses contradictions of lines, tables and compression, and missing programs."""
     lines, compression = plan.get("lines", "whole"), plan.get("compression", "gzip")
     refuse(lines != "whole" and not plan.get("tables"), "/lines", f'"{lines}" needs tables')
-    for name in ("compression", "level"):
-        refuse(lines == "none" and name in plan, f"/{name}", "a set without lines has none")
+    refuse(lines == "none" and "level" in plan, "/level", "a set without lines has none")
+    refuse("compression" in plan and lines == "none" and plan["tables"] == "parquet", "/compression", "Parquet has its own")
     if "exports" in plan:
         refuse(plan.get("tables") is not True and lines != "whole", "/exports", "are made of tables of CSV, or of whole lines")
         refuse("quality" not in plan["chain"], "/exports", "need the quality of targets; write glint-ideal --sections quality in the chain")
     highest = HIGHEST_LEVEL[compression]
     refuse(plan.get("level", 1) > highest, "/level", f"{plan.get('level')}; expected at most {highest} for {compression}")
-    for name, value, needed in (("compression", "zstd", "zstd"), ("tables", "parquet", "duckdb")):
-        if plan.get(name) == value and not shutil.which(needed):
-            raise Fault(UNAVAILABLE, f'/{name}: "{value}" needs the program {needed}, which is not in PATH')
+    if compression == "zstd" and not zstd.library():
+        raise Fault(UNAVAILABLE, '/compression: "zstd" needs libzstd.so.1, which is not there; Debian\'s package is libzstd1')
+    if plan.get("tables") == "parquet" and not shutil.which("duckdb"):
+        raise Fault(UNAVAILABLE, '/tables: "parquet" needs the program duckdb, which is not in PATH')
 
 
 def split_of(plan, source):

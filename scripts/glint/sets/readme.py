@@ -46,7 +46,8 @@ def readme_of(layout, records):
     plan, counts = layout["plan"], classes_by_split(layout, records)
     splits, texts = plan.get("splits", {}), json.loads(text_of("readme.json"))
     first, parquet = layout["shards"][0], plan.get("tables") == "parquet"
-    form = plan.get("compression", "gzip") if first["lines"] else "tables"
+    compression = plan.get("compression", "gzip")
+    form = compression if first["lines"] else "tables"
     loading = texts["loading"].get(form) or text_of("loading.txt")
     return text_of("readme.txt").format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
@@ -56,6 +57,6 @@ def readme_of(layout, records):
         classes=class_table(counts), traffic="\n".join(map(traffic_of, plan["sources"])),
         leak=texts["splits"][splits.get("by", "none")].format(gap_s=splits.get("gap_s")),
         lines=texts["lines"][form] + texts["bare"] * (plan.get("lines") == "without_objects"), shell=shlex.join(shell_of(plan)),
-        tables=texts["tables"].format(form="Parquet" if parquet else "CSV, gzip") if plan.get("tables") else "",
+        tables=texts["tables"].format(form="Parquet" if parquet else f"CSV, {compression}") if plan.get("tables") else "",
         exports=texts["exports"].format(names=", ".join(plan["exports"])) if "exports" in plan else "",
         loading=loading.format(first=first["lines"] or first["tables"][0], split=first["split"], reader="parquet" if parquet else "csv").rstrip())

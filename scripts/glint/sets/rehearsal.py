@@ -12,6 +12,7 @@ import tempfile
 from glint.places import SCRIPTS
 from glint.sets.documents import copy_documents, environment, path_of, suite_name
 from glint.sets.plan import Fault, kind_of, read_json, refuse, split_of
+from glint.sets.tables import tool_of
 from glint.sets.tracks import noted, pieces_of, same_scene, same_traffic, ways_of
 from glint.sets.traffic import (US, chain_of, command_words, first_scenes, operand, scene_frames, seconds, shell_of, source_command,
                                 stretches_of, times_of, words_of_recording)
@@ -62,6 +63,15 @@ class Rehearsal:
         if done.returncode != 0:
             whole = f"{chain_of(self.plan, suite, source)} | glint-summary"
             raise Fault(done.returncode, f"/chain: this fails: {shlex.join([*shell_of(self.plan), whole])}")
+
+    def check_tables(self):
+        """Refuses tables that this build of glint-tables cannot pack."""
+        with tempfile.TemporaryDirectory() as place:
+            words = shlex.split(tool_of({**self.plan, "lines": "none"}, 0, place, None))
+            words.remove("--complete")  # of no frames
+            done = subprocess.run(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
+        if done.returncode != 0:
+            raise Fault(done.returncode, f"/compression: this fails: {shlex.join(words)}")
 
     def check_exports(self, stretches, suite, path):
         """Writes the first frames of a source in each layout, and refuses more scans than a layout has names for."""
@@ -149,6 +159,8 @@ def rehearse(plan, folder, copied):
     with tempfile.TemporaryDirectory() as trial:
         copy_documents(copied, trial, trial)
         rehearsal, scenes = Rehearsal(plan, folder, trial), []
+        if plan.get("tables"):
+            rehearsal.check_tables()
         for i, source in enumerate(plan["sources"]):
             path, seed = f"/sources/{i}", plan.get("seeds", [1])[0]
             parts = stretches_of(plan, source, seed, plan["frames_per_shard"], folder)

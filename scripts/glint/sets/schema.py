@@ -72,8 +72,8 @@ PLAN = record(
                   {"enum": ["whole", "without_objects", "none"]}),
         "exports": ("layouts of public data sets that the set also gets, in exports/LAYOUT (data/exports/README.md); absent: none",
                     several({"enum": ["nuscenes", "truckscenes", "openpcdet", "kitti", "vod"]}, uniqueItems=True)),
-        "compression": ("of lines; absent: gzip", {"enum": ["gzip", "zstd"]}),
-        "level": ("of compression: up to 9 for gzip, 19 for zstd; absent: 1", whole(1, 19)),
+        "compression": ("of lines, and of tables of CSV; absent: gzip", {"enum": ["gzip", "zstd"]}),
+        "level": ("of the compression of lines: up to 9 for gzip, 19 for zstd; absent: 1", whole(1, 19)),
         "frames_per_shard": ("the most frames of a shard, unless a scene or a block has more", whole(1, 10 ** 9)),
         "splits": ("absent: one, called all", SPLITS)})
 

@@ -1,7 +1,9 @@
 """Makes one shard of a data set, and holds those that are there to their records."""
 import collections
+import concurrent.futures
 import contextlib
 import fcntl
+import functools
 import json
 import os
 import re
@@ -11,6 +13,7 @@ import sys
 import tempfile
 
 from glint import command_line
+from glint.places import GLINT
 from glint.progress import Progress
 from glint.sets import pace
 from glint.sets.documents import environment, program_version
@@ -50,9 +53,8 @@ def counted(words, lines, folder, plan_folder):
         os.close(end)
         with contextlib.suppress(OSError):  # the system may refuse room for a portion to a user who has many pipes
             fcntl.fcntl(frames, fcntl.F_SETPIPE_SZ, PORTION)
-        room = bytearray(PORTION)
-        while count := frames.readinto(room):
-            lines.write(memoryview(room)[:count])
+        while portion := frames.read(PORTION):
+            lines.write(portion)
         counts = process.communicate()[0]
         said.seek(0)
         sys.stderr.write(said.read().decode(errors="backslashreplace"))
@@ -69,10 +71,28 @@ def targets_by_kind(counts):
     return collections.Counter({name: int(count) for count, name in rows})
 
 
+def rows_of_tables(counts):
+    """What glint-tables has counted, by the name of the table."""
+    rows = counts.partition("\nrows of tables\n")[2].split()
+    return dict(zip(rows[1::2], map(int, rows[::2])))
+
+
+@functools.lru_cache(maxsize=None)
+def at_state(path, read, *_):
+    return read(path)
+
+
+def at_its_state(path, read):
+    """What is read of a file: read again only if the system says that the file is another one, or has been written."""
+    state = os.stat(path)
+    return at_state(path, read, state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns)
+
+
 def check_inputs(layout, shard, folder, plan_folder):
     """The program, the copies of documents and the shard's own inputs are those of the layout."""
-    if program_version() != layout["program"]:
-        raise Fault(BAD_DATA, f"the set was begun by {layout['program']}; this is {program_version()}")
+    program = at_its_state(GLINT, program_version)
+    if program != layout["program"]:
+        raise Fault(BAD_DATA, f"the set was begun by {layout['program']}; this is {program}")
     for place, known, names in ((folder, layout["documents"], None), (plan_folder, layout["inputs"], shard["inputs"])):
         for input_ in known:
             path = os.path.join(place, input_["path"])
@@ -80,7 +100,7 @@ def check_inputs(layout, shard, folder, plan_folder):
                 continue
             if not os.path.isfile(path):
                 raise Fault(NO_INPUT, f"{path}: no such file")
-            if digest_of_file(path) != input_["hash"]:
+            if at_its_state(path, digest_of_file) != input_["hash"]:
                 raise Fault(BAD_DATA, f"{path}: has changed since the set was begun")
 
 
@@ -97,7 +117,7 @@ def make_files(layout, part, folder, plan_folder):
             frames += int(counts.split()[0])
             targets += targets_by_kind(counts)
         files = [{"path": shard["lines"], **lines.facts(frames)}] if file else []
-        files += place_tables(shard["tables"], made, folder)
+        files += place_tables(shard["tables"], rows_of_tables(counts), made, folder)
     progress.end()
     return files, frames, dict(sorted(targets.items()))
 
@@ -115,6 +135,23 @@ def make(layout, part, folder, plan_folder):
                     json.dumps(record, indent=1, ensure_ascii=False) + "\n")
     except (Fault, OSError) as fault:
         raise Fault(getattr(fault, "code", IO), f"part-{part}, {shard['lines'] or shard['tables'][0]}: {fault}") from fault
+
+
+def make_missing(layout, left, folder, plan_folder, jobs):
+    """Makes shards, so many at a time. One that fails is named, and stops no other."""
+    def attempt(part):
+        try:
+            make(layout, part, folder, plan_folder)
+        except Fault as fault:
+            pace.clear()
+            print(f"{command_line.name()}: {fault}", file=sys.stderr)
+
+    pool = concurrent.futures.ThreadPoolExecutor(jobs)
+    try:
+        for _ in pool.map(attempt, left):
+            pass
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def wrong_record(layout, part, folder, by_digest):

@@ -5,6 +5,7 @@ import os
 import shlex
 import subprocess
 
+from glint import zstd
 from glint.places import SCHEMAS
 from glint.sets.durable import digest_of_file, sync_folder
 from glint.sets.plan import IO, Fault, read_json
@@ -17,7 +18,8 @@ COPY = "COPY (FROM {name}('.')) TO '{name}.parquet' (FORMAT parquet, COMPRESSION
 def paths_of(plan, place):
     """Paths of the tables of the shard at a place."""
     names = read_json(os.path.join(SCHEMAS, "tables.json")) if plan.get("tables") else []
-    return [f"{place}/{name}{'.parquet' if plan['tables'] == 'parquet' else '.csv.gz'}" for name in names]
+    packed = {"gzip": ".csv.gz", "zstd": ".csv.zst"}[plan.get("compression", "gzip")]
+    return [f"{place}/{name}{'.parquet' if plan['tables'] == 'parquet' else packed}" for name in names]
 
 
 def tool_of(plan, part, place, copy):
@@ -26,7 +28,11 @@ def tool_of(plan, part, place, copy):
     words = ["--complete", *["--copy", copy] * copied]
     if not plan.get("tables"):
         return shlex.join(["glint-summary", *words])
-    words += ["--without-objects"] * bare + ["--plain"] * (plan["tables"] == "parquet")
+    words += ["--without-objects"] * bare
+    if plan["tables"] == "parquet":
+        words.append("--plain")
+    elif plan.get("compression") == "zstd":
+        words.append("--zstd")
     return shlex.join(["glint-tables", "--counts", "--part", str(part), *words, place])
 
 
@@ -42,15 +48,21 @@ class Rows:
         self.quoted ^= len(pieces) % 2 == 0
 
 
-def facts_of_rows(path):
-    """Entry of a table of CSV, packed or not; the heading is no row."""
-    rows, plain, plain_bytes = Rows(), hashlib.sha256(), 0
-    with (gzip.open if path.endswith(".gz") else open)(path, "rb") as file:
+def opened(path):
+    """A binary file of what a table holds, packed or not."""
+    if path.endswith(".zst"):
+        return zstd.opened(path)
+    return (gzip.open if path.endswith(".gz") else open)(path, "rb")
+
+
+def facts_of_content(path):
+    """Bytes and digest of what a table holds, packed or not."""
+    plain, plain_bytes = hashlib.sha256(), 0
+    with opened(path) as file:
         while text := file.read(PORTION):
             plain.update(text)
             plain_bytes += len(text)
-            rows.add(text)
-    return {"rows": rows.count - 1, "content_bytes": plain_bytes, "content_hash": "sha256:" + plain.hexdigest()}
+    return {"content_bytes": plain_bytes, "content_hash": "sha256:" + plain.hexdigest()}
 
 
 def make_parquet(place, names):
@@ -61,11 +73,13 @@ def make_parquet(place, names):
         raise Fault(IO, f"exit status {done.returncode}: duckdb")
 
 
-def place_tables(paths, made, folder):
-    """Writes the tables of the folder `made` to the disk, and moves each to its path; their entries in the manifest."""
+def place_tables(paths, rows, made, folder):
+    """Writes the tables of the folder `made`, of so many rows each, to the disk, and moves each to its path; their entries in
+    the manifest."""
     names = [os.path.basename(path).split(".")[0] for path in paths]
     parquet = any(path.endswith(".parquet") for path in paths)
-    facts = [facts_of_rows(os.path.join(made, name + (".csv" if parquet else ".csv.gz"))) for name in names]
+    tables = [name + ".csv" for name in names] if parquet else map(os.path.basename, paths)
+    facts = [{"rows": rows[name], **facts_of_content(os.path.join(made, table))} for name, table in zip(names, tables)]
     if parquet:
         make_parquet(made, names)
     files = []
