@@ -10,12 +10,20 @@
 
 #include <protobuf-c/protobuf-c.h>
 
+enum { RECENT = 64 };
+
+struct recent {
+    uint64_t times_ns[RECENT];
+    size_t count; /* of all that were noted */
+};
+
 struct mcap_stage {
     struct trace trace; /* first: its option is the stage's */
     bool ros2;
     struct mcap_file file;
     size_t shared; /* channels that are of no sensor */
     struct intern sensors;
+    struct recent poses; /* of which transforms were sent */
     struct text message;
 };
 
@@ -148,18 +156,34 @@ static int add_views(struct mcap_stage *own, struct diag *diag)
     return 0;
 }
 
-/* Scans may be older than the first frame. */
+/* Notes that the ego's pose at a time was sent. Returns false if it was before: tf2 complains of a
+ * stamp that comes twice. */
+static bool is_new(struct recent *sent, uint64_t time_ns)
+{
+    for (size_t i = 0; i < RECENT && i < sent->count; i++)
+        if (sent->times_ns[i] == time_ns)
+            return false;
+    sent->times_ns[sent->count++ % RECENT] = time_ns;
+    return true;
+}
+
+static void add_pose(struct mcap_stage *own, double age_s)
+{
+    uint64_t time_ns = trace_ns(&own->trace, own->trace.frame->time_s - age_s);
+    if (!is_new(&own->poses, time_ns))
+        return;
+    ros_add_transforms(&own->trace, age_s, &own->message);
+    add_message(own, TRANSFORMS);
+}
+
+/* Each scan has the pose of its own time. */
 static void add_ros_scene(struct mcap_stage *own)
 {
-    double age_s = trace_age_s(own->trace.frame);
-    double time_s = own->trace.frame->time_s + own->trace.shift_s;
-    bool first = own->file.messages == 0;
-    if (first && age_s > 0 && age_s <= time_s) {
-        ros_add_transforms(&own->trace, age_s, &own->message);
-        add_message(own, TRANSFORMS);
-    }
-    ros_add_transforms(&own->trace, 0, &own->message);
-    add_message(own, TRANSFORMS);
+    const struct frame *frame = own->trace.frame;
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (frame->sensors.list.items[i].measured)
+            add_pose(own, frame->sensors.list.items[i].age_s);
+    add_pose(own, 0);
     ros_add_boxes(&own->trace, &own->message);
     add_message(own, ROS_OBJECTS);
 }

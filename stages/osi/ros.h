@@ -28,7 +28,8 @@ bool ros_takes_name(const char *sensor);
  * are uint32; a value that the target does not have is NaN. */
 void ros_add_points(struct trace *trace, const struct sensor_view *sensor, struct text *text);
 
-/* Appends the pose of the ego and its sensors, age_s before the frame's time. */
+/* Appends the pose of the ego and its mounts, age_s before the frame's time, as its scans of that
+ * age have it: at constant speed and turn rate. */
 void ros_add_transforms(const struct trace *trace, double age_s, struct text *text);
 
 /* Appends markers that replace all earlier ones. The id of both markers of an object is its number

@@ -13,18 +13,13 @@ uint32_t trace_object(struct trace *trace, const char *id)
     return intern_word(&trace->objects, id, trace->arena) + 1;
 }
 
-double trace_age_s(const struct frame *frame)
+/* Where the first frame is at 0 s, its oldest scan was made that long before 0. */
+static double first_shift_s(const struct trace *trace, const struct frame *frame)
 {
     double age_s = 0;
     for (size_t i = 0; i < frame->sensors.list.count; i++)
         age_s = elementary_max(age_s, frame->sensors.list.items[i].age_s);
-    return age_s;
-}
-
-/* Where the first frame is at 0 s, its oldest scan was made that long before 0. */
-static double first_shift_s(const struct trace *trace, const struct frame *frame)
-{
-    double shift_s = trace->begin_s + trace_age_s(frame);
+    double shift_s = trace->begin_s + age_s;
     return frame->time_s >= 0 && frame->time_s < shift_s ? shift_s : 0;
 }
 

@@ -40,6 +40,3 @@ uint64_t trace_ns(const struct trace *trace, double time_s);
 
 /* The number of an object: 1 for the first of the trace. */
 uint32_t trace_object(struct trace *trace, const char *id);
-
-/* The largest age of the scans of a frame, of sensors that have none in it, too; at least 0. */
-double trace_age_s(const struct frame *frame);

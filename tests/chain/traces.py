@@ -539,6 +539,41 @@ def refusals(folder):
             check(file.read() == pipe(program, good), "same bytes for the same stream, into a file or a pipe")
 
 
+def bags_of_ros(folder):
+    """What a bag of ROS 2 holds and refuses; tests/tables/ros.mjs compares all that is in its messages."""
+    path = suite(folder, mount_x_m=2, mount_y_m=0, mount_yaw_rad=0)
+    line = seen(path, scene(thing("ego", "car", 0, 0, vx=1), thing("7", "car", 20, 0)))
+    empty = mcap_of(b"", "--ros2")
+    check(strings(empty.records[0][2], 2) == [b"ros2", b"glint"] and empty.messages == [] and empty.groups == [3, 4, 11],
+          "a bag without frames")
+    for time_s, words, stamp in ((0, "", (1, 0)), (0.5, "", (1, 500000000)), (1, "", (1, 0)), (0, "--shift-s 0", (0, 0)),
+                                 (-3, "--shift-s 3.5", (0, 500000000)), (1.9999999999, "", (2, 0)), (2147483647, "", (2147483647, 0))):
+        file = mcap_of(changed(line, time_s=time_s), "--ros2", words)
+        for topic, (_, message), place in zip(("/tf", "/objects", "/radar/radar"), file.of("/tf") + file.of("/objects") +
+                                              file.of("/radar/radar"), (8, 8, 4), strict=True):
+            check(struct.unpack_from("<iI", message, place) == stamp, f"{topic} at {time_s} s: {struct.unpack_from('<iI', message, place)}")
+        check({log for log, _ in file.of("/tf")} == {stamp[0] * 10**9 + stamp[1]}, "the time of a message")
+    for time_s, words in ((2147483648, ""), (2147483647, "--shift-s 1"), (-0.5, ""), (1, "--shift-s -2")):
+        said = pipe(f"glint-mcap --ros2 {words}", changed(line, time_s=time_s), 65)
+        check(":1: time_s: a measurement at" in said and "expected one in [0, 2147483647] s" in said, said)
+    for name in ("front_left", "_2", "R" * 200):
+        topics = {channel[0] for channel in mcap_of(renamed(line, name), "--ros2").channels.values()}
+        check(topics == {"/tf", "/objects", f"/radar/{name}"}, f"topics: {topics}")
+    for name in ("front-left", "2", "vorn/links", "größe", "a b", "R" * 201):
+        said = pipe("glint-mcap --ros2", renamed(line, name), 65)
+        check(f':1: sensors: "{name}" is no name in ROS 2; expected at most 200 letters, digits and _, no digit first' in said, said)
+        mcap_of(renamed(line, name))
+
+
+def renamed(line, name):
+    frame = json.loads(line)
+    for view in frame["sensors"]["list"]:
+        view["name"] = name
+    for target in frame["targets"]:
+        target["sensor"] = name
+    return json.dumps(frame).encode() + b"\n"
+
+
 def stamp_of(message, place):
     return int(value_of(message, place, "seconds")) * 10**9 + int(value_of(message, place, "nanos"))
 
@@ -654,6 +689,7 @@ with tempfile.TemporaryDirectory() as place_of_files:
         metadata_of_osi()
         ids_and_times(place_of_files)
         refusals(place_of_files)
+        bags_of_ros(place_of_files)
         stamps_of_scans()
         shifts()
         labels_join_by_tables(place_of_files)

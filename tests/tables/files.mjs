@@ -28,10 +28,9 @@ export async function byIndex(bytes) {
     }
     for await (const message of reader.readMessages())
         topics[reader.channelsById.get(message.channelId).topic].push(message);
-    check(reader.chunkIndexes.length > 1, 'the file has several chunks');
     for (const [id, count] of reader.statistics.channelMessageCounts)
         check(topics[reader.channelsById.get(id).topic].length === Number(count), `statistics of channel ${id}`);
-    return {topics, schemas, channels, header: reader.header};
+    return {topics, schemas, channels, profile: reader.header.profile, chunks: reader.chunkIndexes.length};
 }
 
 export function byStream(bytes) {

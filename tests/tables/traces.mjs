@@ -77,6 +77,7 @@ function checkOsi({topics, schemas}, frames) {
 const frames = make();
 const bytes = new Uint8Array(fs.readFileSync(`${work}/trace.mcap`));
 const file = await byIndex(bytes);
+check(file.chunks > 1, 'the file has several chunks');
 checkStream(bytes, file.topics);
 checkJson(file, frames);
 checkOsi(file, frames);
