@@ -307,13 +307,12 @@ $(script_programs): $(BUILD)/scripts/glint-%: scripts/%
 	@mkdir -p $(@D)
 	$(Q)ln -sfn $(abspath $<) $@
 
-# Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
+# Man pages are made from --help and stages/examples.txt, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
 man: all $(script_programs)
 	@mkdir -p $(BUILD)/man
 	$(Q)command -v help2man >/dev/null || { echo "man pages are left out: they need help2man"; exit 0; }; \
 	for t in $(programs) $(script_programs); do \
-	    name=$$($$t --help | sed '/^Usage/d; /^  or/d' | sed -n 's/\.$$//; 1p'); \
-	    help2man --no-info --version-string=$(version) -n "$$name" -o $(BUILD)/man/$${t##*/}.1 $$t || exit 1; done
+	    tests/tools/man-page $$t $(version) >$(BUILD)/man/$${t##*/}.1 || exit 1; done
 
 # Pages about data, pipelines and scripts go with them; the others, with their pictures, go to share/doc/glint, which has
 # the layout of this tree, so that commands of pages run there. What tests and measures glint stays here.
@@ -330,6 +329,9 @@ install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
 # Sources of plug-ins lie beside the pages as examples.
 plugin_sources = $(foreach p,$(all_plugins),$(wildcard $(addprefix stages/$(p)/,Makefile *.[ch] *.def *.proto *.json *.msg)))
 headers = $(wildcard lib/*/*.h lib/*/*.def)
+# bash and fish look for a file with the name of the program.
+bash_completions = $(DESTDIR)$(PREFIX)/share/bash-completion/completions
+fish_completions = $(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d
 # The prefix from the folder of glint.pc, so that an installation can be moved; absolute if LIBDIR lies elsewhere.
 pc_prefix = $(if $(filter $(PREFIX)/%,$(LIBDIR)),$${pcfiledir}/../$(shell echo $(LIBDIR:$(PREFIX)/%=%) | sed 's:[^/]\{1,\}:..:g'),$(PREFIX))
 version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
@@ -355,6 +357,11 @@ install: all man $(wildcard build-release/made)
 	    install -D -m 644 $$module $(share)/$$module || exit 1; done
 	$(Q)for name in $(scripts); do \
 	    ln -sfn ../share/glint/scripts/$$name $(bin)/glint-$$name || exit 1; done
+	install -D -m 644 scripts/completions/glint.bash $(bash_completions)/glint
+	install -D -m 644 scripts/completions/glint.fish $(fish_completions)/glint.fish
+	install -D -m 644 scripts/completions/glint.zsh $(DESTDIR)$(PREFIX)/share/zsh/vendor-completions/_glint
+	$(Q)for name in $(filter-out glint,$(notdir $(programs))); do \
+	    ln -sf glint $(bash_completions)/$$name && ln -sf glint.fish $(fish_completions)/$$name.fish || exit 1; done
 	$(Q)for page in $(doc_pages); do \
 	    install -D -m 644 $$page $(doc)/$$page || exit 1; done
 	ln -sfn $(addprefix ../../glint/,data pipelines schemas scripts) $(doc)
@@ -372,7 +379,8 @@ install: all man $(wildcard build-release/made)
 uninstall:
 	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(programs) $(script_programs)))
 	rm -f $(patsubst %,$(DESTDIR)$(PREFIX)/share/man/man1/%.1,$(notdir $(programs) $(script_programs)))
-	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,libglint.a pkgconfig/glint.pc)
+	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,libglint.a pkgconfig/glint.pc) $(DESTDIR)$(PREFIX)/share/zsh/vendor-completions/_glint
+	rm -f $(foreach name,$(notdir $(programs)),$(bash_completions)/$(name) $(fish_completions)/$(name).fish)
 	rm -rf $(addprefix $(DESTDIR)$(PREFIX)/,include/glint share/glint share/doc/glint)
 
 clean:

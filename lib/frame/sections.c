@@ -8,6 +8,17 @@ const char *const sections_names[] = {"objects", "reflectors", "echoes",     "ce
 
 enum { CARRY_ALL = (CARRY_VISIBILITY << 1) - 1 };
 
+const char *const sections_meanings[] = {
+    "what traffic has: every object, its place and its motion",
+    "the reflection centres of the objects",
+    "what each sensor could see of each reflector",
+    "the resolution cells of each sensor, before noise",
+    "what became of every reflector that gave no target",
+    "how close every decision was to another outcome",
+    "how far a tracker may trust each target",
+    "how much of each object each sensor has in view",
+};
+
 /* For each section, in the order of enum carried: the part of the frame with that name, the last
  * stage that takes the word, and parts that are present once this stage has run. */
 static const struct {
@@ -25,8 +36,9 @@ static const struct {
 };
 
 _Static_assert(CARRY_ALL + 1 == 1 << sizeof places / sizeof *places &&
-                   sizeof sections_names == (1 + sizeof places / sizeof *places) * sizeof(char *),
-               "each bit of enum carried has its word and its place");
+                   sizeof sections_names == (1 + sizeof places / sizeof *places) * sizeof(char *) &&
+                   sizeof sections_meanings + sizeof(char *) == sizeof sections_names,
+               "each bit of enum carried has its word, its meaning and its place");
 
 /* Reads the N of account:every=N. */
 static int read_every(const char *text, size_t length, struct sections_change *change,

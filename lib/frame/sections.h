@@ -22,6 +22,7 @@ enum carried {
 enum { CARRY_BY_DEFAULT = CARRY_OBJECTS };
 
 extern const char *const sections_names[]; /* NULL-terminated; bit i of enum carried is the i-th */
+extern const char *const sections_meanings[]; /* of each, for people */
 
 /* The change that a command line makes to the choice of its frames. */
 struct sections_change {

@@ -40,8 +40,7 @@ static const char first_hour[] =
 static const char usage[] =
     "Usage: glint FILE\n"
     "  or:  glint -c TEXT\n"
-    "  or:  glint --list programs|effects|sensors|scenarios|vehicles|pipelines\n"
-    "  or:  glint --list EFFECT\n"
+    "  or:  glint --list WHAT\n"
     "  or:  glint --datasheet SUITE\n"
     "Run a pipeline of glint stages, and a tool at its end, in one process.\n"
     "\n"
@@ -54,8 +53,10 @@ static const char usage[] =
     "\n"
     "Options:\n"
     "  -c TEXT              run TEXT instead of a file\n"
-    "      --list WHAT      list what there is, with a sentence on each; of an\n"
-    "                       effect: its cause, when auto leaves it out, its cost\n"
+    "      --list WHAT      list what there is, with a sentence on each: programs,\n"
+    "                       effects, sections, sensors, scenarios, vehicles or\n"
+    "                       pipelines; of an effect, by its name: its cause, when\n"
+    "                       auto leaves it out, and its cost\n"
     "      --datasheet SUITE\n"
     "                       print the radars of a suite (a name in data/sensors/, or\n"
     "                       a path) as their maker would: resolution, accuracy,\n"
@@ -234,6 +235,12 @@ static void add_effects(struct text *text)
                     effect_table[i]->summary);
 }
 
+static void add_sections(struct text *text)
+{
+    for (int i = 0; sections_names[i] != NULL; i++)
+        text_format(text, "%-11s %s\n", sections_names[i], sections_meanings[i]);
+}
+
 static void add_effect(const struct effect *effect, struct text *text)
 {
     bool leaves = effect->left_out_when != NULL;
@@ -334,6 +341,7 @@ static const struct listed_kind {
 } kinds[] = {
     {.name = "programs", .add_built_in = add_programs},
     {.name = "effects", .add_built_in = add_effects},
+    {.name = "sections", .add_built_in = add_sections},
     {.name = "sensors", .ending = ".json", .describe = add_origin},
     {.name = "scenarios", .ending = ".json", .describe = add_origin},
     {.name = "vehicles", .ending = ".json", .describe = add_size},
@@ -381,8 +389,8 @@ static int add_listing(const char *kind, struct text *text, struct arena *arena,
         }
     }
     return diag_fail(diag, DIAG_USAGE,
-                     "--list %s is unknown%s; expected programs, effects, sensors, scenarios, "
-                     "vehicles, pipelines or the name of an effect",
+                     "--list %s is unknown%s; expected programs, effects, sections, sensors, "
+                     "scenarios, vehicles, pipelines or the name of an effect",
                      kind, suggestion_question(&meant, ""));
 }
 

@@ -57,6 +57,31 @@ def check_programs():
     assert not run(f"nm {PROGRAMS}/glint 2>/dev/null"), "glint is not stripped"
 
 
+def check_completions(folder):
+    """bash completes options by --help, and names of documents, effects and sections by `glint --list`."""
+    for words, expected in {"glint-ideal --sen": "--sensors=", "glint-ideal --sensors = lrr77-f": "lrr77-full",
+                            "glint-ideal --effects = all,-gho": "all,-ghosts", "glint-noise --sections = none,qua": "none,quality",
+                            "glint-extract --vehicles det": "detailed", "glint-traffic cut": "cut-in", "glint two": "two-vehicles",
+                            "glint --list sce": "scenarios"}.items():
+        name = words.split()[0]
+        told = run(f"""compopt() {{ :; }}; . {PREFIX}/share/bash-completion/completions/{name}
+            COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1))
+            _glint {name} "${{COMP_WORDS[-1]}}" "${{COMP_WORDS[-2]}}"; echo "${{COMPREPLY[@]}}" """, folder)
+        assert told.split() == [expected], f"{words} is completed as {told}"
+
+
+def check_examples(folder):
+    """Every man page has examples, and their commands run, but for those on files that a user brings."""
+    pages = os.path.join(PREFIX, "share/man/man1")
+    for name in os.listdir(pages):
+        with open(os.path.join(pages, name), encoding="utf-8") as page:
+            assert ".SH EXAMPLES\n.PP" in page.read(), f"{name} has no example"
+    with open(os.path.join(os.path.dirname(BUILT), "../stages/examples.txt"), encoding="utf-8") as file:
+        for command in re.findall(r"^    (\S.*)$", file.read(), re.MULTILINE):
+            if not re.search(r"fcd\.xml|trace\.osi|scenario\.xml|small\.json|check-set|sheet\.json|demo|realism", command):
+                run(command, folder)
+
+
 def check_headers(folder):
     """Each header compiles by itself, as plain C11 and with no other package's headers."""
     run("""cd $(pkg-config --variable=includedir glint)
@@ -254,7 +279,10 @@ def without_pages(check, folder):
 check_programs()
 check_names()
 with tempfile.TemporaryDirectory() as place:
+    check_examples(place)
+with tempfile.TemporaryDirectory() as place:
     check_headers(place)
+    check_completions(place)
     without_pages(check_scripts, place)
     build_stage(place)
     check_stage(place)

@@ -167,6 +167,6 @@ TEST(an_unknown_kind_is_refused_with_what_was_meant)
     assert_string_equal(
         captured->err,
         "glint: --list sensor is unknown (did you mean sensors?); expected programs, "
-        "effects, sensors, scenarios, vehicles, pipelines or the name of an effect\n");
+        "effects, sections, sensors, scenarios, vehicles, pipelines or the name of an effect\n");
     assert_string_equal(captured->out, "");
 }
