@@ -361,10 +361,13 @@ static int write_packed(struct output *output, const char *bytes, size_t length,
     return output_write_all(output->fd, output->packed.bytes, output->packed.length);
 }
 
-/* Writes the first bytes that are held; the others move up. */
+/* Writes the first bytes that are held; the others move up. Nothing is written behind bytes that
+ * are lost. */
 static int send_first(struct output *output, size_t length, struct diag *diag)
 {
     struct text *held = &output->held;
+    if (output->failed)
+        return -1;
     int result = output->packer != NULL ? write_packed(output, held->bytes, length, false)
                                         : output_write_all(output->fd, held->bytes, length);
     held->length -= length;
@@ -421,7 +424,7 @@ int output_write_head(struct output *output, const char *bytes, size_t length, s
 int output_finish(struct output *output, struct diag *diag)
 {
     send_first(output, output->held.length, diag);
-    if (output->packer != NULL && write_packed(output, NULL, 0, true) != 0)
+    if (output->packer != NULL && !output->failed && write_packed(output, NULL, 0, true) != 0)
         cannot_write(output, diag);
     packing_pack_end(output->packer);
     output->packer = NULL;

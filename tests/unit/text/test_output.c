@@ -693,6 +693,33 @@ OUTPUT_TEST(pipes_and_devices_are_written_directly)
     assert_int_equal(code, 0);
 }
 
+static long waiting_in(int fd)
+{
+    int bytes = 0;
+    assert_int_equal(ioctl(fd, FIONREAD, &bytes), 0);
+    return bytes;
+}
+
+OUTPUT_TEST(nothing_is_written_behind_bytes_that_are_lost)
+{
+    struct diag diag = {0};
+    struct text *text = sample_text(70000);
+    const char *path = scratch_in(scratch, "fifo");
+    signal(SIGPIPE, SIG_IGN);
+    unlink(path);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    int reader = open(path, O_RDONLY | O_NONBLOCK);
+    struct output *output = output_open(path, &diag);
+    close(reader);
+    text_add(output_text(output), text->bytes, text->length);
+    assert_int_equal(output_send(output, &diag), -1);
+    reader = open(path, O_RDONLY | O_NONBLOCK);
+    assert_int_equal(output_close(output, true, &diag), -1);
+    assert_int_equal(waiting_in(reader), 0);
+    close(reader);
+    signal(SIGPIPE, SIG_DFL);
+}
+
 OUTPUT_TEST(a_pipe_takes_no_head_behind_its_bytes)
 {
     struct diag diag = {0};
@@ -705,13 +732,6 @@ OUTPUT_TEST(a_pipe_takes_no_head_behind_its_bytes)
     assert_string_equal(diag.text + strlen(diag.text) - 12, "Illegal seek");
     output_close(output, false, &diag);
     close(reader);
-}
-
-static long waiting_in(int fd)
-{
-    int bytes = 0;
-    assert_int_equal(ioctl(fd, FIONREAD, &bytes), 0);
-    return bytes;
 }
 
 OUTPUT_TEST(what_a_pipe_holds_back_is_flushed)
