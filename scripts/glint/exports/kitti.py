@@ -1,10 +1,9 @@
 """Writes the layouts of KITTI and View-of-Delft: for each sensor a folder of points, boxes, calibrations and poses by number."""
+import functools
 import math
 import os
-import struct
 
-import glint
-from glint.exports.numbered import Numbered, corners, seen_from
+from glint.exports.numbered import Numbered, corners, packed, text_of
 from glint.exports.streams import boxes, line, number, visibility
 
 WIDTH, HEIGHT = 1936, 1216  # of the camera's picture, as View-of-Delft's
@@ -18,19 +17,37 @@ OCCLUDED = {None: 3, 0: 2, 1: 1, 2: 1, 3: 0}  # by level of visibility
 def picture(box, x, y, z, yaw, focal):
     """Left, top, right and bottom of a box in the picture of a camera in the sensor's place, and the share of it that is beyond
     the borders; None if it is not in the picture."""
-    seen = []
-    for ahead, left in corners(box, x, y, yaw):
-        depth = max(ahead, NEAR_M)
-        seen += [(WIDTH / 2 - focal * left / depth, HEIGHT / 2 - focal * up / depth, ahead) for up in (z, z + box["height_m"])]
-    whole = [of(one[axis] for one in seen) for of in (min, max) for axis in (0, 1)]
+    if x + (box["length_m"] + box["width_m"]) / 2 <= NEAR_M:  # wholly behind
+        return None
+    ahead, lefts = corners(box, x, y, yaw)
+    if max(ahead) <= NEAR_M:
+        return None
+    depths = [max(one, NEAR_M) for one in ahead]
+    across = [WIDTH / 2 - focal * left / depth for left, depth in zip(lefts, depths)]
+    down = [HEIGHT / 2 - focal * up / depth for up in (z, z + box["height_m"]) for depth in (min(depths), max(depths))]
+    whole = first, high, last, low = min(across), min(down), max(across), max(down)
     left, top, right, bottom = cut = [min(max(one, 0), most) for one, most in zip(whole, (WIDTH, HEIGHT) * 2)]
-    share = (right - left) * (bottom - top) / ((whole[2] - whole[0]) * (whole[3] - whole[1]))
-    return (*cut, 1 - share) if share > 0 and max(one[2] for one in seen) > NEAR_M else None
+    share = (right - left) * (bottom - top) / ((last - first) * (low - high))
+    return (*cut, 1 - share) if share > 0 else None
 
 
 def focal_of(sensor):
     """The focal length in pixels of a camera in the radar's place that sees its field of view."""
     return number(WIDTH / 2 / math.tan(min(sensor["field_of_view_rad"], WIDEST_RAD) / 2), 6)
+
+
+@functools.lru_cache
+def calibration(focal):
+    camera = f"{focal} 0 {WIDTH / 2} 0 0 {focal} {HEIGHT / 2} 0 0 0 1 0\n"
+    return ("".join(f"P{i}: {camera}" for i in range(4)) + "R0_rect: 1 0 0 0 1 0 0 0 1\nTr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\n"
+            "Tr_imu_to_velo: 1 0 0 0 0 1 0 0 0 0 1 0\n")
+
+
+def world_of(pose):
+    """The camera in the world as View-of-Delft's three matrices: its x is right, y down and z ahead."""
+    c, s = pose.c, pose.s
+    matrix = line([number(one) for one in (s, 0, c, pose.x, -c, 0, s, pose.y, 0, -1, 0, pose.z, 0, 0, 0, 1)]).strip()
+    return "".join(f'{{"{of}":{matrix}}}\n' for of in ("odomToCamera", "mapToCamera", "UTMToCamera"))
 
 
 class Writer(Numbered):
@@ -39,28 +56,22 @@ class Writer(Numbered):
         self.inside, self.columns = "/radar" * ("beside" in layout), layout.get("columns", 7)
 
     def files(self, root, name, frame, sensor, targets, pose, labels):
-        focal, (x, y, z, yaw) = focal_of(sensor), pose
-        points = [(*glint.place(frame, one, "sensor"), glint.height(frame, one, "sensor"), one["quality"]["rcs_dbsm"], one["range_rate_mps"],
-                   one["quality"]["range_rate_over_ground_mps"], 0) for one in targets]
-        camera = f"{focal} 0 {WIDTH / 2} 0 0 {focal} {HEIGHT / 2} 0 0 0 1 0\n"
-        c, s = math.cos(yaw), math.sin(yaw)  # the camera's x is right, y down and z ahead
-        pose = [number(one) for one in (s, 0, c, x, -c, 0, s, y, 0, -1, 0, z, 0, 0, 0, 1)]
-        self.output.scan(f"{root}/training/velodyne/{name}.bin", b"".join(struct.pack(f"<{self.columns}f", *point[:self.columns]) for point in points), frame, sensor, targets)
+        self.output.scan(f"{root}/training/velodyne/{name}.bin", packed(targets, self.columns, 0), frame, sensor, targets)
         self.output.write(f"{root}/training/label_2/{name}.txt", labels)
-        self.output.write(f"{root}/training/calib/{name}.txt", "".join(f"P{i}: {camera}" for i in range(4)) + "R0_rect: 1 0 0 0 1 0 0 0 1\n"
-                          "Tr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\nTr_imu_to_velo: 1 0 0 0 0 1 0 0 0 0 1 0\n")
-        self.output.write(f"{root}/training/pose/{name}.json", "".join(line({of: pose}) for of in ("odomToCamera", "mapToCamera", "UTMToCamera")))
+        self.output.write(f"{root}/training/calib/{name}.txt", calibration(focal_of(sensor)))
+        self.output.write(f"{root}/training/pose/{name}.json", world_of(pose))
 
     def labels(self, frame, sensor, pose):
         """A line for each box in the picture, in the axes of the camera."""
-        focal, z, levels, found = focal_of(sensor), pose[2], visibility(frame, [sensor["name"]]), []
+        focal, levels, found = focal_of(sensor), visibility(frame, [sensor["name"]]), []
         for box in boxes(frame, sensor.get("age_s", 0)):
-            x, y, heading = seen_from(pose, box)
-            if seen := picture(box, x, y, -z, heading, focal):
+            x, y, heading = pose.of(box)
+            if seen := picture(box, x, y, -pose.z, heading, focal):
+                *cut, beyond = seen
                 turn = math.remainder(-heading - math.pi / 2 + self.turn_rad(len(found)), math.tau)
-                cells = (math.remainder(turn - math.atan2(-y, x), math.tau), *seen[:4], box["height_m"], box["width_m"], box["length_m"], -y, z, x)
-                found.append((" ".join([self.layout["classes"].get(box["class"], "Misc"), f"{seen[4]:.6f}", str(OCCLUDED[levels.get(box["id"])]),
-                                        *(f"{number(one, 6):.6f}" for one in cells), self.angle(turn), *self.layout["behind"]]) + "\n", box))
+                cells = (math.remainder(turn - math.atan2(-y, x), math.tau), *cut, box["height_m"], box["width_m"], box["length_m"], -y, pose.z, x)
+                found.append((" ".join([self.layout["classes"].get(box["class"], "Misc"), text_of((beyond,)), str(OCCLUDED[levels.get(box["id"])]),
+                                        text_of(cells), self.angle(turn), *self.layout["behind"]]) + "\n", box))
         self.output.count(UNKNOWN, sum(box["id"] not in levels for _, box in found), len(found))
         return found
 

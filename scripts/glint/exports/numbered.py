@@ -1,27 +1,49 @@
 """What layouts share that have a folder for each radar, with its scans by number."""
+import math
+import struct
+
 import glint
 from glint.exports.streams import identity, scans_of, word
 from glint.sets.plan import BAD_DATA, Fault
 
 
-def pose_of(frame, sensor):
+class Pose:
     """Where a radar was in the world when it measured: x, y, height and yaw."""
-    carrier = glint.ego(frame, sensor.get("age_s", 0))
-    x, y = glint.to_world(frame, sensor["mount_x_m"], sensor["mount_y_m"], carrier)
-    return x, y, sensor["mount_z_m"], carrier["yaw_rad"] + sensor["mount_yaw_rad"]
 
+    def __init__(self, frame, sensor):
+        carrier = glint.ego(frame, sensor.get("age_s", 0))
+        self.x, self.y = glint.to_world(frame, sensor["mount_x_m"], sensor["mount_y_m"], carrier)
+        self.z, self.yaw = sensor["mount_z_m"], carrier["yaw_rad"] + sensor["mount_yaw_rad"]
+        self.c, self.s = math.cos(self.yaw), math.sin(self.yaw)
 
-def seen_from(pose, box):
-    """The middle of a box in the axes of a radar, x ahead and y left of it, and the heading there."""
-    x, y, _, yaw = pose
-    return *glint.turned(box["x_m"] - x, box["y_m"] - y, -yaw), box["yaw_rad"] - yaw
+    def of(self, box):
+        """The middle of a box in the radar's axes, x ahead and y left of it, and the heading there."""
+        x, y = box["x_m"] - self.x, box["y_m"] - self.y
+        return self.c * x + self.s * y, self.c * y - self.s * x, box["yaw_rad"] - self.yaw
 
 
 def corners(box, x, y, heading):
-    """The corners of the outline of a box whose middle is at (x, y)."""
-    for ahead, left in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
-        dx, dy = glint.turned(ahead * box["length_m"] / 2, left * box["width_m"] / 2, heading)
-        yield x + dx, y + dy
+    """x and y of the corners of the outline of a box whose middle is at (x, y)."""
+    c, s, ahead, left = math.cos(heading), math.sin(heading), box["length_m"] / 2, box["width_m"] / 2
+    ax, ay, lx, ly = ahead * c, ahead * s, left * -s, left * c
+    return (x + ax + lx, x + ax - lx, x - ax + lx, x - ax - lx), (y + ay + ly, y + ay - ly, y - ay + ly, y - ay - ly)
+
+
+def packed(targets, columns, *behind):
+    """The first columns of points as bytes of single precision: x, y, z in the sensor's axes, RCS, range rate, the same over ground,
+    and what stands behind them."""
+    values = []
+    for one in targets:
+        range_m, quality = one["range_m"], one["quality"]
+        x, y, z = glint.sight(one)
+        values += (range_m * x, range_m * y, range_m * z, quality["rcs_dbsm"], one["range_rate_mps"], quality["range_rate_over_ground_mps"],
+                   *behind)[:columns]
+    return struct.pack(f"<{len(values)}f", *values)
+
+
+def text_of(values):
+    """Numbers with 6 decimals, never -0."""
+    return (" ".join(["%.6f"] * len(values)) % values).replace("-0.000000", "0.000000")
 
 
 class Numbered:
@@ -37,7 +59,7 @@ class Numbered:
             self.scan(split, frame, sensor, targets)
 
     def scan(self, split, frame, sensor, targets):
-        root, pose = word(sensor["name"]).lower() + self.inside, pose_of(frame, sensor)
+        root, pose = word(sensor["name"]).lower() + self.inside, Pose(frame, sensor)
         labels = self.labels(frame, sensor, pose)
         if not self.takes(root, labels):
             return

@@ -1,36 +1,24 @@
 """Writes the layout that OpenPCDet has for data of one's own: for each radar a folder of points and boxes by number."""
-import array
 import math
-import sys
 
-import glint
-from glint.exports.numbered import Numbered, corners, seen_from
-from glint.exports.streams import boxes, number, word
+from glint.exports.numbered import Numbered, corners, packed, text_of
+from glint.exports.streams import boxes
 
 FIELDS = "x y z rcs v_r v_r_compensated"
 
 
-def npy(count, values):
+def npy(targets):
     """A file of NumPy: an array of single precision with a row for each point."""
-    head = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({count}, {len(FIELDS.split())}), }}"
+    columns = len(FIELDS.split())
+    head = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({len(targets)}, {columns}), }}"
     head = f"{head:{-(len(head) + 11) % 64 + len(head)}}\n".encode()
-    column = array.array("f", values)
-    if sys.byteorder == "big":
-        column.byteswap()
-    return b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head + column.tobytes()
-
-
-def values_of(frame, targets):
-    for one in targets:
-        quality = one["quality"]
-        yield from glint.place(frame, one, "sensor")
-        yield from (glint.height(frame, one, "sensor"), quality["rcs_dbsm"], one["range_rate_mps"], quality["range_rate_over_ground_mps"])
+    return b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head + packed(targets, columns)
 
 
 def in_view(sensor, box, x, y, heading):
     """Whether the middle or a corner of a box is in the radar's field of view and range."""
     return any(math.hypot(px, py) <= sensor["range_max_m"] and abs(math.atan2(py, px)) <= sensor["field_of_view_rad"] / 2
-               for px, py in ((x, y), *corners(box, x, y, heading)))
+               for px, py in ((x, y), *zip(*corners(box, x, y, heading))))
 
 
 class Writer(Numbered):
@@ -48,14 +36,14 @@ class Writer(Numbered):
         """A line for each box of a named class in view: x, y, z of its middle, length, width, height, heading and class."""
         found = []
         for box in boxes(frame, sensor.get("age_s", 0)):
-            name, (x, y, heading) = self.layout["classes"].get(box["class"]), seen_from(pose, box)
+            name, (x, y, heading) = self.layout["classes"].get(box["class"]), pose.of(box)
             if name and in_view(sensor, box, x, y, heading):
-                cells = (x, y, box["height_m"] / 2 - sensor["mount_z_m"], box["length_m"], box["width_m"], box["height_m"], math.remainder(heading, math.tau))
-                found.append((" ".join([*(f"{number(one, 6):.6f}" for one in cells), name]) + "\n", box))
+                cells = x, y, box["height_m"] / 2 - pose.z, box["length_m"], box["width_m"], box["height_m"], math.remainder(heading, math.tau)
+                found.append((f"{text_of(cells)} {name}\n", box))
         return found
 
     def files(self, root, name, frame, sensor, targets, pose, labels):
-        self.output.scan(f"{root}/points/{name}.npy", npy(len(targets), values_of(frame, targets)), frame, sensor, targets)
+        self.output.scan(f"{root}/points/{name}.npy", npy(targets), frame, sensor, targets)
         self.output.write(f"{root}/labels/{name}.txt", labels)
 
     def close(self):

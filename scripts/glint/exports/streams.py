@@ -1,5 +1,6 @@
 """Reads what is exported, with all that formats need: frames of lines, of the tables of glint-tables, or of a set."""
 import csv
+import functools
 import glob
 import gzip
 import io
@@ -229,10 +230,11 @@ def scans_of(frame):
 
 def boxes(frame, age_s):
     """The objects but the ego, so long before the frame's time, in the world."""
+    x, y = frame.get("origin_x_m", 0), frame.get("origin_y_m", 0)
     for one in frame["objects"]:
         if one["id"] != frame["ego"]:
             one = glint.earlier(one, age_s)
-            yield one | {"x_m": one["x_m"] + frame.get("origin_x_m", 0), "y_m": one["y_m"] + frame.get("origin_y_m", 0)}
+            yield one | {"x_m": one["x_m"] + x, "y_m": one["y_m"] + y} if x or y else one
 
 
 def visibility(frame, sensors):
@@ -249,6 +251,7 @@ def number(value, digits=9):
     return round(float(value), digits) + 0.0
 
 
+@functools.lru_cache
 def word(name):
     """FRONT_LEFT for front-left."""
     return "".join(c if c.isascii() and c.isalnum() else "_" for c in name).upper()
