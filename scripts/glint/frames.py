@@ -139,17 +139,22 @@ def _whole(digits):
 
 
 _DECODER = json.JSONDecoder(parse_constant=no_constant, object_pairs_hook=once)
-# A number too large for a double has three digits in its exponent, or 200 digits in a row.
-_DIGITS = bytes(ord("0" if chr(byte) in "0123456789" else "e" if chr(byte) in "eE" else "+" if byte == ord("+") else " ")
-                for byte in range(256))
-_LARGE = (b"e000", b"e+000", b"0" * 200)
+# Of a line only digits, signs and letters of exponents, and what ends a number, which is a comma here.
+_NUMBERS = bytes(ord("0" if chr(byte) in "0123456789" else "e" if chr(byte) in "eE" else "+" if byte == ord("+") else
+                     "," if chr(byte) in ",]} \t\r\n" else "x") for byte in range(256))
 _FINITE = json.JSONDecoder(parse_constant=no_constant, object_pairs_hook=once, parse_float=_finite, parse_int=_whole)
+
+
+def _may_be_large(line):
+    """Whether a number may be too large for a double: it has three digits in its exponent, or 200 digits in a row."""
+    numbers = line.translate(_NUMBERS)
+    behind = numbers.replace(b"e+", b"e").split(b"e000")[1:]  # a digest has a letter or a quote behind its digits
+    return any(text.lstrip(b"0")[:1] in (b",", b"") for text in behind) or b"0" * 200 in numbers
 
 
 def decoded(line):
     """What a text of JSON says, as strictly as glint reads it."""
-    digits = line.translate(_DIGITS)
-    value = (_FINITE if any(large in digits for large in _LARGE) else _DECODER).decode(line.decode())
+    value = (_FINITE if _may_be_large(line) else _DECODER).decode(line.decode())
     if b"\\u" in line and b"\\u0000" in json.dumps(value, ensure_ascii=False).encode():  # encode() refuses lone surrogates
         raise ValueError("a character 0")
     return value
