@@ -80,8 +80,11 @@ def fault(value, shape, optional=OPTIONAL):
     if not isinstance(value, type(shape)):
         return f": {value!r:.60}; expected {'an array' if isinstance(shape, list) else 'an object'}"
     if isinstance(shape, list):
-        found = ((i, fault(one, shape[0], optional)) for i, one in enumerate(value))
-        return next((f"[{i}]{wrong}" for i, wrong in found if wrong), None)
+        for i, one in enumerate(value):
+            wrong = fault(one, shape[0], optional)
+            if wrong:
+                return f"[{i}]{wrong}"
+        return None
     for name, inner in shape.items():
         if type(inner) is tuple and inner[0](value.get(name)) or name in optional and name not in value:
             continue

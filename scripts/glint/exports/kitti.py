@@ -4,7 +4,7 @@ import math
 import os
 
 from glint.exports.numbered import Numbered, corners, packed, text_of
-from glint.exports.streams import boxes, line, number, visibility
+from glint.exports.streams import boxes, number, visibility
 
 WIDTH, HEIGHT = 1936, 1216  # of the camera's picture, as View-of-Delft's
 WIDEST_RAD = math.radians(160)  # field of view of the camera, at most
@@ -28,7 +28,7 @@ def picture(box, x, y, z, yaw, focal):
     whole = first, high, last, low = min(across), min(down), max(across), max(down)
     left, top, right, bottom = cut = [min(max(one, 0), most) for one, most in zip(whole, (WIDTH, HEIGHT) * 2)]
     share = (right - left) * (bottom - top) / ((last - first) * (low - high))
-    return (*cut, 1 - share) if share > 0 else None
+    return (*cut, max(1 - share, 0)) if share > 0 else None
 
 
 def focal_of(sensor):
@@ -45,8 +45,8 @@ def calibration(focal):
 
 def world_of(pose):
     """The camera in the world as View-of-Delft's three matrices: its x is right, y down and z ahead."""
-    c, s = pose.c, pose.s
-    matrix = line([number(one) for one in (s, 0, c, pose.x, -c, 0, s, pose.y, 0, -1, 0, pose.z, 0, 0, 0, 1)]).strip()
+    c, s, back, x, y, z = map(number, (pose.c, pose.s, -pose.c, pose.x, pose.y, pose.z))
+    matrix = f"[{s},0.0,{c},{x},{back},0.0,{s},{y},0.0,-1.0,0.0,{z},0.0,0.0,0.0,1.0]"
     return "".join(f'{{"{of}":{matrix}}}\n' for of in ("odomToCamera", "mapToCamera", "UTMToCamera"))
 
 
@@ -54,6 +54,7 @@ class Writer(Numbered):
     def __init__(self, layout, output):
         super().__init__(layout, output)
         self.inside, self.columns = "/radar" * ("beside" in layout), layout.get("columns", 7)
+        self.turned_rad, self.digits = layout.get("turned_rad", (0, 0)), 9 if "turned_rad" in layout else 6
 
     def files(self, root, name, frame, sensor, targets, pose, labels):
         self.output.scan(f"{root}/training/velodyne/{name}.bin", packed(targets, self.columns, 0), frame, sensor, targets)
@@ -69,20 +70,17 @@ class Writer(Numbered):
             if seen := picture(box, x, y, -pose.z, heading, focal):
                 *cut, beyond = seen
                 turn = math.remainder(-heading - math.pi / 2 + self.turn_rad(len(found)), math.tau)
-                cells = (math.remainder(turn - math.atan2(-y, x), math.tau), *cut, box["height_m"], box["width_m"], box["length_m"], -y, pose.z, x)
-                found.append((" ".join([self.layout["classes"].get(box["class"], "Misc"), text_of((beyond,)), str(OCCLUDED[levels.get(box["id"])]),
-                                        text_of(cells), self.angle(turn), *self.layout["behind"]]) + "\n", box))
+                alpha = math.remainder(turn - math.atan2(-y, x), math.tau)
+                cells = text_of((alpha, *cut, box["height_m"], box["width_m"], box["length_m"], -y, pose.z, x))
+                found.append((" ".join((self.layout["classes"].get(box["class"], "Misc"), f"{beyond:.6f} {OCCLUDED[levels.get(box['id'])]}", cells,
+                                        f"{number(turn, self.digits):.{self.digits}f}", *self.layout["behind"])) + "\n", box))
         self.output.count(UNKNOWN, sum(box["id"] not in levels for _, box in found), len(found))
         return found
 
     def turn_rad(self, i):
         """The angle by which box i of a scan is turned, so that no two have parallel sides; all are far apart, however many there are."""
-        least, most = self.layout.get("turned_rad", (0, 0))
+        least, most = self.turned_rad
         return least + (most - least) * (i * GOLDEN % 1)
-
-    def angle(self, turn):
-        digits = 9 if "turned_rad" in self.layout else 6
-        return f"{number(turn, digits):.{digits}f}"
 
     def close(self):
         super().close()

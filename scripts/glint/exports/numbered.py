@@ -43,7 +43,7 @@ def packed(targets, columns, *behind):
 
 def text_of(values):
     """Numbers with 6 decimals, never -0."""
-    return (" ".join(["%.6f"] * len(values)) % values).replace("-0.000000", "0.000000")
+    return ("%.6f " * len(values) % values).replace("-0.000000", "0.000000")[:-1]
 
 
 class Numbered:
