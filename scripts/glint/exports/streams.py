@@ -123,7 +123,8 @@ def frames_of_tables(folder):
         seen = of_scans(sightings, row, of_sensors, once=("sensor", "object"))
         of_scans(lost, row, of_sensors)
         sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in of_sensors]
-        frame = glint.Frame(row, seed=str(row["seed"]), objects=bodies, sensors={"suite": row.get("suite"), "list": sensors}, targets=found, visibility=seen)
+        known = {name: value for name, value in row.items() if name not in COUNTED}
+        frame = glint.Frame(known, seed=str(row["seed"]), objects=bodies, sensors={"suite": row.get("suite"), "list": sensors}, targets=found, visibility=seen)
         frame.place = row.place
         if fault := glint.fault(frame, glint.FRAME) or glint.unjoined(frame):
             raise Fault(BAD_DATA, f"{row.place}: {fault.lstrip('.')}")
