@@ -289,7 +289,11 @@ MODEL.md: FORCE
 lib/README.md: FORCE
 	$(Q)tests/tools/lib-readme >$@.new && mv $@.new $@
 
-printed: schemas lib/README.md MODEL.md
+# The version, where other programs look for it.
+CITATION.cff debian/changelog: FORCE
+	sed -i 's/^version: .*/version: $(version)/; 1s/(.*)/($(version))/' $@
+
+printed: schemas lib/README.md MODEL.md CITATION.cff debian/changelog
 
 format:
 	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] stages/*/*.[ch] pipelines/*/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
