@@ -46,9 +46,8 @@ _Static_assert(PART_VISIBILITY < 1U << 31, "a set of parts is an unsigned");
 
 /* Parts of a frame, as one stage may have written them. */
 struct frame_parts {
-    unsigned parts;    /* set of enum frame_part */
+    unsigned parts;    /* set of enum frame_part, and PART_HEADER */
     const char *stage; /* of PART_LOST only the groups of this stage; NULL: all groups */
-    const struct frame_header *before; /* the header before the stage; NULL: it made the header */
 };
 
 /* A road user or thing: truth. A length, width or height of 0 means the size of the class, which

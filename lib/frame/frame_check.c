@@ -179,19 +179,11 @@ static int check_lost_members(const struct frame *frame, const char *stage, stru
     return 0;
 }
 
-/* The header must be checked unless it is as it was before. A stage may have changed items of its
- * lists in place. */
-static bool has_new_header(const struct frame *frame, const struct frame_header *before)
-{
-    return before == NULL || frame->roadside.count > 0 || frame->conditions.interferers.count > 0 ||
-           memcmp(frame, before->bytes, sizeof before->bytes) != 0;
-}
-
 int frame_check_parts(struct frame *frame, struct frame_parts written, struct diag *diag)
 {
     unsigned whole = written.parts & ~(unsigned)PART_LOST;
-    if (has_new_header(frame, written.before))
-        whole |= FIELD_UNGROUPED;
+    if (frame->roadside.count > 0 || frame->conditions.interferers.count > 0)
+        whole |= PART_HEADER;
     if (record_write_check(&frame_record, frame, whole, diag) != 0 ||
         ((written.parts & PART_LOST) != 0 && check_lost_members(frame, written.stage, diag) != 0))
         return -1;
@@ -238,9 +230,8 @@ int frame_check_extremes(const struct frame *frame, struct diag *diag)
             result = check_entry(&target_record, target, target->cell_amplitude, target->sensor,
                                  target->contributors.items[0].id.object, diag);
     }
-    return result != 0
-               ? -1
-               : record_write_check(&frame_record, frame, PART_COUNTS | FIELD_UNGROUPED, diag);
+    return result != 0 ? -1
+                       : record_write_check(&frame_record, frame, PART_COUNTS | PART_HEADER, diag);
 }
 
 /* The place of an echo that is in no target. */

@@ -12,8 +12,8 @@
  * contributors. Fails with DIAG_DATA. */
 int frame_check(struct frame *frame, struct diag *diag);
 
-/* Checks only parts that a stage wrote, and the header if it changed: members against their bounds,
- * then as frame_check. */
+/* Checks only parts that a stage wrote: members against their bounds, then as frame_check. A header
+ * with lists is always checked, because their items may change in place. */
 int frame_check_parts(struct frame *frame, struct frame_parts written, struct diag *diag);
 
 /* Checks the members of an object against their bounds, and that its class is no path. Fails with

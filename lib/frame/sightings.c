@@ -39,10 +39,8 @@ void sightings_judge(struct sighting *sighting)
 static struct sighting *find(const struct frame *frame, const char *sensor, const char *object)
 {
     const struct sighting wanted = {.sensor = sensor, .object = object};
-    return frame->visibility.count == 0
-               ? NULL
-               : bsearch(&wanted, frame->visibility.items, frame->visibility.count, sizeof wanted,
-                         frame_order_sightings);
+    return bsearch(&wanted, frame->visibility.items, frame->visibility.count, sizeof wanted,
+                   frame_order_sightings);
 }
 
 /* Counts a target once for each object and kind, however many contributors there are. */
@@ -70,6 +68,8 @@ static void count_target(struct frame *frame, const struct target *target, size_
 
 void sightings_count_targets(struct frame *frame)
 {
+    if (frame->visibility.count == 0)
+        return;
     frame_alter(frame, PART_VISIBILITY);
     for (size_t i = 0; i < frame->visibility.count; i++) {
         struct sighting *sighting = &frame->visibility.items[i];

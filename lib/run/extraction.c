@@ -91,20 +91,18 @@ bool extraction_describe_surface(struct extraction *extraction, const struct sur
     return true;
 }
 
-static bool lacks_size(const struct object *object)
+/* An object of size zero takes its class's default size: true if it did. */
+static bool complete_size(struct object *object, const struct vehicle *vehicle)
 {
-    return object->length_m == 0 || object->width_m == 0 || object->height_m == 0;
-}
-
-/* An object of size zero takes its class's default size. */
-static void complete_size(struct object *object, const struct vehicle *vehicle)
-{
+    if (object->length_m != 0 && object->width_m != 0 && object->height_m != 0)
+        return false;
     if (object->length_m == 0)
         object->length_m = vehicle->length_m;
     if (object->width_m == 0)
         object->width_m = vehicle->width_m;
     if (object->height_m == 0)
         object->height_m = vehicle->height_m;
+    return true;
 }
 
 /* A class among the objects of a frame. */
@@ -210,8 +208,7 @@ int extraction_step(struct extraction *extraction, struct frame *frame, struct r
         if (class == NULL)
             return diag_prefix(runner_diag(runner),
                                "objects[%zu].class: ", (size_t)(object[i] - frame->objects.items));
-        completes = completes || lacks_size(object[i]);
-        complete_size(object[i], class->vehicle);
+        completes |= complete_size(object[i], class->vehicle);
         if (frame_same_name(object[i]->id, frame->ego))
             continue;
         struct reflector_set *set =

@@ -207,17 +207,23 @@ static int apply_sections(struct runner *runner, struct frame *frame)
                : sections_apply(&runner->sections, frame, &runner->diag);
 }
 
+static bool has_header(const struct frame *frame, const struct frame_header *header)
+{
+    return memcmp(frame, header->bytes, sizeof header->bytes) == 0;
+}
+
 /* After every step: drops the parts that nobody needs any more; orders and checks those that the
- * stage wrote, so that a stage that writes an invalid frame fails itself and not its neighbour. All
- * else was checked when it was read or written. before: the header before the step; NULL: none. */
+ * stage wrote, and the header if it is not as before, so that a stage that writes an invalid frame
+ * fails itself and not its neighbour. All else was checked when it was read or written. */
 static int finish_step(struct runner *runner, struct frame *frame,
                        const struct frame_header *before)
 {
     const struct stage *stage = runner->stage;
-    const struct frame_parts written = {stage->writes, stage->name, before};
+    const unsigned header = before != NULL && has_header(frame, before) ? 0 : PART_HEADER;
+    const struct frame_parts written = {stage->writes | header, stage->name};
     frame->present |= stage->writes & ~sections_left_out(frame);
     sections_drop(frame);
-    frame_alter(frame, stage->writes);
+    frame_alter(frame, written.parts);
     if ((stage->writes & PART_TARGETS) != 0)
         sightings_count_targets(frame);
     frame_order_parts(frame, written);

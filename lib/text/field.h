@@ -89,7 +89,7 @@ struct record {
     const struct field *fields;
     size_t present_offset;
     size_t document_offset;
-    const struct field *inherited; /* one of fields; NULL: none */
+    const struct field *inherited; /* the first of fields; NULL: none */
     size_t line_offset;            /* 0: it keeps no line */
     const struct field_gone *gone; /* ends without a name; NULL: none */
 };

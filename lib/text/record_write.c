@@ -199,7 +199,7 @@ static void make_room(struct writer *writer, size_t size)
     writer->end = text->bytes + text->room;
 }
 
-static void write_record(const struct record *record, const void *base, const struct field *told,
+static void write_record(const struct record *record, const struct field *first, const void *base,
                          struct writer *writer);
 
 static void write_text(struct field_text text, struct writer *writer)
@@ -231,15 +231,15 @@ static void write_choice(const char *choice, struct writer *writer)
     *writer->at++ = '"';
 }
 
-/* Returns the name that an item inherits from the item before, or NULL. */
-static const struct field *told_before(const struct record *record, const char *item)
+/* The first member of a list's item that is written: an inherited name is not. */
+static const struct field *first_of_item(const struct record *record, const char *item, bool begins)
 {
-    const struct field *field = record->inherited;
-    if (field == NULL)
-        return NULL;
-    const char *name = FIELD_LOAD(const char *, field, item);
-    const char *before = FIELD_LOAD(const char *, field, item - record->size);
-    return name == before || strcmp(name, before) == 0 ? field : NULL;
+    const struct field *name = record->inherited;
+    if (name == NULL || begins)
+        return record->fields;
+    const char *own = FIELD_LOAD(const char *, name, item);
+    const char *before = FIELD_LOAD(const char *, name, item - record->size);
+    return own == before || strcmp(own, before) == 0 ? record->fields + 1 : record->fields;
 }
 
 static void write_list(const struct field *field, const void *base, struct writer *writer)
@@ -254,7 +254,7 @@ static void write_list(const struct field *field, const void *base, struct write
             continue;
         }
         const char *item = (const char *)list.items + i * field->record->size;
-        write_record(field->record, item, i > 0 ? told_before(field->record, item) : NULL, writer);
+        write_record(field->record, first_of_item(field->record, item, i == 0), item, writer);
     }
     *writer->at++ = ']';
 }
@@ -328,7 +328,8 @@ static void write_member(const struct record *record, const struct field *field,
         write_choice(field->choices[FIELD_LOAD(int, field, base)], writer);
         break;
     case FIELD_RECORD:
-        write_record(field->record, (const char *)base + field->offset, NULL, writer);
+        write_record(field->record, field->record->fields, (const char *)base + field->offset,
+                     writer);
         break;
     case FIELD_LIST:
     case FIELD_NAMES:
@@ -344,14 +345,14 @@ static void write_member(const struct record *record, const struct field *field,
     make_room(writer, RECORD_ROOM);
 }
 
-/* Writes all members that are present but the one that is told already, if any. */
-static void write_record(const struct record *record, const void *base, const struct field *told,
+/* Writes all members that are present, from the first on. */
+static void write_record(const struct record *record, const struct field *first, const void *base,
                          struct writer *writer)
 {
     char separator = '{';
     make_room(writer, RECORD_ROOM);
-    for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (field == told || (field->optional && !field_present(record, field, base)))
+    for (const struct field *field = first; field->name != NULL; field++) {
+        if (field->optional && !field_present(record, field, base))
             continue;
         memcpy(writer->at, field->key, FIELD_KEY_SIZE);
         *writer->at = separator;
@@ -376,7 +377,7 @@ static void write_alone(const struct record *record, const struct field *field, 
     struct record alone = *record;
     alone.fields = fields;
     size_t begin = (size_t)(writer->at - writer->text->bytes);
-    write_record(&alone, base, NULL, writer);
+    write_record(&alone, fields, base, writer);
     writer->text->bytes[begin] = separator;
     writer->at--;
 }
@@ -415,7 +416,7 @@ void record_write(const struct record *record, const void *base, struct list_cac
     if (line.texts != NULL)
         write_as_read(record, base, line, &writer);
     else
-        write_record(record, base, NULL, &writer);
+        write_record(record, record->fields, base, &writer);
     *writer.at++ = '\n';
     text->length = (size_t)(writer.at - text->bytes);
 }

@@ -178,6 +178,34 @@ TEST(a_stage_that_writes_an_invalid_frame_fails_itself)
     runner_free(&runner);
 }
 
+static int delay(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)state;
+    (void)runner;
+    frame->time_s += 0.5;
+    return 0;
+}
+
+/* The line that a frame was read from passes word for word, but for what a stage changed. */
+TEST(a_header_that_a_stage_changed_is_written_as_it_is)
+{
+    struct frame made = {.arena = check_arena()}, frame = {.arena = check_arena()};
+    struct text *line = check_text(), *out = check_text();
+    const struct stage stage = {
+        .name = "delay", .options = STAGE_OPTIONS(int, field_none), .step = delay};
+    struct runner runner;
+    begin_frame(&made);
+    made.time_s = 2;
+    assert_done(frame_text_write, &made, line);
+    assert_done(frame_text_take, line->bytes, line->length - 1, &frame);
+    begin(&runner, &stage, 0, NULL);
+    assert_int_equal(runner_step(&runner, &frame), 0);
+    assert_done(frame_text_write, &frame, out);
+    text_add(out, "", 1);
+    assert_non_null(strstr(out->bytes, "\"time_s\":2.5,"));
+    runner_free(&runner);
+}
+
 static void describe_negative_ercs(const void *state, const struct vehicle *vehicle,
                                    struct reflector_set *set, struct arena *arena)
 {
