@@ -3,11 +3,12 @@
 /* Pads to a multiple of the size, a power of two of at most 8, and adds the value's low bytes. */
 static void add_bits(struct cdr *cdr, uint64_t bits, size_t size)
 {
-    char bytes[8] = {0};
-    size_t length = cdr->text->length - cdr->begin;
-    text_add(cdr->text, bytes, -length & (size - 1));
-    text_put_word(bytes, bits);
-    text_add(cdr->text, bytes, size);
+    enum { MOST = 8 };
+    size_t length = cdr->text->length - cdr->begin, padding = -length & (size - 1);
+    char *room = text_room(cdr->text, MOST + MOST);
+    text_put_word(room, 0);
+    text_put_word(room + padding, bits);
+    cdr->text->length += padding + size;
 }
 
 struct cdr cdr_begin(struct text *text)

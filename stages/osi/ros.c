@@ -155,6 +155,23 @@ static void add_transform(struct cdr *cdr, uint64_t time_ns, const char *parent,
     cdr_add_string(cdr, child);
 }
 
+/* At the time of a scan only the mounts of its sensors are needed. */
+static bool shows_mount(const struct trace *trace, const struct sensor_view *sensor,
+                        uint64_t time_ns)
+{
+    if (time_ns == trace->time_ns)
+        return true;
+    return sensor->measured && trace_ns(trace, trace->frame->time_s - sensor->age_s) == time_ns;
+}
+
+static uint32_t count_mounts(const struct trace *trace, uint64_t time_ns)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < trace->frame->sensors.list.count; i++)
+        count += shows_mount(trace, &trace->frame->sensors.list.items[i], time_ns);
+    return count;
+}
+
 void ros_add_transforms(const struct trace *trace, double age_s, struct text *text)
 {
     const struct frame *frame = trace->frame;
@@ -164,12 +181,14 @@ void ros_add_transforms(const struct trace *trace, double age_s, struct text *te
     struct vec2 axle_m = vec2_scale(axle_x_m, vec2_heading(motion.yaw_rad));
     uint64_t time_ns = trace_ns(trace, frame->time_s - age_s);
     struct cdr cdr = cdr_begin(text);
-    cdr_add_uint32(&cdr, 1 + (uint32_t)frame->sensors.list.count);
+    cdr_add_uint32(&cdr, 1 + count_mounts(trace, time_ns));
     add_transform(&cdr, time_ns, map, base_link);
     add_pose(&cdr, vec2_add(motion.position_m, axle_m), 0, motion.yaw_rad);
     for (size_t i = 0; i < frame->sensors.list.count; i++) {
         const struct sensor_view *sensor = &frame->sensors.list.items[i];
         struct vec2 mount_m = {sensor->mount_x_m - axle_x_m, sensor->mount_y_m};
+        if (!shows_mount(trace, sensor, time_ns))
+            continue;
         add_transform(&cdr, time_ns, base_link, frame_of(frame, sensor));
         add_pose(&cdr, mount_m, sensor->mount_z_m, sensor->mount_yaw_rad);
     }

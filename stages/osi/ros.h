@@ -28,8 +28,9 @@ bool ros_takes_name(const char *sensor);
  * are uint32; a value that the target does not have is NaN. */
 void ros_add_points(struct trace *trace, const struct sensor_view *sensor, struct text *text);
 
-/* Appends the pose of the ego and its mounts, age_s before the frame's time, as its scans of that
- * age have it: at constant speed and turn rate. */
+/* Appends the pose of the ego age_s before the frame's time, as its scans of that age have it: at
+ * constant speed and turn rate. With it come the mounts of the sensors of these scans, or of all
+ * sensors at the frame's time. */
 void ros_add_transforms(const struct trace *trace, double age_s, struct text *text);
 
 /* Appends markers that replace all earlier ones. The id of both markers of an object is its number

@@ -39,7 +39,7 @@ static int check_times(struct trace *trace, const struct frame *frame, bool firs
     trace->time_ns = trace_ns(trace, frame->time_s);
     if (!first && trace->time_ns <= before_ns)
         return diag_fail(diag, DIAG_DATA, "time_s: %.12g after %.12g; expected ascending times",
-                         last_s, (double)before_ns / 1e9);
+                         frame->time_s, (double)before_ns / 1e9 - trace->shift_s);
     return 0;
 }
 
@@ -52,6 +52,19 @@ static int check_objects(const struct frame *frame, struct diag *diag)
                              "objects: \"%s\" has no length, width or height; expected "
                              "glint-extract before this one",
                              object->id);
+    }
+    return 0;
+}
+
+static int check_scans(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        const char *sensor = frame->targets.items[i].sensor;
+        if (!frame_view(frame, sensor)->measured)
+            return diag_fail(diag, DIAG_DATA,
+                             "targets[%zu].sensor: \"%s\" has no scan in this frame; expected one "
+                             "that is measured in sensors.list",
+                             i, sensor);
     }
     return 0;
 }
@@ -75,5 +88,7 @@ int trace_take(struct trace *trace, struct frame *frame, struct diag *diag)
                          "for errors, rcs, snr and existence");
     frame_order_objects(frame);
     trace->frame = frame;
-    return check_times(trace, frame, first, diag) != 0 ? -1 : check_objects(frame, diag);
+    if (check_times(trace, frame, first, diag) != 0 || check_objects(frame, diag) != 0)
+        return -1;
+    return check_scans(frame, diag);
 }

@@ -31,8 +31,8 @@ struct trace {
     }
 
 /* Takes the next frame of a stream and sorts its objects. Refuses a second scene, a time that is
- * not later than the frame before or out of the limits, targets without quality and objects without
- * a size. */
+ * not later than the frame before or out of the limits, targets without quality or without a scan,
+ * and objects without a size. */
 int trace_take(struct trace *trace, struct frame *frame, struct diag *diag);
 
 /* A time of a frame that was taken, shifted, in whole nanoseconds. */

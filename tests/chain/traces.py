@@ -512,7 +512,9 @@ def refusals(folder):
     good = seen(path, scene(thing("ego", "car", 0, 0), thing("2", "car", 20, 0)))
     objects = json.loads(good)["objects"]
     flat = [objects[0] | {"height_m": 0}, objects[1]]
-    for program in ("glint-osi", "glint-mcap"):
+    unscanned = json.loads(good)["sensors"]
+    unscanned["list"][0]["measured"] = False
+    for program in ("glint-osi", "glint-mcap", "glint-mcap --ros2"):
         pipe(program, good)
         for data, said in (
                 (seen(path, scene(thing("ego", "car", 0, 0), thing("2", "car", 20, 0), sections=["objects"])),
@@ -520,6 +522,7 @@ def refusals(folder):
                 (seen(path, scene(thing("ego", "car", 0, 0), thing("2", "car", 20, 0), sections=["quality"])),
                  ":1: objects: missing; --sections left them out of the stream"),
                 (scene(thing("ego", "car", 0, 0)), ":1: sensors: missing; expected glint-ideal"),
+                (changed(good, sensors=unscanned), ':1: targets[0].sensor: "radar" has no scan in this frame; expected one'),
                 (changed(good, objects=flat), ':1: objects: "2" has no length, width or height; expected glint-extract'),
                 (good + changed(good, scene="another"), ':2: scene: "another" after "by hand"; expected one scene of one seed'),
                 (good + changed(good, seed="2"), ':2: scene: "by hand" after "by hand"; expected one scene of one seed'),
