@@ -314,30 +314,31 @@ def height(frame, target, system="world"):
     return up_m if system == "sensor" else up_m + sensor(frame, target["sensor"]).get("mount_z_m", 0)
 
 
-def place(frame, target, system="world"):
-    """x and y of a target in a coordinate system, when it was measured."""
+def place(frame, target, system="world", mount=None, carrier=None):
+    """x and y of a target in a coordinate system, when it was measured. mount, carrier: its sensor, and carrier_of it, where
+    they are known."""
     x, y = (target["range_m"] * part for part in sight(target)[:2])
     if system == "sensor":
         return x, y
-    mount = sensor(frame, target["sensor"])
+    mount = mount or sensor(frame, target["sensor"])
     x, y = turned(x, y, mount["mount_yaw_rad"])
     x, y = x + mount["mount_x_m"], y + mount["mount_y_m"]
-    return (x, y) if system == "ego" else to_world(frame, x, y, carrier_of(frame, target))
+    return (x, y) if system == "ego" else to_world(frame, x, y, carrier or carrier_of(frame, target))
 
 
-def direction(frame, target):
+def direction(frame, target, mount=None, carrier=None):
     """The angle in the world under which the sensor sees a target."""
-    yaw_rad = carrier_of(frame, target)["yaw_rad"]
-    return target["azimuth_rad"] + sensor(frame, target["sensor"])["mount_yaw_rad"] + yaw_rad
+    mount, carrier = mount or sensor(frame, target["sensor"]), carrier or carrier_of(frame, target)
+    return target["azimuth_rad"] + mount["mount_yaw_rad"] + carrier["yaw_rad"]
 
 
-def rate_over_ground(frame, target):
+def rate_over_ground(frame, target, mount=None, carrier=None):
     """The range rate that a sensor at rest would measure there: 0 of what stands."""
-    carrier, mount = carrier_of(frame, target), sensor(frame, target["sensor"])
+    mount, carrier = mount or sensor(frame, target["sensor"]), carrier or carrier_of(frame, target)
     x, y = turned(mount["mount_x_m"], mount["mount_y_m"], carrier["yaw_rad"])
     vx = carrier["vx_mps"] - carrier["yaw_rate_radps"] * y
     vy = carrier["vy_mps"] + carrier["yaw_rate_radps"] * x
-    angle = direction(frame, target)
+    angle = direction(frame, target, mount, carrier)
     return target["range_rate_mps"] + vx * math.cos(angle) + vy * math.sin(angle)
 
 
@@ -359,12 +360,13 @@ def detections(frame, system="world"):
     --sections quality`) give its numbers as well. Where a target lacks one of these, it is NaN."""
     targets = frame.get("targets", [])
     columns = {name: array.array("d", (one[name] for one in targets)) for name in MEASURED}
-    places = [place(frame, one, system) for one in targets]
+    seen_by = {name: (sensor(frame, name), carrier_of(frame, one)) for name, one in {one["sensor"]: one for one in targets}.items()}
+    places = [place(frame, one, system, *seen_by[one["sensor"]]) for one in targets]
     columns["x_m"] = array.array("d", (x for x, _ in places))
     columns["y_m"] = array.array("d", (y for _, y in places))
     columns["elevation_rad"] = array.array("d", (one.get("elevation_rad", math.nan) for one in targets))
     columns["z_m"] = array.array("d", (height(frame, one, system) if "elevation_rad" in one else math.nan for one in targets))
-    columns["rate_over_ground_mps"] = array.array("d", (rate_over_ground(frame, one) for one in targets))
+    columns["rate_over_ground_mps"] = array.array("d", (rate_over_ground(frame, one, *seen_by[one["sensor"]]) for one in targets))
     columns["sensor"] = [one["sensor"] for one in targets]
     told = [one.get("quality", {}) for one in targets]
     for name in sorted({name for one in told for name in one}):
