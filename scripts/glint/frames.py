@@ -379,16 +379,17 @@ def detections(frame, system="world"):
 
 
 def columns(*sources, chain=None):
-    """The tables of a stream (schemas/README.md) as arrays of numpy by their names, those of a table by the names of its columns:
-    columns("list.jsonl.gz")["detections"]["range_m"]. sources: files of frames, or one folder that glint-tables --npy wrote;
-    chain: what makes the frames, whose columns come out of the same process without a line of JSON. A row of `detections` has
-    in `object_key` the row of `objects` that its label is of, or -1. What is absent is NaN, -1 or ""."""
+    """The tables of a stream (schemas/README.md) as arrays of numpy by their names, those of a table by the names of its
+    columns: columns("list.jsonl.gz")["detections"]["range_m"]. sources: files of frames, "-" or none for standard input, or
+    one folder that glint-tables --npy wrote; chain: what makes the frames, whose columns come out of the same process
+    without a line of JSON. A row of `detections` has in `object_key` the row of `objects` that its label is of, or -1. What
+    is absent is NaN, -1 or ""."""
     if chain is None and len(sources) == 1 and os.path.isdir(sources[0]):
         return _arrays(sources[0])
     with tempfile.TemporaryDirectory() as folder:
         words = ["glint-tables", "--npy", folder, *map(os.fspath, sources)]
         words = words if chain is None else ["glint", "-c", f"{chain} | {shlex.join(words)}"]
-        done = subprocess.run(words, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
+        done = subprocess.run(words, stderr=subprocess.PIPE, check=False)
         told = done.stderr.decode(errors="replace")
         if done.returncode:
             raise ChainError(f"exit status {done.returncode}: {told.strip()}", done.returncode)

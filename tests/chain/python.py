@@ -285,6 +285,8 @@ def columns_are_those_of_the_frames(folder):
         assert list(truth["id"][detections["object_key"][joined]]) == list(detections["object"][joined]) != []
         assert [glint.owner(one) in truth["id"] for one in labels] == list(joined)
         assert len(tables["lost"]["object"]) == sum(len(one["echoes"]) for frame in frames for one in frame["lost"]) > 0
+    code = "import glint; print(len(glint.columns()['detections']['range_m']))"
+    assert shell(f"gzip -dc list.jsonl.gz | {sys.executable} -c \"{code}\"", folder) == f"{len(targets)}\n"
     for message, told in (("exit status 66: glint-tables: nowhere: ", lambda: glint.columns("nowhere")),
                           ("exit status 65: glint-tables: scene", lambda: glint.columns(chain="glint-traffic cut-in"))):
         try:
