@@ -23,7 +23,8 @@ struct mcap_stage {
     struct mcap_file file;
     size_t shared; /* channels that are of no sensor */
     struct intern sensors;
-    struct recent poses; /* of which transforms were sent */
+    struct vec2 origin_m; /* of the first frame */
+    struct recent poses;  /* of which transforms were sent */
     struct text message;
 };
 
@@ -208,11 +209,25 @@ static int send(struct mcap_stage *own, struct runner *runner)
     return result;
 }
 
+/* Viewers and tf2 have one system of coordinates for all frames. */
+static int check_origin(struct mcap_stage *own, struct diag *diag)
+{
+    struct vec2 origin_m = {own->trace.frame->origin_x_m, own->trace.frame->origin_y_m};
+    if (own->file.messages == 0)
+        own->origin_m = origin_m;
+    if (vec2_same(origin_m, own->origin_m))
+        return 0;
+    return diag_fail(diag, DIAG_DATA,
+                     "origin_x_m, origin_y_m: (%.12g, %.12g) after (%.12g, %.12g); expected one "
+                     "origin in a scene",
+                     origin_m.x, origin_m.y, own->origin_m.x, own->origin_m.y);
+}
+
 static int mcap_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct mcap_stage *own = state;
     struct diag *diag = runner_diag(runner);
-    if (trace_take(&own->trace, frame, diag) != 0)
+    if (trace_take(&own->trace, frame, diag) != 0 || check_origin(own, diag) != 0)
         return -1;
     if (own->ros2)
         add_ros_scene(own);

@@ -559,6 +559,9 @@ def bags_of_ros(folder):
     for time_s, words in ((2147483648, ""), (2147483647, "--shift-s 1"), (-0.5, ""), (1, "--shift-s -2")):
         said = pipe(f"glint-mcap --ros2 {words}", changed(line, time_s=time_s), 65)
         check(":1: time_s: a measurement at" in said and "expected one in [0, 2147483647] s" in said, said)
+    for words in ("", "--ros2"):
+        moved = line + changed(line, frame=1, time_s=8, origin_x_m=2)
+        check(":2: origin_x_m, origin_y_m: (2, 0) after (0, 0); expected one origin" in pipe(f"glint-mcap {words}", moved, 65), "an origin that moves")
     for name in ("front_left", "_2", "R" * 200):
         topics = {channel[0] for channel in mcap_of(renamed(line, name), "--ros2").channels.values()}
         check(topics == {"/tf", "/objects", f"/radar/{name}"}, f"topics: {topics}")
