@@ -7,13 +7,10 @@
 
 #include "base/arena.h"
 
-char *text_room(struct text *text, size_t size)
+void text_grow(struct text *text, size_t size)
 {
-    if (text->room - text->length < size) {
-        text->room = 2 * text->room + size + 4096;
-        text->bytes = memory_resize(text->bytes, text->room);
-    }
-    return text->bytes + text->length;
+    text->room = 2 * text->room + size + 4096;
+    text->bytes = memory_resize(text->bytes, text->room);
 }
 
 void text_add(struct text *text, const char *bytes, size_t length)

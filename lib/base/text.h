@@ -13,8 +13,16 @@ struct text {
     size_t length, room;
 };
 
+/* Moves the text to where there is room for size more bytes. */
+void text_grow(struct text *text, size_t size);
+
 /* Room for the next size bytes; the caller writes there and adds to length. */
-char *text_room(struct text *text, size_t size);
+static inline char *text_room(struct text *text, size_t size)
+{
+    if (text->room - text->length < size)
+        text_grow(text, size);
+    return text->bytes + text->length;
+}
 
 void text_add(struct text *text, const char *bytes, size_t length);
 void text_add_word(struct text *text, const char *word);

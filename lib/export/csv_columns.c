@@ -45,12 +45,9 @@ static void add_name(const char *name, struct text *row)
 
 static void add_set(const struct field *field, uint64_t set, struct text *row)
 {
-    for (int i = 0; set >> i != 0; i++) {
-        if ((set >> i & 1) == 0)
-            continue;
-        text_add_word(row, field->choices[i]);
-        if (set >> i > 1)
-            text_add_word(row, " ");
+    for (uint64_t rest = set; rest != 0; rest &= rest - 1) {
+        text_add_word(row, rest == set ? "" : " ");
+        text_add_word(row, field->choices[__builtin_ctzll(rest)]);
     }
 }
 
@@ -65,21 +62,29 @@ static void add_whole(int64_t value, struct text *row)
 
 void csv_columns_add_cell(const struct field *field, const void *base, struct text *row)
 {
-    if (field->kind == FIELD_REAL)
+    switch (field->kind) {
+    case FIELD_REAL:
         row->length += number_write(FIELD_LOAD(double, field, base), text_room(row, NUMBER_SIZE));
-    else if (field->kind == FIELD_INTEGER)
+        break;
+    case FIELD_INTEGER:
         add_whole(FIELD_LOAD(int64_t, field, base), row);
-    else if (field->kind == FIELD_SEED)
+        break;
+    case FIELD_SEED:
         row->length +=
             number_write_whole(FIELD_LOAD(uint64_t, field, base), text_room(row, NUMBER_SIZE));
-    else if (field->kind == FIELD_NAME)
+        break;
+    case FIELD_NAME:
         add_name(FIELD_LOAD(const char *, field, base), row);
-    else if (field->kind == FIELD_CHOICE)
+        break;
+    case FIELD_CHOICE:
         text_add_word(row, field->choices[FIELD_LOAD(int, field, base)]);
-    else if (field->kind == FIELD_SET)
+        break;
+    case FIELD_SET:
         add_set(field, FIELD_LOAD(uint64_t, field, base), row);
-    else
+        break;
+    default:
         text_add_word(row, FIELD_LOAD(bool, field, base) ? "true" : "false");
+    }
 }
 
 static bool has_word(const struct field *field, const void *owner)
@@ -89,8 +94,8 @@ static bool has_word(const struct field *field, const void *owner)
 
 /* Is there a value to write? Flags are always there, choices where they have a word, numbers where
  * columns are to have zeros. */
-static bool has_value(const struct csv_columns *columns, const struct csv_column *column,
-                      const void *owner)
+static inline bool has_value(const struct csv_columns *columns, const struct csv_column *column,
+                             const void *owner)
 {
     enum field_kind kind = column->field->kind;
     return !column->field->optional || kind == FIELD_FLAG || has_word(column->field, owner) ||
@@ -124,14 +129,38 @@ const void *csv_columns_owner(const struct csv_columns *columns, size_t i, const
     return *there && has_value(columns, column, owner) ? owner : NULL;
 }
 
+static void write_empty(size_t count, struct text *row)
+{
+    memset(text_room(row, count), ',', count);
+    row->length += count;
+}
+
+/* The cells of the columns from begin to end, which are members of one struct. */
+static void write_cells(const struct csv_columns *columns, const struct csv_column *begin,
+                        const struct csv_column *end, const void *base, struct text *row)
+{
+    const void *owner = (const char *)base + begin->offset;
+    for (const struct csv_column *column = begin; column < end; column++) {
+        if (has_value(columns, column, owner))
+            csv_columns_add_cell(column->field, owner, row);
+        end_cell(row);
+    }
+}
+
 void csv_columns_write(const struct csv_columns *columns, const void *base, struct text *row)
 {
-    bool there = false;
-    for (size_t i = 0; i < columns->list.count; i++) {
-        const void *owner = csv_columns_owner(columns, i, base, &there);
-        if (owner != NULL)
-            csv_columns_add_cell(columns->list.items[i].field, owner, row);
-        end_cell(row);
+    const struct csv_column *column = columns->list.items, *last = column + columns->list.count;
+    while (column < last) {
+        const struct csv_column *begin = column;
+        const struct field *embedded = begin->embedded;
+        while (column < last && column->embedded == embedded)
+            column++;
+        bool there =
+            base != NULL && (embedded == NULL || field_present(begin->record, embedded, base));
+        if (there)
+            write_cells(columns, begin, column, base, row);
+        else
+            write_empty((size_t)(column - begin), row);
     }
 }
 

@@ -189,14 +189,19 @@ struct writer {
  * may have, so that none of them needs to look for room. */
 enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8, RECORD_ROOM = FIELD_MOST * MEMBER_ROOM };
 
-static void make_room(struct writer *writer, size_t size)
+/* Kept out of make_room, which would otherwise save registers for every member. */
+__attribute__((noinline)) static void grow(struct writer *writer, size_t size)
 {
-    if ((size_t)(writer->end - writer->at) >= size)
-        return;
     struct text *text = writer->text;
     text->length = (size_t)(writer->at - text->bytes);
     writer->at = text_room(text, size);
     writer->end = text->bytes + text->room;
+}
+
+static void make_room(struct writer *writer, size_t size)
+{
+    if ((size_t)(writer->end - writer->at) < size)
+        grow(writer, size);
 }
 
 static void write_record(const struct record *record, const struct field *first, const void *base,
@@ -217,7 +222,7 @@ static void write_word(const char *word, struct writer *writer)
     writer->at += length;
 }
 
-static void write_name(const char *name, struct writer *writer)
+static inline void write_name(const char *name, struct writer *writer)
 {
     size_t length = strlen(name);
     make_room(writer, text_json_size(length) + MEMBER_ROOM);
