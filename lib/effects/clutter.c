@@ -19,7 +19,7 @@ static bool described(const struct effect_scan *scan)
     const struct conditions *conditions = &scan->frame->conditions;
     const struct sensor_view *view = frame_view(scan->frame, scan->sensor->name);
     return conditions->clutter_per_m2 > 0 && conditions->clutter_ercs > 0 && view != NULL &&
-           view->measured && frame_object(scan->frame, scan->frame->ego) != NULL;
+           view->measured && frame_has_objects(scan->frame);
 }
 
 struct ring {
@@ -129,6 +129,7 @@ const struct effect effect_clutter = {
     .left_out_when = "clutter_per_m2 or clutter_ercs is 0, or the frame has no objects",
     .cost = "a draw per point on the ground that is not too weak",
     .home = EFFECT_HOME_SENSOR,
+    .reads = PART_OBJECTS,
     .members = {{EFFECT_CONDITION(clutter_per_m2), {5, 0.2, EFFECT_BY_LOGARITHM, 1e-5, 3e-3}},
                 {EFFECT_CONDITION(clutter_ercs), {6, 0, EFFECT_BY_LOGARITHM, 0.01, 1}},
                 {EFFECT_CONDITION(clutter_overdispersion), {7, 0, EFFECT_EVENLY, 0, 4}}},

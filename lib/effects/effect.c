@@ -123,6 +123,20 @@ uint64_t effect_of_scenes(void)
     return effects;
 }
 
+unsigned effect_reads(const struct frame *frame, const struct sensor *sensor,
+                      const struct selection *selection, enum effect_home home)
+{
+    const struct effect_scan scan = {.frame = frame, .sensor = sensor};
+    unsigned parts = 0;
+    for (enum effect_id id = 0; id < EFFECT_COUNT; id++) {
+        const struct effect *effect = effect_table[id];
+        if (effect->reads != 0 && effect->home == home && effects_enabled(selection, id) &&
+            is_described(effect, &scan))
+            parts |= effect->reads;
+    }
+    return parts;
+}
+
 struct effect_scan effect_begin(const struct frame *frame, const struct sensor *sensor,
                                 const struct selection *selection, enum effect_home home)
 {

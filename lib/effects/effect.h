@@ -119,7 +119,8 @@ struct effect {
     bool (*is_own)(const struct echo_id *part);
 
     enum effect_home home;
-    bool of_paper; /* does the model of Buehren and Yang have it? (MODEL 11) */
+    unsigned reads; /* parts of the frame (enum frame_part) beside those of the home */
+    bool of_paper;  /* does the model of Buehren and Yang have it? (MODEL 11) */
 
     /* The members, at most 4, that describe the effect. They do so for a scan if any bit of one is
      * set; with the hook `described` if that returns true. Ideal decides for its own effects. */
@@ -165,6 +166,10 @@ static inline bool effect_has_cause(const struct effect *effect)
 
 /* The condition that random scenes draw as this number >= 1; NULL: they draw fewer. */
 const struct effect_member *effect_random_condition(int number);
+
+/* The parts of the frame that effects read which scans of the sensor simulate at this home. */
+unsigned effect_reads(const struct frame *frame, const struct sensor *sensor,
+                      const struct selection *selection, enum effect_home home);
 
 /* Begins a scan at a home. Notes in the selection's log, for each effect of this home that has a
  * cause, whether the scan simulates it. */

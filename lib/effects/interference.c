@@ -63,6 +63,7 @@ const struct effect effect_interference = {
     .left_out_when = "there are no interferers or the sensor has no receiver_bandwidth_hz",
     .cost = "a received power per interferer",
     .home = EFFECT_HOME_SENSOR,
+    .reads = PART_OBJECTS,
     .members = {{EFFECT_SENSOR(receiver_bandwidth_hz)},
                 {EFFECT_CONDITION(interferers), {4, 0.2, EFFECT_EVENLY, 1, 2}}},
     .described = described,

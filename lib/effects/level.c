@@ -53,7 +53,7 @@ static bool described(const struct effect_scan *scan)
     bool varies = has_width(&width);
     for (size_t i = 0; i < scan->frame->vehicles.count && !varies; i++)
         varies = has_width(&scan->frame->vehicles.items[i].level);
-    return varies && frame_object(scan->frame, scan->frame->ego) != NULL;
+    return varies && frame_has_objects(scan->frame);
 }
 
 static double driven_m(const struct effect_scan *scan, const struct object *object)
@@ -141,6 +141,7 @@ const struct effect effect_level = {
     .left_out_when = "no such member is above 0, or the frame has no objects",
     .cost = "up to seven draws per body",
     .home = EFFECT_HOME_SENSOR,
+    .reads = PART_OBJECTS,
     .members = {{EFFECT_SENSOR(level_constant_db)},
                 {EFFECT_SENSOR(level_slow_db)},
                 {EFFECT_SENSOR(level_fast_db)}},

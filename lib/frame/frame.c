@@ -1,5 +1,6 @@
 #include "frame/frame.h"
 
+#include <assert.h>
 #include <complex.h>
 #include <stdlib.h>
 
@@ -116,6 +117,7 @@ static int has_id(const void *id, const void *object)
 
 struct object *frame_object(const struct frame *frame, const char *id)
 {
+    assert((frame->line.unread & PART_OBJECTS) == 0);
     size_t count = frame->objects.count;
     if (count > 0 && frame->by_id.count == count) {
         struct object **found = bsearch(id, frame->by_id.items, count, sizeof *found, has_id);

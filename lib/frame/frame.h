@@ -330,6 +330,12 @@ static inline bool frame_carries(const struct frame *frame, enum carried what)
     return (frame->sections & what) != 0;
 }
 
+/* Does the frame have objects, and so its ego, even if they are not read yet? */
+static inline bool frame_has_objects(const struct frame *frame)
+{
+    return frame->objects.count > 0 || (frame->line.unread & PART_OBJECTS) != 0;
+}
+
 /* The key of a part on the wire. */
 const char *frame_part_name(enum frame_part part);
 
@@ -356,6 +362,7 @@ void frame_drop(struct frame *frame, unsigned parts);
 static inline void frame_alter(struct frame *frame, unsigned parts)
 {
     frame->line.same &= ~parts;
+    frame->line.unread &= ~parts;
 }
 
 /* The object with this id, or NULL: by bisection once frame_order_objects has sorted them. */

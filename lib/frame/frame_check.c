@@ -148,10 +148,11 @@ static int check_parts(struct frame *frame, unsigned parts, struct diag *diag)
 {
     if ((parts & PART_SENSORS) != 0)
         parts |= PART_ECHOES | PART_CELLS | PART_TARGETS | PART_VISIBILITY;
-    if ((parts & frame->present & PART_OBJECTS) != 0 &&
-        (check_objects(frame, diag) != 0 || check_roadside(frame, diag) != 0))
+    parts &= ~frame->line.unread;
+    if ((parts & frame->present & PART_OBJECTS) != 0 && check_objects(frame, diag) != 0)
         return -1;
-    bool good = ((parts & PART_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
+    bool good = ((parts & (PART_OBJECTS | PART_HEADER)) == 0 || check_roadside(frame, diag) == 0) &&
+                ((parts & PART_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
                 ((parts & PART_SENSORS) == 0 || check_views(frame, diag) == 0) &&
                 ((parts & PART_VISIBILITY) == 0 ||
                  check_listed(frame, "visibility", frame->visibility.items, frame->visibility.count,
@@ -163,9 +164,9 @@ static int check_parts(struct frame *frame, unsigned parts, struct diag *diag)
     return good ? 0 : -1;
 }
 
-int frame_check(struct frame *frame, struct diag *diag)
+int frame_check(struct frame *frame, unsigned parts, struct diag *diag)
 {
-    return check_parts(frame, ~0U, diag);
+    return check_parts(frame, parts, diag);
 }
 
 static int check_lost_members(const struct frame *frame, const char *stage, struct diag *diag)

@@ -5,12 +5,12 @@
 
 #include "frame/frame.h"
 
-/* Checks a frame in canonical order (frame_order.h). Ids of objects, names of strips beside
- * the road, names of sensors, names and objects of a reflector set, echoes and leaders of cells
- * must be unique; reasons of losses are words of a to z and _; the ego must be among the objects;
- * echoes, cells and targets must be of listed sensors; cells must have members and targets
- * contributors. Fails with DIAG_DATA. */
-int frame_check(struct frame *frame, struct diag *diag);
+/* Checks parts of a frame, ~0U for all that are read, in canonical order (frame_order.h). Ids of
+ * objects, names of strips beside the road, names of sensors, names and objects of a reflector set,
+ * echoes and leaders of cells must be unique; reasons of losses are words of a to z and _; the ego
+ * must be among the objects; echoes, cells and targets must be of listed sensors; cells must have
+ * members and targets contributors. Fails with DIAG_DATA. */
+int frame_check(struct frame *frame, unsigned parts, struct diag *diag);
 
 /* Checks only parts that a stage wrote: members against their bounds, then as frame_check. A header
  * with lists is always checked, because their items may change in place. */

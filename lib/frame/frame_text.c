@@ -417,13 +417,22 @@ int frame_text_read(const char *line, size_t length, struct frame *frame, struct
     return read(line, length, frame, diag);
 }
 
-int frame_text_take(const char *line, size_t length, struct frame *frame, struct diag *diag)
+int frame_text_take(const char *line, size_t length, unsigned unread, struct frame *frame,
+                    struct diag *diag)
 {
     frame_clear(frame);
     size_t members = sizeof frame_fields / sizeof *frame_fields;
     frame->line.texts = arena_get(frame->arena, members * sizeof *frame->line.texts);
     frame->line.same = ~0U;
-    return read(line, length, frame, diag);
+    frame->line.unread = unread;
+    int result = read(line, length, frame, diag);
+    frame->line.unread &= frame->present;
+    return result;
+}
+
+int frame_text_read_left(struct frame *frame, unsigned parts, struct diag *diag)
+{
+    return record_read_left(&frame_record, parts, frame, frame->arena, frame->list_cache, diag);
 }
 
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)

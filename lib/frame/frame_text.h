@@ -12,8 +12,11 @@ enum { FRAME_TEXT_SIZE = 16 * 1024 * 1024 };
 int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag);
 
 /* The same, but the frame keeps the text of each member: what no stage alters is written word for
- * word. The line must stay as it is until then. */
-int frame_text_take(const char *line, size_t length, struct frame *frame, struct diag *diag);
+ * word. The line must stay as it is until then. Of parts in `unread` the frame has the text alone,
+ * if they are lists without lists; frame_text_read_left reads them later. */
+int frame_text_take(const char *line, size_t length, unsigned unread, struct frame *frame,
+                    struct diag *diag);
+int frame_text_read_left(struct frame *frame, unsigned parts, struct diag *diag);
 
 /* Appends the frame's line, with its newline, to text. The frame must have passed
  * record_write_check. Fails if the line is longer than FRAME_TEXT_SIZE. */

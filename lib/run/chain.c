@@ -206,12 +206,26 @@ static void finish(struct chain *chain)
     runner_close_outputs(last(chain), !any_failed(chain));
 }
 
+/* Objects are most of a line. They are not read where no stage of the chain names them; a stage
+ * that needs them for some frames asks for them (suite_choice_step). */
+static unsigned unread_parts(const struct runner *runners, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct stage *stage = runners[i].stage;
+        if (stage_kind(stage) != STAGE_FILTER ||
+            ((stage->reads | stage->writes) & PART_OBJECTS) != 0)
+            return 0;
+    }
+    return PART_OBJECTS;
+}
+
 int chain_run(struct runner *runners, size_t count)
 {
     struct chain chain = {.runners = runners, .count = count};
     chain.stages = runners[count - 1].stage->run != NULL ? count - 1 : count;
     chain.input.paths = runners[0].common.files.items;
     chain.input.count = runners[0].common.files.count;
+    chain.input.unread = unread_parts(runners, count);
     chain.frame.arena = &chain.arena;
     chain.frame.list_cache = &chain.list_cache;
     chain.input.pause = (struct input_pause){send_on, &chain};

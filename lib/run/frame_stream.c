@@ -20,21 +20,31 @@ static int open_next(struct frame_stream *stream, struct diag *diag)
 }
 
 /* Lines of other programs may have their parts in any order; stages rely on the canonical one. */
-static int order(struct frame *frame, struct diag *diag)
+static int order(struct frame *frame, unsigned parts, struct diag *diag)
 {
-    frame_order(frame);
-    return frame_check(frame, diag);
+    frame_order_parts(frame, (struct frame_parts){.parts = parts});
+    return frame_check(frame, parts, diag);
 }
 
 int frame_stream_parse(const char *line, size_t length, struct frame *frame, struct diag *diag)
 {
-    return frame_text_read(line, length, frame, diag) == 0 ? order(frame, diag) : -1;
+    return frame_text_read(line, length, frame, diag) == 0 ? order(frame, ~0U, diag) : -1;
+}
+
+int frame_stream_read_left(struct frame *frame, unsigned parts, struct diag *diag)
+{
+    parts &= frame->line.unread;
+    if (parts == 0)
+        return 0;
+    return frame_text_read_left(frame, parts, diag) == 0 ? order(frame, parts, diag) : -1;
 }
 
 /* The input keeps the line until the next one is asked for. */
-static int take(const char *line, size_t length, struct frame *frame, struct diag *diag)
+static int take(const struct frame_stream *stream, const char *line, size_t length,
+                struct frame *frame, struct diag *diag)
 {
-    return frame_text_take(line, length, frame, diag) == 0 ? order(frame, diag) : -1;
+    int result = frame_text_take(line, length, stream->unread, frame, diag);
+    return result == 0 ? order(frame, ~0U, diag) : -1;
 }
 
 /* A file of another format is named instead of its first line. */
@@ -59,7 +69,7 @@ int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct d
         int more = input_line(stream->input, FRAME_TEXT_SIZE, &line, &length, diag);
         if (more >= 0 || diag->code != DIAG_NO_INPUT) /* a folder has no lines */
             stream->line++;
-        if (more > 0 && take(line, length, frame, diag) != 0)
+        if (more > 0 && take(stream, line, length, frame, diag) != 0)
             more = -1;
         if (more < 0)
             name_format(stream, diag);

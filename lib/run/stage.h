@@ -8,6 +8,11 @@
  * something else (step and stop). A tool (run) is a program for which one frame at a time and one
  * output are not enough (tool.h).
  *
+ * A stage names what it reads of a frame and what it alters; the rest passes as text. What no stage
+ * of a process alters is written word for word as it was read. Objects, most of a line, are not
+ * even parsed where neither a stage nor an effect (effects/effect.h) names them: a fault in them
+ * passes, too, to the program that reads them, or to glint-check, which reads all.
+ *
  * The runner owns the state and the frame; a stage keeps no pointer into a frame, prints nothing
  * and frees nothing it did not make. Formulas live in lib/ as pure functions; stages loop, pick
  * members and call.

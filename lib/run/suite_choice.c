@@ -2,6 +2,7 @@
 
 #include "documents/suite_file.h"
 #include "documents/usual_figures.h"
+#include "effects/effect.h"
 #include "frame/frame_check.h"
 #include "propagation/ground_return.h"
 #include "run/runner.h"
@@ -259,12 +260,28 @@ static int check_clutter(const struct frame *frame, const struct sensor *sensor,
         per_m2, per_m2 * area_m2, area_m2, sensor->name, MOST_CLUTTER);
 }
 
+int suite_choice_read(struct frame *frame, const struct suite *suite,
+                      const struct selection *selection, struct runner *runner)
+{
+    const struct stage *stage = runner_stage(runner);
+    unsigned parts = 0;
+    if (frame->line.unread == 0)
+        return 0;
+    if ((stage->writes & PART_TARGETS) != 0 && frame_carries(frame, CARRY_QUALITY))
+        parts = PART_OBJECTS;
+    for (size_t i = 0; i < suite->sensors.count && (stage->reads & PART_ECHOES) != 0; i++)
+        parts |= effect_reads(frame, &suite->sensors.items[i], selection, EFFECT_HOME_SENSOR);
+    return frame_stream_read_left(frame, parts, runner_diag(runner));
+}
+
 int suite_choice_step(void *state, struct frame *frame, struct runner *runner)
 {
     const struct suite_choice *choice = state;
     struct selection selection = {0};
     const struct suite *suite = suite_choice_suite(choice, frame, runner);
     if (suite == NULL || suite_choice_effects(choice, frame, runner, &selection) != 0)
+        return -1;
+    if (suite_choice_read(frame, suite, &selection, runner) != 0)
         return -1;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];

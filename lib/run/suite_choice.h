@@ -64,6 +64,11 @@ const struct suite *suite_choice_suite(const struct suite_choice *choice, const 
 int suite_choice_effects(const struct suite_choice *choice, const struct frame *frame,
                          struct runner *runner, struct selection *selection);
 
+/* Reads what the effects of the stage and the quality of its targets need of the frame, beside what
+ * the stage itself names. */
+int suite_choice_read(struct frame *frame, const struct suite *suite,
+                      const struct selection *selection, struct runner *runner);
+
 /* The step of a stage after ideal with a suite_choice as its state: calls the stage's visit for
  * every sensor of the suite. */
 int suite_choice_step(void *state, struct frame *frame, struct runner *runner);

@@ -244,7 +244,7 @@ static int take_frame(struct reference_stream *reference, const struct frame **o
         return diag_fail(diag, DIAG_DATA, "%s: missing; expected in both streams",
                          frame_part_name(missing & -missing));
     *other = own;
-    return frame_check(own, diag);
+    return frame_check(own, ~0U, diag);
 }
 
 int reference_stream_frame(struct reference_stream *reference, const struct frame *frame,

@@ -45,6 +45,7 @@ struct field_text {
 struct field_line {
     struct field_text *texts; /* by the fields of the record; NULL: there is no line */
     unsigned same;
+    unsigned unread; /* groups of lists that only texts have: nobody has asked for them yet */
 };
 
 /* The members that are in no group, in a set of groups. */

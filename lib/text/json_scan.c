@@ -204,6 +204,26 @@ int json_scan_flag(struct json_scan *scan, bool *value)
     return *value || take_word(scan, "false") ? 0 : json_scan_unexpected(scan, "true or false");
 }
 
+static bool ends_member(const char *at, const char *end)
+{
+    if (end - at >= 3 && at[0] == ',' && at[1] == '"')
+        return at[2] >= 'a' && at[2] <= 'z';
+    return end - at == 1 && at[0] == '}';
+}
+
+bool json_scan_skip_flat(struct json_scan *scan)
+{
+    const char *begin = scan->at + 1;
+    if (json_scan_peek(scan) != '[')
+        return false;
+    const char *close = memchr(begin, ']', (size_t)(scan->end - begin));
+    if (close == NULL || memchr(begin, '[', (size_t)(close - begin)) != NULL ||
+        !ends_member(close + 1, scan->end))
+        return false;
+    scan->at = close + 1;
+    return true;
+}
+
 const char *json_scan_kind(struct json_scan *scan)
 {
     switch (json_scan_peek(scan)) {

@@ -263,6 +263,8 @@ static int read_value(struct reader *reader, const struct field *field, void *ba
         return field->steady && reader->cache != NULL ? read_steady(reader, field, base)
                                                       : read_list(reader, field, base);
     case FIELD_RECORD:
+        if (first == '{')
+            return read_object(reader, field, base);
         break;
     case FIELD_RAW:
         return read_raw(scan, field, base);
@@ -274,11 +276,17 @@ static int read_value(struct reader *reader, const struct field *field, void *ba
     return refuse_value(scan, field);
 }
 
+/* Reads a number or a name as most are; false for any other value. */
+static inline bool take_value(struct reader *reader, const struct field *field, void *base)
+{
+    return (field->kind == FIELD_REAL && take_real(&reader->scan, field, base)) ||
+           (field->kind == FIELD_NAME && take_name(reader, field, base));
+}
+
 /* Most members are numbers, names and records: these are tried first. */
 static inline int read_member(struct reader *reader, const struct field *field, void *base)
 {
-    if ((field->kind == FIELD_REAL && take_real(&reader->scan, field, base)) ||
-        (field->kind == FIELD_NAME && take_name(reader, field, base)))
+    if (take_value(reader, field, base))
         return 0;
     if (field->kind == FIELD_RECORD && json_scan_peek(&reader->scan) == '{')
         return read_object(reader, field, base);
@@ -335,17 +343,26 @@ static const struct field *read_key(struct json_scan *scan, const struct record 
     return NULL;
 }
 
-/* Reads a member of a struct that keeps its line. */
+static void note_line(const struct record *record, void *base, struct field_line line)
+{
+    memcpy((char *)base + record->line_offset, &line, sizeof line);
+}
+
+/* Reads a member of a struct that keeps its line, or leaves it unread. */
 static int read_with_text(struct reader *reader, const struct record *record,
                           const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
+    struct field_line line = field_line(record, base);
     json_scan_peek(scan);
     const char *begin = scan->at;
-    if (read_member(reader, field, base) != 0)
-        return -1;
-    field_line(record, base).texts[field - record->fields] =
-        (struct field_text){begin, (size_t)(scan->at - begin)};
+    if ((line.unread & field->group) == 0 || !json_scan_skip_flat(scan)) {
+        if (!take_value(reader, field, base) && read_value(reader, field, base) != 0)
+            return -1;
+        line.unread &= ~field->group;
+        note_line(record, base, line);
+    }
+    line.texts[field - record->fields] = (struct field_text){begin, (size_t)(scan->at - begin)};
     return 0;
 }
 
@@ -428,4 +445,24 @@ int record_read(const char *line, size_t length, const struct record *record, vo
     }
     json_scan_peek(scan);
     return scan->at == scan->end ? 0 : json_scan_unexpected(scan, "the end of the line");
+}
+
+int record_read_left(const struct record *record, unsigned groups, void *base, struct arena *arena,
+                     struct list_cache *cache, struct diag *diag)
+{
+    struct field_line line = field_line(record, base);
+    groups &= line.unread;
+    line.unread &= ~groups;
+    note_line(record, base, line);
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        if ((groups & field->group) == 0)
+            continue;
+        struct field_text text = line.texts[field - record->fields];
+        struct reader reader = {{text.bytes, text.bytes + text.length, arena, diag},
+                                intern_begin(text.length / BYTES_PER_NAME, arena),
+                                cache};
+        if (read_with_text(&reader, record, field, base) != 0)
+            return -1;
+    }
+    return 0;
 }

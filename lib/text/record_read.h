@@ -12,3 +12,7 @@
  * cache of steady lists, which may be NULL. */
 int record_read(const char *line, size_t length, const struct record *record, void *base,
                 struct arena *arena, struct list_cache *cache, struct diag *diag);
+
+/* Reads the lists of these groups that were left unread, after record_read. */
+int record_read_left(const struct record *record, unsigned groups, void *base, struct arena *arena,
+                     struct list_cache *cache, struct diag *diag);

@@ -106,7 +106,8 @@ static int sensor_signal_step(void *state, struct frame *frame, struct runner *r
     struct sensor_signal *own = state;
     struct selection selection;
     const struct suite *suite = suite_choice_suite(&own->choice, frame, runner);
-    if (suite == NULL || suite_choice_effects(&own->choice, frame, runner, &selection) != 0)
+    if (suite == NULL || suite_choice_effects(&own->choice, frame, runner, &selection) != 0 ||
+        suite_choice_read(frame, suite, &selection, runner) != 0)
         return -1;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];

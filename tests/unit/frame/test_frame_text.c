@@ -96,7 +96,7 @@ static void assert_written(const char *line, unsigned altered, unsigned dropped,
 {
     struct frame frame = {.arena = check_arena()};
     struct text *text = check_text();
-    assert_done(frame_text_take, line, strlen(line), &frame);
+    assert_done(frame_text_take, line, strlen(line), 0, &frame);
     frame_alter(&frame, altered);
     frame_drop(&frame, dropped);
     assert_done(frame_text_write, &frame, text);

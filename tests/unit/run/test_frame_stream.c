@@ -117,3 +117,63 @@ TEST_OF(scratch, frames_are_checked)
           1);
     assert_refuses(scratch, &bench, ":1: ego: \"e\" is not among the objects");
 }
+
+/* A frame with these objects, which need not be read. */
+static void begin_unread(struct bench *bench, struct scratch *scratch, const char *objects)
+{
+    char line[512];
+    snprintf(line, sizeof line,
+             "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,"
+             "\"seed\":\"1\",\"ego\":\"e\",\"objects\":%s,\"extra\":7}",
+             objects);
+    begin(bench, scratch, line, 1);
+    bench->stream.unread = PART_OBJECTS;
+    assert_int_equal(next(bench), 1);
+}
+
+#define OBJECT(id)                                                                                 \
+    "{\"id\":\"" id "\",\"class\":\"car\",\"x_m\":1,\"y_m\":2,\"yaw_rad\":0,\"vx_mps\":0,"         \
+    "\"vy_mps\":0,\"yaw_rate_radps\":0,\"length_m\":4,\"width_m\":2,\"height_m\":1,\"travelled_"   \
+    "m\":0}"
+
+TEST_OF(scratch, objects_are_read_when_they_are_asked_for)
+{
+    struct bench bench;
+    begin_unread(&bench, scratch, "[" OBJECT("f") "," OBJECT("e") "]");
+    assert_int_equal(bench.frame.present, PART_OBJECTS);
+    assert_int_equal(bench.frame.objects.count, 0);
+    for (int i = 0; i < 2; i++) {
+        assert_done(frame_stream_read_left, &bench.frame, PART_OBJECTS);
+        assert_int_equal(bench.frame.objects.count, 2);
+        assert_string_equal(frame_object(&bench.frame, "e")->id, "e");
+    }
+    frame_stream_close(&bench.stream);
+}
+
+TEST_OF(scratch, a_list_whose_end_is_not_sure_is_read_at_once)
+{
+    struct bench bench;
+    begin_unread(&bench, scratch, "[" OBJECT("e") "," OBJECT("a],b") "]");
+    assert_int_equal(bench.frame.objects.count, 2);
+    frame_stream_close(&bench.stream);
+}
+
+TEST_OF(scratch, faults_of_objects_are_told_where_they_are_read)
+{
+    static const struct {
+        const char *objects, *message;
+    } cases[] = {
+        {"[]", "ego: \"e\" is not among the objects"},
+        {"[{}]", "objects[0].id: missing; expected a name"},
+        {"[" OBJECT("e") "," OBJECT("e") "]", "objects: the id \"e\" stands twice"},
+        {"[" OBJECT("e") "}]", "objects: '}' where ',' or ']' is expected"},
+        {"[" OBJECT("e") ",]", "objects[1]: ']' where a value is expected"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct bench bench;
+        begin_unread(&bench, scratch, cases[i].objects);
+        assert_refused(DIAG_DATA, cases[i].message, frame_stream_read_left, &bench.frame,
+                       PART_OBJECTS);
+        frame_stream_close(&bench.stream);
+    }
+}

@@ -197,7 +197,7 @@ TEST(a_header_that_a_stage_changed_is_written_as_it_is)
     begin_frame(&made);
     made.time_s = 2;
     assert_done(frame_text_write, &made, line);
-    assert_done(frame_text_take, line->bytes, line->length - 1, &frame);
+    assert_done(frame_text_take, line->bytes, line->length - 1, 0, &frame);
     begin(&runner, &stage, 0, NULL);
     assert_int_equal(runner_step(&runner, &frame), 0);
     assert_done(frame_text_write, &frame, out);

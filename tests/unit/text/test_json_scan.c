@@ -40,6 +40,49 @@ TEST(every_form_of_value_is_taken_with_its_exact_bytes)
     }
 }
 
+/* The bytes of the array that is passed over; 0: none. */
+static size_t flat_length(const char *text)
+{
+    struct diag diag = {0};
+    struct json_scan scan = {text, text + strlen(text), check_arena(), &diag};
+    bool passed = json_scan_skip_flat(&scan);
+    assert_int_equal(passed, scan.at != text);
+    return (size_t)(scan.at - text);
+}
+
+TEST(an_array_without_arrays_is_passed_over_where_its_end_is_sure)
+{
+    static const struct {
+        const char *text;
+        size_t length;
+    } sure[] = {{"[]}", 2},
+                {"[],\"k\":1}", 2},
+                {"[{\"a\":\"},{\"},{}],\"k\":1}", 16},
+                {"[ what lies in it ],\"k", 19}};
+    static const char *const unsure[] = {"[",
+                                         "[1",
+                                         "[1]",
+                                         "[1]} ",
+                                         "[1],",
+                                         "[1],\"",
+                                         "[1] ,\"k\":1}",
+                                         "[1], \"k\":1}",
+                                         "[1],\"\":",
+                                         "[1],\"K\":1",
+                                         "[[1],2],\"k\"",
+                                         "[\"a]\"],\"k\"",
+                                         "[\"\\\"],\\\"k\"]}",
+                                         "{},\"k\":",
+                                         "7,\"k\":1}",
+                                         "[\"[\"],\"k\"",
+                                         ""};
+    for (size_t i = 0; i < COUNT(sure); i++)
+        assert_int_equal(flat_length(sure[i].text), sure[i].length);
+    for (size_t i = 0; i < COUNT(unsure); i++)
+        if (flat_length(unsure[i]) != 0)
+            fail_msg("%s was passed over", unsure[i]);
+}
+
 TEST(text_that_is_not_json_is_refused)
 {
     static const char texts[] =
