@@ -139,16 +139,6 @@ def the_ego_moves_as_its_poses_do(folder):
         assert abs(middle["ay"] - 0.3 * middle["vx"]) < 1e-3 and abs(middle["ax"] + 0.3 * middle["vy"]) < 1e-3, middle
 
 
-def the_weather_is_a_tag(folder):
-    """Evaluations of TruckScenes find scenes by it."""
-    tables = Tables(exported(folder, "truckscenes"), "truckscenes")
-    assert [row["description"].split(";")[0] for row in tables.rows["scene"]] == ["weather.clear"] * 2
-    shell("glint-traffic wet-road | head -3 | glint-extract | glint-ideal --sections quality --sensors corner77-four | glint-sensor | glint-noise > wet.jsonl;"
-          f" {SCRIPTS}/export truckscenes --out wet wet.jsonl", folder)
-    row, = Tables(os.path.join(folder, "wet"), "truckscenes").rows["scene"]
-    assert "weather.rain" in row["description"].split(";"), row
-
-
 def a_class_without_a_word_is_told(folder):
     """It is drawn in both devkits, and stderr says as what."""
     exported(folder, "nuscenes")
@@ -254,7 +244,7 @@ def main():
     chosen = sys.argv[2:]
     with tempfile.TemporaryDirectory() as folder:
         for test in (truth_with_points_is_detected_perfectly, truth_with_points_is_tracked_perfectly, a_radar_is_drawn, a_lidar_sees_nothing,
-                     the_ego_moves_as_its_poses_do, the_weather_is_a_tag, a_class_without_a_word_is_told, splits_have_names_of_their_own, without_a_lidar_nothing_runs,
+                     the_ego_moves_as_its_poses_do, a_class_without_a_word_is_told, splits_have_names_of_their_own, without_a_lidar_nothing_runs,
                      a_category_without_a_colour_is_not_drawn, a_second_or_unknown_attribute_is_refused, truth_without_points_is_false,
                      exchanged_members_are_errors, a_cabin_without_motion_is_not_drawn, scenes_at_one_time_get_each_others_poses):
             if not chosen or test.__name__ in chosen:

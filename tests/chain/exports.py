@@ -10,6 +10,7 @@ import glob
 import gzip
 import json
 import math
+import operator
 import os
 import re
 import shutil
@@ -25,6 +26,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 import glint  # noqa: E402
+from glint.exports import quick, streams  # noqa: E402
 from devkits import FIELDS, Tables, in_box, read_pcd, read_truckscenes  # noqa: E402
 from scripts import in_a_fork, members  # noqa: E402
 
@@ -702,6 +704,28 @@ def any_member_may_be_wrong(folder):
     assert refused > 250, refused
 
 
+def what_is_taken_at_once_is_whole(_):
+    """A frame that streams take without a closer look passes that look, too, whatever is wrong in one of its members."""
+    good = frame_of([body("ego", vx=20), body("other", x=12)], [target(), target() | {"elevation_rad": 0.1}], origin_x_m=5, visibility=[
+        {"sensor": "front", "object": "other", "reflectors": 2, "in_range": 1, "in_view": 1, "visibility": "v0-40"}])
+    of_quality, taken = operator.itemgetter(*streams.QUALITY), 0
+    assert quick.is_whole(good, of_quality)
+    for path in members(good):
+        for value in ("left out", None, "x", "", [], [1], {}, True, -1, 0, 1.5, 1e4, 1e8, 1e308, math.inf, math.nan):
+            frame = glint.Frame(json.loads(json.dumps(good)))
+            record, frame.place = frame, "here"
+            for key in path[:-1]:
+                record = record[key]
+            if value == "left out":
+                del record[path[-1]]
+            else:
+                record[path[-1]] = value
+            if quick.is_whole(frame, of_quality):
+                streams.refuse_what_is_not_whole(frame)
+                taken += 1
+    assert taken > 300, taken
+
+
 def any_member_of_a_layout_may_be_wrong(folder):
     """Each is left out or replaced: the document is refused, or the export is made."""
     save(folder, "hand.jsonl", [frame_of([body("ego"), body("other", x=12)], [target()])])
@@ -827,7 +851,7 @@ def main():
                  every_option_of_a_source_is_exported, scenes_may_be_played_at_once, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
                  a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
                  lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_nobody_measured_is_said, what_formats_cannot_hold_is_refused,
-                 any_member_may_be_wrong, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,
+                 any_member_may_be_wrong, what_is_taken_at_once_is_whole, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,
                  killed_runs_leave_no_folder_of_the_name, pcl_reads_the_radar_files):
         if chosen and test.__name__ not in chosen:
             continue

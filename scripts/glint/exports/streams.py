@@ -7,6 +7,7 @@ import io
 import itertools
 import json
 import math
+import operator
 import os
 import pickle
 import sys
@@ -15,6 +16,7 @@ import zlib
 
 import glint
 from glint import command_line
+from glint.exports.quick import is_whole
 from glint.places import DATA, SCHEMAS
 from glint.progress import Progress
 from glint.sets import schema
@@ -22,7 +24,7 @@ from glint.sets.plan import BAD_DATA, NO_INPUT, Fault, read_json
 from glint.sets.tables import opened
 
 HEIGHT_M = 0.5  # of a sensor that has none: usual for radars
-LEVELS = "v0-40", "v40-60", "v60-80", "v80-100"
+LEVELS = {"v0-40": 0, "v40-60": 1, "v60-80": 2, "v80-100": 3}
 COUNTED = "objects", "scans", "detections", "contributors", "sightings", "lost"  # tables of which frames have numbers of rows
 CELLS = {"frame_key", "detection_key", "seed", "time_s", "sensor", "measured_s", "detection", "contributor", *COUNTED}  # no row lacks them
 LOST = "a row was lost, doubled or moved, here or before"
@@ -34,7 +36,7 @@ NEEDED = {**dict.fromkeys(("scene", "seed", "frame", "time_s", "ego"), (lambda v
           "objects": [{"class": glint.NAME, "length_m": LENGTH, "width_m": LENGTH, "height_m": LENGTH}],
           "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau), "range_max_m": glint.number(0, 1e6), "mount_z_m": glint.number(0, 100)}]},
           "targets": [{"quality": dict.fromkeys(QUALITY, VALUE), "contributors": [{"path": glint.NAME}]}],
-          "conditions": {}, "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
+          "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
 GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave out --sections -objects",
             "targets:": "expected lists, as glint-noise writes them", "_m:": "glint-extract gives objects the sizes of their class"}
 
@@ -126,8 +128,6 @@ def frames_of_tables(folder):
         known = {name: value for name, value in row.items() if name not in COUNTED}
         frame = glint.Frame(known, seed=str(row["seed"]), objects=bodies, sensors={"suite": row.get("suite"), "list": sensors}, targets=found, visibility=seen)
         frame.place = row.place
-        if fault := glint.fault(frame, glint.FRAME) or glint.unjoined(frame):
-            raise Fault(BAD_DATA, f"{row.place}: {fault.lstrip('.')}")
         yield frame
     for table in tables:
         table.end()
@@ -143,7 +143,7 @@ def streams_of(path):
     for split, place in sorted(shards, key=str):
         if split is not None and not glob.glob(os.path.join(glob.escape(place), "frames.csv*")):
             place = next(iter(glob.glob(glob.escape(place) + ".jsonl.*")), place + ".jsonl.gz")
-        yield split, frames_of_tables(place) if os.path.isdir(place) else glint.frames(place, check=split is None)  # a set has its digests
+        yield split, frames_of_tables(place) if os.path.isdir(place) else glint.frames(place, check=False)
 
 
 def document(path, kind):
@@ -154,10 +154,17 @@ def document(path, kind):
     return found
 
 
-def complete(frame):
-    """Refuses a frame that lacks what formats need; gives a height to sensors that have none."""
-    if fault := glint.fault(frame, NEEDED, ("conditions", "visibility", "mount_z_m")):
+def refuse_what_is_not_whole(frame):
+    if fault := glint.fault(frame, glint.FRAME) or glint.unjoined(frame):
+        raise Fault(BAD_DATA, f"{frame.place}: {fault.lstrip('.: ')}")
+    if fault := glint.fault(frame, NEEDED, ("visibility", "mount_z_m")):
         raise Fault(BAD_DATA, "; ".join([f"{frame.place}: {fault[1:]}", *(hint for name, hint in GIVEN_BY.items() if name in fault)]))
+
+
+def complete(frame, of_quality=operator.itemgetter(*QUALITY)):
+    """Refuses a frame that lacks what formats need; gives a height to sensors that have none."""
+    if not is_whole(frame, of_quality):
+        refuse_what_is_not_whole(frame)
     for one in frame["sensors"]["list"]:
         if "mount_z_m" not in one:
             one |= {"mount_z_m": HEIGHT_M, "height_is_assumed": True}
@@ -243,7 +250,7 @@ def visibility(frame, sensors):
     levels = {}
     for one in frame.get("visibility", ()):
         if one["sensor"] in sensors and one.get("visibility") in LEVELS:
-            levels[one["object"]] = max(levels.get(one["object"], 0), LEVELS.index(one["visibility"]))
+            levels[one["object"]] = max(levels.get(one["object"], 0), LEVELS[one["visibility"]])
     return levels
 
 

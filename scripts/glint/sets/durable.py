@@ -5,14 +5,12 @@ import hashlib
 import json
 import os
 import re
-import secrets
 import shutil
-import socket
 
 from glint.sets.plan import CANNOT_CREATE, Fault
 
 TEMPORARY = ".tmp"
-MACHINE = socket.gethostname().replace(".", "-")
+MACHINE = os.uname().nodename.replace(".", "-")
 with contextlib.suppress(OSError), open("/proc/sys/kernel/random/boot_id", encoding="ascii") as boot:
     MACHINE = boot.read().strip()  # containers of one machine share it, whatever their host names
 
@@ -40,7 +38,7 @@ def create(path, work, folder=False):
     """A new file or folder in the folder `work` under a name that no other process takes, and its open descriptor. The
     descriptor's lock says that its maker lives, to other containers and machines too where the file system has locks."""
     while True:
-        temporary = os.path.join(work, f"{os.path.basename(path)[:40]}.{MACHINE}.{secrets.token_hex(8)}{TEMPORARY}")
+        temporary = os.path.join(work, f"{os.path.basename(path)[:40]}.{MACHINE}.{os.urandom(8).hex()}{TEMPORARY}")
         os.mkdir(temporary) if folder else open(temporary, "xb").close()
         with contextlib.suppress(FileNotFoundError):  # another process removed it before it was locked
             descriptor = os.open(temporary, os.O_RDONLY if folder else os.O_WRONLY)
