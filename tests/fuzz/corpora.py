@@ -129,5 +129,5 @@ CORPORA = {
     "frame": frames, "chain": suite_and_frame, "suite": lambda: bytes_of("data/sensors/*.json"),
     "vehicle": lambda: bytes_of("data/vehicles/*.json"), "traffic": traffic, "table": tables, "number": numbers,
     "input": inputs, "tracks": tracks, "sumo": floating_cars, "commonroad": scenarios, "osi": traces,
-    "pipeline": lambda: bytes_of("pipelines/*.sh"),
+    "pipeline": lambda: bytes_of("pipelines/*.sh") + [b"glint-extract <<'END' | glint-ideal --sensors lrr77\n{}\nEND\n# end\n"],
 }

@@ -12,6 +12,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     fuzz_must(!taken || pipeline.commands.count > 0, "a pipeline without a command");
     for (size_t i = 0; taken && i < pipeline.commands.count; i++)
         fuzz_must(pipeline.commands.items[i].words.count > 0, "a command without a word");
+    const char *end = (const char *)bytes + size;
+    fuzz_must(!taken || pipeline.input == NULL ||
+                  pipeline.input_length <= (size_t)(end - pipeline.input),
+              "a here-document beyond the text");
     arena_free(&arena);
     return 0;
 }
