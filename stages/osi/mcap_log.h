@@ -1,0 +1,24 @@
+/* A file of MCAP that is filled frame by frame.
+ *
+ * Its first channels are of no sensor; each sensor has a channel of its own, from its first scan
+ * on. */
+#pragma once
+
+#include "mcap_file.h"
+#include "trace.h"
+
+/* Zeroed before the first frame, but for the trace and the arena of the file. */
+struct mcap_log {
+    struct trace trace; /* first: its option is the stage's */
+    struct mcap_file file;
+    struct intern sensors; /* that have a channel, in the order of their channels */
+    struct text message;   /* the next one */
+};
+
+/* Adds the message at the time of the trace's frame, and empties it. */
+void mcap_log_add_message(struct mcap_log *log, uint16_t channel);
+
+/* The channel of a sensor, behind so many that are of none. A sensor without one gets it, with the
+ * topic /radar/NAME and this schema. 0 after a message: MCAP has no room for it. */
+uint16_t mcap_log_channel(struct mcap_log *log, size_t others, const char *sensor,
+                          const struct mcap_schema *schema, struct diag *diag);
