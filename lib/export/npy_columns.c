@@ -88,11 +88,11 @@ static uint64_t cell_of(const struct field *field, const void *base, struct npy_
 void npy_columns_write(const struct csv_columns *columns, const void *base, struct npy_names *names,
                        struct text *row)
 {
+    char *at = text_room(row, CELL_SIZE * columns->list.count);
     bool there = false;
     for (size_t i = 0; i < columns->list.count; i++) {
         const void *owner = csv_columns_owner(columns, i, base, &there);
-        text_put_word(text_room(row, CELL_SIZE),
-                      cell_of(columns->list.items[i].field, owner, names));
-        row->length += CELL_SIZE;
+        text_put_word(at + CELL_SIZE * i, cell_of(columns->list.items[i].field, owner, names));
     }
+    row->length += CELL_SIZE * columns->list.count;
 }
