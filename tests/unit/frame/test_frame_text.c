@@ -403,6 +403,58 @@ TEST(a_changed_byte_is_refused_or_read_for_good)
     assert_in_range(taken, 1000, 29000);
 }
 
+/* The text of what the line says, or nothing if it is refused. */
+static void read_and_write(const char *line, size_t length, struct frame *frame, struct text *text)
+{
+    struct diag diag = {0};
+    text->length = 0;
+    if (frame_text_read(line, length, frame, &diag) == 0)
+        assert_int_equal(frame_text_write(frame, text, &diag), 0);
+}
+
+#define FLAT                                                                                       \
+    "{\"id\":\"e\",\"class\":\"car\",\"x_m\":1,\"y_m\":2,\"yaw_rad\":0.1,\"vx_mps\":5,"            \
+    "\"vy_mps\":-2.5,\"yaw_rate_radps\":0,\"length_m\":4.5,\"width_m\":1.8,\"height_m\":1.5,"      \
+    "\"travelled_m\":3}"
+
+/* Objects that nobody reads pass to the next program, which takes or refuses the line as it would
+ * have taken or refused the one before. */
+TEST(what_passes_unread_is_refused_or_read_behind_as_before)
+{
+    static const char good[] =
+        HEAD "\"objects\":[" FLAT "," FLAT "],\"vehicles\":[]," SENSORS COUNTS "\"extra\":0}\n";
+    static const char bytes[] = "01.\"\"\\{}[[]]::,, ax\x80";
+    struct frame frame = {.arena = check_arena()}, passed = {.arena = check_arena()};
+    struct text before = {0}, behind = {0}, line = {0};
+    uint64_t random = 12;
+    size_t unread = 0, refused = 0;
+    for (int i = 0; i < 60000; i++) {
+        char text[sizeof good];
+        struct diag diag = {0};
+        memcpy(text, good, sizeof good);
+        for (uint64_t k = sample_bits(&random) % 3; k > 0; k--)
+            text[sample_bits(&random) % (sizeof good - 2)] =
+                bytes[sample_bits(&random) % (sizeof bytes - 1)];
+        read_and_write(text, sizeof good - 2, &frame, &before);
+        line.length = 0;
+        if (frame_text_take(text, sizeof good - 2, PART_OBJECTS, &passed, &diag) != 0) {
+            assert_int_equal(before.length, 0);
+            continue;
+        }
+        unread += (passed.line.unread & PART_OBJECTS) != 0;
+        assert_int_equal(frame_text_write(&passed, &line, &diag), 0);
+        read_and_write(line.bytes, line.length - 1, &frame, &behind);
+        refused += behind.length == 0;
+        assert_int_equal(behind.length, before.length);
+        assert_memory_equal(behind.bytes, before.bytes, before.length);
+    }
+    assert_in_range(unread, 20000, 59000);
+    assert_in_range(refused, 5000, 50000);
+    text_free(&before);
+    text_free(&behind);
+    text_free(&line);
+}
+
 static struct frame frame_with_extra(struct arena *arena, size_t length)
 {
     char *extra = arena_get(arena, length + 1);
