@@ -42,6 +42,14 @@ struct frame_place runner_place(const struct runner *runner)
     return input == NULL ? (struct frame_place){"the source", 0} : frame_stream_place(input);
 }
 
+void runner_notice(struct runner *runner, const char *text)
+{
+    for (size_t i = 0; i < runner->notices.count; i++)
+        if (strcmp(runner->notices.items[i], text) == 0)
+            return;
+    *list_add(&runner->notices, &runner->arena) = text;
+}
+
 void runner_expect(struct runner *runner, int64_t frames)
 {
     runner->expected_frames = frames;

@@ -43,8 +43,8 @@ struct runner {
     const struct runner *before; /* runs before this one in the same process; NULL: none does */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const char *)
-    notices;               /* a line each, printed before the first frame, or at a tool's end */
-    struct intern classes; /* those that stages asked for */
+    notices;                           /* runner_notice */
+    struct intern classes;             /* those that stages asked for */
     LIST_OF(struct known_class) known; /* by number in classes */
     struct frame_sequence sequence;    /* of the frames so far, under --complete */
     int64_t expected_frames;           /* 0 if the source does not say */

@@ -146,5 +146,9 @@ struct frame_place runner_place(const struct runner *runner);
  * wait for more. The message does not name the file. */
 struct input *runner_input(struct runner *runner, const char *path);
 
+/* A line for people on stderr, once however often it is given: before the first frame if the stage
+ * knows it at its start, or else at the end. The text lasts as long as the stage. */
+void runner_notice(struct runner *runner, const char *text);
+
 /* How many frames a source will make, for the time left. */
 void runner_expect(struct runner *runner, int64_t frames);

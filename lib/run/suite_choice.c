@@ -46,15 +46,6 @@ static bool is_told(const struct suite *suite, size_t sensor, const struct usual
     return false;
 }
 
-/* Adds a notice that the runner does not have yet: a tool may choose one suite several times. */
-static void add_notice(struct runner *runner, const char *text)
-{
-    for (size_t i = 0; i < runner->notices.count; i++)
-        if (strcmp(runner->notices.items[i], text) == 0)
-            return;
-    *list_add(&runner->notices, &runner->arena) = text;
-}
-
 void suite_choice_doubt(struct runner *runner, const struct suite *suite)
 {
     struct usual_figure unusual[USUAL_FIGURES_MOST];
@@ -63,12 +54,12 @@ void suite_choice_doubt(struct runner *runner, const struct suite *suite)
         for (size_t k = 0; k < count; k++) {
             const struct usual_figure *one = &unusual[k];
             if (!is_told(suite, i, one))
-                add_notice(runner, arena_format(&runner->arena,
-                                                "%s: sensors[%zu].%s: doubt: %g%s; automotive "
-                                                "radars have %g to %g%s; correct it, or "
-                                                "go on if it is meant",
-                                                suite->given, i, one->member, one->value, one->unit,
-                                                one->least, one->most, one->unit));
+                runner_notice(runner, arena_format(&runner->arena,
+                                                   "%s: sensors[%zu].%s: doubt: %g%s; automotive "
+                                                   "radars have %g to %g%s; correct it, or "
+                                                   "go on if it is meant",
+                                                   suite->given, i, one->member, one->value,
+                                                   one->unit, one->least, one->most, one->unit));
         }
     }
 }
@@ -101,13 +92,13 @@ bool suite_choice_doubt_cells(struct runner *runner, const struct suite *suite,
         const struct class_document *document = too_fine(frame, cell_m);
         if (document == NULL)
             continue;
-        add_notice(runner,
-                   arena_format(&runner->arena,
-                                "%s: sensors[%zu].cell_range_m: doubt: cells of %g m; the "
-                                "reflectors of the class \"%s\" are made for cells of at "
-                                "most %g m; for larger ones take --vehicles "
-                                "detailed",
-                                suite->given, i, cell_m, document->class, document->cell_max_m));
+        runner_notice(runner,
+                      arena_format(&runner->arena,
+                                   "%s: sensors[%zu].cell_range_m: doubt: cells of %g m; the "
+                                   "reflectors of the class \"%s\" are made for cells of at "
+                                   "most %g m; for larger ones take --vehicles "
+                                   "detailed",
+                                   suite->given, i, cell_m, document->class, document->cell_max_m));
         return true;
     }
     return false;

@@ -9,6 +9,7 @@ struct mcap_stage {
     bool ros2;
     struct mcap_ros_times transforms;
     struct vec2 origin_m; /* of the first frame */
+    size_t points, flat;  /* those so far, and how many have no elevation */
 };
 
 static int mcap_start(void *state, struct runner *runner)
@@ -39,6 +40,13 @@ static int check_origin(struct mcap_stage *own, struct diag *diag)
                      origin_m.x, origin_m.y, own->origin_m.x, own->origin_m.y);
 }
 
+static void count_flat(struct mcap_stage *own, const struct frame *frame)
+{
+    own->points += frame->targets.count;
+    for (size_t i = 0; i < frame->targets.count; i++)
+        own->flat += (frame->targets.items[i].present & VALUE_ELEVATION) == 0;
+}
+
 static int add_frame(struct mcap_stage *own, struct diag *diag)
 {
     if (own->ros2)
@@ -60,12 +68,18 @@ static int mcap_step(void *state, struct frame *frame, struct runner *runner)
     if (trace_take(&own->log.trace, frame, diag) != 0 || check_origin(own, diag) != 0 ||
         add_frame(own, diag) != 0)
         return -1;
+    count_flat(own, frame);
     return send(&own->log.file, runner);
 }
 
 static int mcap_stop(void *state, struct runner *runner)
 {
     struct mcap_stage *own = state;
+    if (own->flat > 0)
+        runner_notice(runner, arena_format(runner_arena(runner),
+                                           "z is 0 in %zu of %zu points: their radars measure no "
+                                           "elevation",
+                                           own->flat, own->points));
     mcap_file_end(&own->log.file);
     return send(&own->log.file, runner);
 }

@@ -408,6 +408,11 @@ def every_number(folder):
         for key, count in compare_osi(lines).items():
             sums[key] = sums.get(key, 0) + count
         file = compare_mcap(lines)
+        count = sum("elevation_rad" not in target for frame in frames_in(lines) for target in frame["targets"])
+        for words in ("", " --ros2"):
+            done = subprocess.run(["glint", "-c", "glint-mcap" + words], env=ENV, input=lines, capture_output=True, check=True)
+            said = f"glint-mcap: z is 0 in {count} of" if count else ""
+            check(done.stderr.decode().startswith(said) and done.stderr.count(b"\n") == bool(count), f"what is said of heights: {done.stderr}")
         check(file.groups == [3, 4, 11, 8, 13], f"groups of the summary: {file.groups}")
         check([name for name, _, _ in list(file.schemas.values())[:3]] == ["osi3.SensorData", "glint.frame", "foxglove.SceneUpdate"],
               "schemas")
