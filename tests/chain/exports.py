@@ -12,6 +12,7 @@ import json
 import math
 import operator
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -537,6 +538,26 @@ def scenes_may_be_played_at_once(folder):
             same(f"{folder}/{form}-after-{ends}", f"{folder}/{form}-at-once-{ends}")
 
 
+def several_egos_are_exported_as_each_alone(folder):
+    """The files of points of a shard in which two egos play at once are those of each ego's own export, in its order; so are boxes in
+    the axes of radars."""
+    shutil.copy(ROOT + "/data/trajectories/highway.csv", folder)
+    chain = "glint-extract | glint-ideal --sensors corner77-four --sections quality,visibility | glint-sensor | glint-noise"
+    for name, egos in (("both", "2,3"), ("2", "2"), ("3", "3")):
+        shell(f"glint-traffic highway.csv --ego {egos} --to-s 0.4 | {chain} > {name}.jsonl", folder)
+    for form in ALL:
+        found = {}
+        for name in ("both", "2", "3"):
+            root = os.path.join(folder, f"{form}-{name}")
+            export(folder, form, "--out", root, name + ".jsonl")
+            for row in read_table(root, "scans"):
+                label = row["path"] if form in FIELDS else re.sub(r"\.\w+$", ".txt", row["path"].replace("velodyne", "label_2").replace("points", "labels"))
+                files = [pathlib.Path(root, path).read_bytes() for path in (row["path"], label)]
+                found.setdefault((name == "both", row["scene"], row["sensor"]), []).append(files)
+        together = {key[1:]: files for key, files in found.items() if key[0]}
+        assert together == {key[1:]: files for key, files in found.items() if not key[0]} and len(together) == 8, form
+
+
 def a_seed_makes_another_scene(folder):
     """Frames of seed 1 that go on with seed 2 are two scenes, in all tables, and readers tell them apart by name."""
     objects = [body("ego", vx=1), body("other", x=12)]
@@ -848,7 +869,7 @@ def main():
     chosen = sys.argv[2:]
     for test in (an_approaching_car, an_elevation_is_a_height, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
                  every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
-                 every_option_of_a_source_is_exported, scenes_may_be_played_at_once, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
+                 every_option_of_a_source_is_exported, scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
                  a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
                  lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_nobody_measured_is_said, what_formats_cannot_hold_is_refused,
                  any_member_may_be_wrong, what_is_taken_at_once_is_whole, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,
