@@ -6,6 +6,7 @@
 
 #include "export/detection_tables.h"
 #include "text/document.h"
+#include "text/variation.h"
 
 static json_t *schema_of(const struct record *record, enum record_schema_kind kind);
 
@@ -136,7 +137,7 @@ void record_schema_add(const struct record *record, enum record_schema_kind kind
     if (kind == SCHEMA_EXTENDING)
         add_base(schema);
     if (kind == SCHEMA_DRAWN)
-        json_object_set_new(schema, "$defs", json_loads(document_drawn_schema, 0, NULL));
+        json_object_set_new(schema, "$defs", json_loads(variation_schema, 0, NULL));
     print(schema, text);
 }
 

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "text/field.h"
 
-/* A document as it is; one whose values may be distributions (document_draw); and one that extends
+/* A document as it is; one whose values may be distributions (variation_draw); and one that extends
  * another (document_extended): it needs no member but "extends", and null takes one away. */
 enum record_schema_kind { SCHEMA_PLAIN, SCHEMA_DRAWN, SCHEMA_EXTENDING };
 

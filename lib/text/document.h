@@ -5,7 +5,6 @@
  * anything else is a path. Every fault of a document is DIAG_CONFIG. */
 #pragma once
 
-#include "base/random.h"
 #include "base/text.h"
 #include "text/field.h"
 
@@ -90,17 +89,3 @@ const char *document_extended(const char *base, const char *own, struct arena *a
  * for absolute paths. folder is "" or ends with a slash; the names end with NULL. */
 const char *document_moved(const char *line, const char *const *names, const char *folder,
                            struct arena *arena);
-
-/* The line of a document with a draw in the place of every distribution. Any value may be an object
- * whose one member names a law:
- *
- *     {"uniform": [low, high]}  {"normal": [mean, sd]}  {"choice": [value, value, ...]}
- *
- * A choice takes any values, and they may hold distributions themselves. A normal draw is at most
- * 8.57 sd from the mean. Each draw is at the given address, with the hash of the member's path
- * ("objects[1].speed_mps") in its item. NULL after a message that begins with the member. */
-const char *document_draw(const char *line, struct random_address address, struct arena *arena,
-                          struct diag *diag);
-
-/* The $defs of a JSON Schema: distributions of any value (drawn) and of numbers (drawn_number). */
-extern const char document_drawn_schema[];

@@ -7,6 +7,7 @@
 #include "frame/frame_check.h"
 #include "text/document.h"
 #include "text/record_write.h"
+#include "text/variation.h"
 
 static const struct field scenario_fields[] = {
     {FIELD_NAME_OF(struct scenario, origin, "who made this, and from what")},
@@ -203,7 +204,7 @@ struct scenario *scenario_draw(const struct scenario_document *document,
                                struct diag *diag)
 {
     struct scenario *scenario = arena_get(arena, sizeof *scenario);
-    const char *line = document_draw(document->line, address, arena, diag);
+    const char *line = variation_draw(document->line, address, arena, diag);
     if (line == NULL) {
         diag_prefix(diag, "%s: ", document->path);
         return NULL;

@@ -37,7 +37,7 @@ double scenario_time_s(const struct scenario *scenario, int64_t number);
 /* The object of this id; NULL if there is none. */
 const struct actor *scenario_object(const struct scenario *scenario, const char *id);
 
-/* The document of a scenario, whose values may be distributions (document_draw). */
+/* The document of a scenario, whose values may be distributions (variation_draw). */
 struct scenario_document {
     const char *path;
     const char *line;

@@ -123,10 +123,26 @@ def ten_radars():
         for i, angle in enumerate(angles)]})
 
 
+def write_drawn():
+    """Writes the highway of 20 vehicles, each of them at a speed that is drawn, as scenes of one frame; returns its path."""
+    objects = [one | {"speed_mps": {"uniform": [20, 30]}} for one in objects_of("highway", 20)]
+    return write("drawn-highway-20", {"origin": "Made by tests/speed/scenes.py.", "ego": "ego", "rate_hz": 1,
+                                      "duration_s": 0, "objects": objects})
+
+
+# What the paper does not have, of all that a full suite describes.
+BEYOND_PAPER = ("latency", "curvature", "elevation", "height", "diffraction", "ghosts", "wheels", "limbs", "clutter", "two_ray",
+                "fluctuation", "rain", "fog", "snow", "range_migration", "interference", "coherence", "accuracy", "misalignment",
+                "false_alarms", "quantisation")
+WORDS = {"account": " --sections account", "full, all": " --effects all",
+         "paper": " --effects auto," + ",".join("-" + name for name in BEYOND_PAPER)}
+FULL = ("full", "full, all", "paper")
+
+
 def commands(kind, count, sensors, frames, labels):
-    """The five stages of the chain. labels: "default", "account", or for ghosts "full" and "full, all"."""
-    words = {"account": " --sections account", "full, all": " --effects all"}.get(labels, "")
-    suite = "lrr77-full" if labels.startswith("full") else suite_of(kind, sensors)
+    """The five stages of the chain. labels: "default", "account", or of a full suite "paper", "full" and "full, all"."""
+    words = WORDS.get(labels, "")
+    suite = "lrr77-full" if labels in FULL else suite_of(kind, sensors)
     again = f" --sensors {suite}" if "/" in suite else ""
     return [f"glint-traffic {write_scene(kind, count, frames)}", "glint-extract",
             f"glint-ideal --sensors {suite}{words}", f"glint-sensor{again}", f"glint-noise{again}"]

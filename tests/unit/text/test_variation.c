@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/hash.h"
-#include "text/document.h"
+#include "text/variation.h"
 
 #define DRAWS 20000
 
@@ -9,7 +9,7 @@ static const char *drawn(const char *line, int64_t scene)
 {
     struct random_address address = {.seed = 7, .scene = (uint64_t)scene};
     struct diag diag = {0};
-    const char *text = document_draw(line, address, check_arena(), &diag);
+    const char *text = variation_draw(line, address, check_arena(), &diag);
     if (text == NULL)
         fail_msg("%s", diag.text);
     return text;
@@ -120,7 +120,7 @@ TEST(a_wrong_distribution_is_refused_by_its_member)
         char line[128];
         snprintf(line, sizeof line, "{\"a\":[{\"b\":%s}]}", wrong[i]);
         struct diag diag = {0};
-        assert_null(document_draw(line, (struct random_address){0}, check_arena(), &diag));
+        assert_null(variation_draw(line, (struct random_address){0}, check_arena(), &diag));
         assert_int_equal(diag.code, DIAG_CONFIG);
         assert_memory_equal(diag.text, "a[0].b: {", 9);
         assert_non_null(strstr(diag.text, "; expected {"));
