@@ -229,10 +229,12 @@ static inline void write_name(const char *name, struct writer *writer)
     writer->at = text_put_json(writer->at, name, length);
 }
 
+/* Words of tables are far shorter than a record. */
 static void write_choice(const char *choice, struct writer *writer)
 {
-    *writer->at++ = '"';
-    write_word(choice, writer);
+    make_room(writer, RECORD_ROOM);
+    *writer->at = '"';
+    writer->at = stpcpy(writer->at + 1, choice);
     *writer->at++ = '"';
 }
 
