@@ -1,4 +1,5 @@
 """Writes the layout that OpenPCDet has for data of one's own: for each radar a folder of points and boxes by number."""
+import functools
 import math
 
 from glint.exports.numbered import Numbered, corners, packed, text_of
@@ -15,10 +16,14 @@ def npy(targets):
     return b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head + packed(targets, columns)
 
 
+def sees(sensor, x, y):
+    """Whether a place in the radar's axes is in its field of view and range."""
+    return math.hypot(x, y) <= sensor["range_max_m"] and abs(math.atan2(y, x)) <= sensor["field_of_view_rad"] / 2
+
+
 def in_view(sensor, box, x, y, heading):
-    """Whether the middle or a corner of a box is in the radar's field of view and range."""
-    return any(math.hypot(px, py) <= sensor["range_max_m"] and abs(math.atan2(py, px)) <= sensor["field_of_view_rad"] / 2
-               for px, py in ((x, y), *zip(*corners(box, x, y, heading))))
+    """Whether the radar sees the middle or a corner of a box."""
+    return sees(sensor, x, y) or any(map(functools.partial(sees, sensor), *corners(box, x, y, heading)))
 
 
 class Writer(Numbered):
