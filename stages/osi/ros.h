@@ -6,8 +6,18 @@
  *                                         the road, and base_link to radar_NAME for each sensor
  *     visualization_msgs/msg/MarkerArray  a box and a text for each object, in map
  *
- * map is the frame's own system of coordinates, with z = 0 on the road. Units are m, rad, m/s and
- * dB. Stamps are times of the trace: of a cloud that of its scan, else that of the frame. */
+ * They are CDR, little-endian, as is the data of points. map is the frame's own system of
+ * coordinates, with z = 0 on the road. A point is float32 values, NaN where they are not known,
+ * and then uint32 labels:
+ *
+ *     x y z                                        m
+ *     radial_speed                                 m/s, positive where the point recedes
+ *     power rcs snr                                dB, dBsm, dB
+ *     azimuth_angle elevation_angle range          rad, positive to the left and up; m
+ *     range_std azimuth_std elevation_std          standard deviations: m, rad, rad
+ *     range_rate_std                               m/s
+ *     ground_relative_radial_velocity              m/s, without the sensor's own motion
+ *     object path contributors                     scan_point.h */
 #pragma once
 
 #include "base/text.h"
@@ -24,8 +34,7 @@ extern const char ros_point_cloud[], ros_transforms[], ros_markers[];
  * underscores, no digit first. */
 bool ros_takes_name(const char *sensor);
 
-/* Appends the targets of a sensor that measured. All values are float32 but the last three, which
- * are uint32; a value that the target does not have is NaN. */
+/* Appends the targets of a sensor that measured, stamped with the time that the scan shows. */
 void ros_add_points(struct trace *trace, const struct sensor_view *sensor, struct text *text);
 
 /* Appends the pose of the ego age_s before the frame's time, as its scans of that age have it: at
@@ -33,6 +42,6 @@ void ros_add_points(struct trace *trace, const struct sensor_view *sensor, struc
  * sensors at the frame's time. */
 void ros_add_transforms(const struct trace *trace, double age_s, struct text *text);
 
-/* Appends markers that replace all earlier ones. The id of both markers of an object is its number
- * in the trace, which points have as their object. */
+/* Appends markers, stamped with the frame's time, that replace all earlier ones. The id of both
+ * markers of an object is its number in the trace, which points have as their object. */
 void ros_add_boxes(struct trace *trace, struct text *text);
