@@ -1,13 +1,9 @@
-"""scripts/bench --sets: make on a data set beside processes that are started by hand, and the memory of its processes.
+"""scripts/bench --sets: what making a set costs beside the chain alone, and the memory of its processes.
 
-Two jobs of make are compared with two processes by hand, in rounds: each round runs every way once, and the shares of a
-round are of that round alone. By hand are run
-
-- the set's own command lines, `scripts/dataset --part N`, in two shells: what is left is the cost of make, of the
-  verification and of the manifest;
-- chains whose frames get the same facts from programs of every system: digests by sha256sum, compression by gzip;
-  glint-summary checks and counts;
-- chains that write compressed frames and no more: no digest, no count, no check.
+A frame's cost is that of a large set less that of a small one, for each frame that the large one has more; the chain's is
+measured likewise, as glint -c writes its lines into a file. Their ratio is of one round: each round makes all sets once.
+The fixed cost is that of a set of four shards of one frame each, laid out and made. Time is CPU time of all processes; no
+instructions are counted, as the digests use some of the processor's that callgrind does not know.
 
 Memory is the most that each process had, sampled while make runs, for shards of 1,000 to 100,000 frames with tables.
 """
@@ -23,70 +19,74 @@ import time
 import timing
 from glint.progress import say
 
-SCENES, SECONDS, RATE_HZ, SUITE = 240, 20, 20, "corner77-four"
+SECONDS, RATE_HZ, SUITE = 20, 20, "corner77-four"
+SMALL, LARGE = 2, 22  # scenes, in two shards
 CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections quality | glint-sensor | glint-noise"
 DATASET = os.path.abspath(os.path.join("scripts", "dataset"))
-FACTS = """rm -f {name}.a {name}.b; mkfifo {name}.a {name}.b
-sha256sum <{name}.a >{name}.plain & sha256sum <{name}.b >{name}.packed &
-glint -c {chain} | tee {name}.a | gzip -1 | tee {name}.b >{name}; wait"""
-WAYS = ("two jobs of make", "its own command lines in two shells", "the same facts by sha256sum and gzip",
-        "bare chains: no digest, no count, no check")
+KINDS = {"lines by gzip": {}, "lines by zstd": {"compression": "zstd"}, "lines and tables by gzip": {"tables": True},
+         "lines and tables by zstd": {"tables": True, "compression": "zstd"},
+         "tables by zstd": {"tables": True, "compression": "zstd", "lines": "none"}}
 SHARDS = (1000, 10_000, 100_000)
 SAMPLE_S = 0.01
 
 
-def lay_out(folder, scenes, shards, **more):
-    """A set of moving scenes; its folder."""
+def moving(scenes):
+    return {"random": "medium", "seconds": SECONDS, "scenes": [0, scenes], "rate_hz": RATE_HZ}
+
+
+def write_plan(folder, source, **more):
+    """A plan and the place of its set, in which there is nothing yet."""
     place, plan = os.path.join(folder, "set"), os.path.join(folder, "plan.json")
     shutil.rmtree(place, ignore_errors=True)
-    source = {"random": "medium", "seconds": SECONDS, "scenes": [0, scenes], "rate_hz": RATE_HZ}
     with open(plan, "w", encoding="utf-8") as file:
-        json.dump({"name": "bench", "origin": "To be timed.", "sources": [source], "chain": CHAIN, "suites": [SUITE],
-                   "frames_per_shard": scenes // shards * SECONDS * RATE_HZ} | more, file)
+        json.dump({"name": "bench", "origin": "To be timed.", "sources": [source], "chain": CHAIN, "suites": [SUITE]} | more, file)
+    return plan, place
+
+
+def lay_out(folder, source, **more):
+    """A set that is laid out; its folder."""
+    plan, place = write_plan(folder, source, **more)
     subprocess.run([sys.executable, DATASET, plan, "--out", place], check=True, stderr=subprocess.DEVNULL)
     return place
 
 
-def side_by_side(one, other):
-    """Two scripts in two shells."""
-    return ["bash", "-c", f"({one}) & other=$!; ({other}) && wait $other"]
+def cpu_s(command):
+    return timing.spent(command)["spent"]["cpu_ns"] / 1e9
 
 
-def chain_of(half):
-    source = f"glint-traffic-random --density medium --seconds {SECONDS} --scenes {half} --rate-hz {RATE_HZ}"
-    return f"{source} | {CHAIN.format(suite=SUITE)}"
+def made_s(folder, scenes, kind):
+    """What make takes for a set of so many scenes in two shards."""
+    place = lay_out(folder, moving(scenes), frames_per_shard=scenes // 2 * SECONDS * RATE_HZ, **KINDS[kind])
+    return cpu_s(["make", "-s", "-C", place, "-j2"])
 
 
-def commands(folder):
-    """The command of each way; the first two work in a set that is laid out anew."""
-    names = [os.path.join(folder, f"{part}.jsonl.gz") for part in (0, 1)]
-    chains = [chain_of(half) for half in (f"0:{SCENES // 2}", f"{SCENES // 2}:{SCENES}")]
-    place = lay_out(folder, SCENES, 2)
-    own = f"{DATASET} --in {place} --plan-folder {folder} --part"
-    counted = [shlex.quote(f"{chain} | glint-summary --complete --copy - -o {name}.txt") for chain, name in zip(chains, names)]
-    return dict(zip(WAYS, (
-        ["make", "-s", "-C", place, "-j2"], side_by_side(f"{own} 0", f"{own} 1"),
-        side_by_side(*(FACTS.format(name=name, chain=chain) for name, chain in zip(names, counted))),
-        side_by_side(*(f"glint -c {shlex.quote(f'{chain} -o {name}')}" for name, chain in zip(names, chains))))))
+def chain_s(glint, folder, scenes):
+    source = f"glint-traffic-random --density medium --seconds {SECONDS} --scenes 0:{scenes} --rate-hz {RATE_HZ}"
+    return cpu_s([glint, "-c", f"{source} | {CHAIN.format(suite=SUITE)} -o {folder}/lines.jsonl"])
 
 
-def shares(rounds, way, member):
-    """What a way by hand takes, as a part of what make takes in the same round: 1 if make takes no more."""
-    all_shares = [spent[way][member] / spent[WAYS[0]][member] for spent in rounds]
-    return f"{statistics.median(all_shares):6.3f}  {min(all_shares):5.3f} to {max(all_shares):5.3f}"
+def fixed_s(folder):
+    plan, place = write_plan(folder, of_snapshots(4), frames_per_shard=1)
+    return cpu_s(["bash", "-c", f"{sys.executable} {DATASET} {plan} --out {place} && make -s -C {place} -j2"])
 
 
-def compare(folder, repeat):
-    load, rounds = os.getloadavg()[0], []
+def told(values, digits):
+    return f"{statistics.median(values):.{digits}f}  {min(values):.{digits}f} to {max(values):.{digits}f}"
+
+
+def compare(glint, folder, repeat):
+    frames, chains, ratios, fixed = (LARGE - SMALL) * SECONDS * RATE_HZ, [], {kind: [] for kind in KINDS}, []
     for _ in range(repeat):
-        rounds.append({way: timing.spent(commands(folder)[way])["spent"] for way in WAYS})
-    frames = SCENES * SECONDS * RATE_HZ
-    say(f"{repeat} rounds; load of the machine before them {load:.1f}: by wall clock only an idle machine tells\n\n"
-        "frames/s   CPU µs     share by CPU             by wall clock            way")
-    for way in WAYS:
-        wall_ns, cpu_ns = (statistics.median(spent[way][member] for spent in rounds) for member in ("wall_ns", "cpu_ns"))
-        say(f"{frames / wall_ns * 1e9:8,.0f} {cpu_ns / frames / 1e3:8.1f}   {shares(rounds, way, 'cpu_ns')}   "
-            f"{shares(rounds, way, 'wall_ns')}   {way}")
+        chain = chain_s(glint, folder, LARGE) - chain_s(glint, folder, SMALL)
+        chains.append(chain / frames * 1e6)
+        fixed.append(fixed_s(folder))
+        for kind, values in ratios.items():
+            values.append((made_s(folder, LARGE, kind) - made_s(folder, SMALL, kind)) / chain)
+    say(f"{repeat} rounds, medians of CPU time and their ranges\n"
+        f"the chain alone, its lines in a file, a frame       us      {told(chains, 0)}\n"
+        f"a set of four shards, whatever is in them           s       {told(fixed, 2)}")
+    for kind, values in ratios.items():
+        say(f"a frame of a set: {kind:33} chains  {told(values, 2)}")
 
 
 # --- memory ---------------------------------------------------------------------------------------
@@ -95,7 +95,7 @@ def kind_of(words):
     """How a process of make is called: the program, and what scripts/dataset is to do."""
     if DATASET not in words:
         return os.path.basename(words[0])
-    return "dataset " + next(word for word in words if word in ("--verify", "--part", "--finish"))
+    return "dataset " + next(word for word in words if word in ("--make", "--part", "--finish"))
 
 
 def members(session):
@@ -141,7 +141,7 @@ def measure_memory(folder, title, source_of):
     """A row for every process of make, a column for every size of a shard."""
     columns = []
     for frames in SHARDS:
-        place = lay_out(folder, 1, 1, sources=[source_of(frames)], frames_per_shard=frames, tables=True)
+        place = lay_out(folder, source_of(frames), frames_per_shard=frames, tables=True)
         columns.append(peaks(["make", "-s", "-C", place, "-j2"]))
     say(f"\npeak MB of each process, by frames of a shard with tables, {title}\n"
         f"{'':16}" + "".join(f"{frames:10,}" for frames in SHARDS))
@@ -151,6 +151,6 @@ def measure_memory(folder, title, source_of):
 
 def run(glint, folder, repeat):
     os.environ["BUILD"] = os.path.dirname(os.path.dirname(os.path.abspath(glint)))
-    compare(folder, repeat)
+    compare(glint, folder, repeat)
     measure_memory(folder, "in scenes of 100 frames", of_scenes)
     measure_memory(folder, "in snapshots, each of them a scene", of_snapshots)
