@@ -32,10 +32,10 @@ def main():
             assert done.returncode == 0, done.stdout
         found = sets.manifest(place)["content_hash"]
         assert found in published, f"data/sets/README.md publishes another set; this has {found}"
-        lines = os.path.join(folder, "test.jsonl.gz")
+        lines = os.path.join(folder, "test.jsonl.zst")
         scores = SCORES.format(lines=shlex.quote(lines))
         done = sets.run(["bash", "-e", "-o", "pipefail", "-c",
-                         f"cat {shlex.quote(place)}/test/*/*.jsonl.gz > {shlex.quote(lines)}; {scores}"], cwd=sets.ROOT)
+                         f"cat {shlex.quote(place)}/test/*/*.jsonl.zst > {shlex.quote(lines)}; {scores}"], cwd=sets.ROOT)
         assert done.returncode == 0, done.stdout
         shown = re.search(r"--text\n\n((?:    .*\n)+)", published)[1]
         wrong = [line for line in words(shown) if line not in words(done.stdout)]

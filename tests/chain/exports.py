@@ -431,7 +431,7 @@ def a_plan_names_exports(folder):
             "frames_per_shard": 20, "splits": {"by": "scene", "shares": {"train": 0.5, "validation": 0.25, "test": 0.25}}}
     for name, members in (("lines", {}), ("zstd", {"compression": "zstd"}), ("tables", {"tables": True, "lines": "none"})):
         save(folder, name + ".json", [plan | members | {"exports": ["nuscenes", "vod"]}])
-        shell(f"{SCRIPTS}/dataset {name}.json --out {name} && make -s -C {name} && {SCRIPTS}/check-set {name}", folder)
+        shell(f"{SCRIPTS}/dataset {name}.json --out {name} && make -s -C {name} -j2 && {SCRIPTS}/check-set {name}", folder)
     same(f"{folder}/lines/exports", f"{folder}/tables/exports")
     same(f"{folder}/lines/exports", f"{folder}/zstd/exports")
     with open(f"{folder}/lines/exports/nuscenes/v1.0-trainval/splits.json", encoding="utf-8") as file:

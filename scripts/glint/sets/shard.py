@@ -137,6 +137,16 @@ def make(layout, part, folder, plan_folder):
         raise Fault(getattr(fault, "code", IO), f"part-{part}, {shard['lines'] or shard['tables'][0]}: {fault}") from fault
 
 
+def side_by_side(work, items, jobs):
+    """Does the work for each item, for so many at a time. A fault is raised when what was begun has ended."""
+    pool = concurrent.futures.ThreadPoolExecutor(jobs)
+    try:
+        for _ in pool.map(work, items):
+            pass
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
 def make_missing(layout, left, folder, plan_folder, jobs):
     """Makes shards, so many at a time. One that fails is named, and stops no other."""
     def attempt(part):
@@ -146,12 +156,7 @@ def make_missing(layout, left, folder, plan_folder, jobs):
             pace.clear()
             print(f"{command_line.name()}: {fault}", file=sys.stderr)
 
-    pool = concurrent.futures.ThreadPoolExecutor(jobs)
-    try:
-        for _ in pool.map(attempt, left):
-            pass
-    finally:
-        pool.shutdown(cancel_futures=True)
+    side_by_side(attempt, left, jobs)
 
 
 def wrong_record(layout, part, folder, by_digest):
