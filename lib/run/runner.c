@@ -215,6 +215,13 @@ static int apply_sections(struct runner *runner, struct frame *frame)
                : sections_apply(&runner->sections, frame, &runner->diag);
 }
 
+/* Objects that leave the stream unread would take their faults along. */
+static int read_leaving(struct frame *frame, struct diag *diag)
+{
+    bool leave = (frame->present & PART_TARGETS) != 0 && !frame_carries(frame, CARRY_OBJECTS);
+    return leave ? frame_stream_read_left(frame, PART_OBJECTS, diag) : 0;
+}
+
 static bool has_header(const struct frame *frame, const struct frame_header *header)
 {
     return memcmp(frame, header->bytes, sizeof header->bytes) == 0;
@@ -230,6 +237,8 @@ static int finish_step(struct runner *runner, struct frame *frame,
     const unsigned header = before != NULL && has_header(frame, before) ? 0 : PART_HEADER;
     const struct frame_parts written = {stage->writes | header, stage->name};
     frame->present |= stage->writes & ~sections_left_out(frame);
+    if (read_leaving(frame, &runner->diag) != 0)
+        return -1;
     sections_drop(frame);
     frame_alter(frame, written.parts);
     if ((stage->writes & PART_TARGETS) != 0)
