@@ -138,6 +138,45 @@ const tests = {
         });
     },
 
+    async 'a target stands beside its neighbours, in metres and in cells of the radar'() {
+        const frame = corner.find(one => one.frame === 114);
+        const sensor = frame.sensors.list.find(one => one.name === 'left');
+        const leaders = frame.targets.filter(one => one.sensor === 'left').map(one => one.contributors[0]);
+        const apart = (name, from, to) => Math.abs(leaders[from][name] - leaders[to][name]);
+        const part = (value, cell, unit) => `${value.toFixed(2)} ${unit} = ${(value / cell / 2).toFixed(1)} cells`;
+        assert.ok(leaders.length === 3 && leaders[0].range_m < leaders[1].range_m && leaders[1].range_m < leaders[2].range_m);
+        await withPage(view([frame]), async page => {
+            await page.keyboard.press('n');
+            await page.keyboard.press('n');
+            const text = await panelText(page);
+            assert.match(text, /Why are these apart\?/);
+            for (const [other, words] of [[0, 'behind target 1'], [2, 'in front of target 3']]) {
+                const range = part(apart('range_m', 1, other), sensor.resolution_range_m, 'm');
+                const rate = part(apart('range_rate_mps', 1, other), sensor.resolution_range_rate_mps, 'm/s');
+                assert.ok(text.includes(`${range} ${words}`), `${range} ${words}: ${text}`);
+                assert.ok(text.includes(rate), `${rate}: ${text}`);
+            }
+            await page.click('#panel .row:has-text("behind target 1")');
+            assert.match(await panelText(page), /Target 1 of left/);
+        });
+    },
+
+    async 'an array tells in its beams how far apart targets are, a stream without cells does not'() {
+        const frame = stream('array')[0];
+        const {azimuth_cell_rad: beam} = frame.sensors.list[0];
+        const [one, other] = frame.targets.filter(target => target.contributors[0].path === 'direct');
+        const angle = Math.abs(one.cell_azimuth_rad - other.cell_azimuth_rad);
+        const told = `${(angle * 180 / Math.PI).toFixed(1)}° = ${(angle / beam).toFixed(1)} cells`;
+        const bare = structuredClone(frame);
+        bare.sensors.list.forEach(sensor => { delete sensor.resolution_range_m; delete sensor.resolution_range_rate_mps; });
+        for (const [frames, tells] of [[[frame], true], [[bare], false]]) {
+            await withPage(view(frames), async page => {
+                await page.evaluate(number => chooseTarget(number), frame.targets.indexOf(one));
+                assert.strictEqual((await panelText(page)).includes(told), tells);
+            });
+        }
+    },
+
     async 'a target has its elevation in panel and tooltip, if its sensor measures it'() {
         const frame = {...structuredClone(corner.find(one => one.frame === 114))};
         const [high, flat] = frame.targets.filter(one => one.sensor === 'left');

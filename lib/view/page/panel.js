@@ -429,7 +429,8 @@ function showTarget() {
     const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
     panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
         ...targetNotes(scan), ...qualityBlock(state.target), ...block(`Made of ${plural(order.length, 'reflection centre')}`, rows),
-        ...moreLine(order.length - rows.length), make('p', cellWords(cellOf(scan)), 'soft'));
+        ...moreLine(order.length - rows.length), ...apartBlock(scan, state.target),
+        make('p', cellWords(cellOf(scan)), 'soft'));
 }
 
 // The resolution cell that is drawn around a chosen target.
@@ -438,7 +439,8 @@ function cellWords(cell) {
         return 'The stream does not tell the size of the radar’s cell.';
     }
     return `The radar’s cell: ${metres(cell.range_m)} m (dashed arcs on the map) by ` +
-        `${metres(cell.range_rate_mps)} m/s (a box in range over rate, if enlarged enough).`;
+        `${metres(cell.range_rate_mps)} m/s (a box in range over rate, if enlarged enough). Echoes within half ` +
+        'of it of a stronger one, in both, become one target with it, unless an array tells their angles apart.';
 }
 
 function targetNotes(scan) {
@@ -546,15 +548,16 @@ function showCause(cause) {
     }
 }
 
-// The objects of the frame that are in no target; a click tells why.
+// The road users of the frame that are in no target; a click tells why.
 function silentObjects() {
     const seen = new Set([head.scenes[state.scene].ego]);
     eachTarget(state.frame, (scan, target) => eachObjectOf(target, object => seen.add(object)));
     const {begin, end} = objectsOf(state.frame);
-    const silent = [...column('object_id').slice(begin, end)].filter(object => !seen.has(object));
+    const silent = [...column('object_id').slice(begin, end)]
+        .filter((object, i) => !seen.has(object) && isRoadUser(begin + i));
     const rows = silent.slice(0, 24).map(object =>
         rowButton('–', [objectTitle(object)], '', () => chooseObject(object)));
-    return block('Objects without a target: click to see why', rows).concat(moreLine(silent.length - rows.length));
+    return block('Road users without a target: click to see why', rows).concat(moreLine(silent.length - rows.length));
 }
 
 function showFrame() {
