@@ -116,6 +116,26 @@ module.exports = ({work, write, view, withPage}) => {
             });
         },
 
+        async 'road users without a track are missed, walls are not; the legend has their marks'() {
+            const walled = structuredClone(list);
+            const standing = walled[0].objects.find(one => one.id !== walled[0].ego).id;
+            walled.forEach(frame => frame.objects.filter(one => one.id === standing).forEach(one => { one.class = 'wall'; }));
+            fs.writeFileSync(file('none.jsonl'), write(list.map(({scene, frame}) => ({scene, frame, tracks: []}))));
+            for (const [frames, counts] of [[list, true], [walled, false]]) {
+                await withPage(view(frames, '--tracks', file('none.jsonl')), async page => {
+                    const rows = await page.evaluate(() => sceneFrames[0].flatMap(frame => tracksOf(frame))
+                        .map(i => nameOrNone('track_object', i)));
+                    assert.strictEqual(rows.includes(standing), counts);
+                    assert.ok(rows.some(one => one !== standing));
+                    const legend = await page.innerText('#legend');
+                    ['track, with its id', 'track of no object', 'road user without a track']
+                        .forEach(text => assert.ok(legend.includes(text), text));
+                    const misses = await page.evaluate(() => (eventsOfScene().miss || []).map(({object}) => names[object]));
+                    assert.strictEqual(misses.includes(standing), counts);
+                });
+            }
+        },
+
         async 'scans of one stream alone are counted as glint-score counts them, and have no false targets'() {
             const slow = (frames, every) => frames.map(frame => frame.frame % every === 0 ? frame : {...frame,
                 sensors: {...frame.sensors, list: frame.sensors.list.map(one => ({...one, measured: false}))},

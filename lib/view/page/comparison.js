@@ -115,14 +115,26 @@ function drawPair(pair) {
     }
 }
 
+// The tracks of a frame, and the road users without one.
 function tracksOf(frame) {
-    const begin = starts('frame_tracks');
-    return {begin: begin[frame], end: begin[frame + 1]};
+    const begin = hasTracks ? starts('frame_tracks') : [];
+    const rows = [];
+    for (let i = begin[frame]; i < begin[frame + 1]; i++) {
+        if (column('track_id')[i] > 0 || isRoadUser(objectRow(frame, column('track_object')[i] - 1))) {
+            rows.push(i);
+        }
+    }
+    return rows;
 }
 
 function nameOrNone(name, i) {
     const number = column(name)[i];
     return number === 0 ? null : names[number - 1];
+}
+
+// The tracks of a frame whose object had another one before.
+function switchesOf(frame) {
+    return tracksOf(frame).filter(i => column('track_before')[i] > 0);
 }
 
 function trackPlace(i, seconds) {
@@ -131,31 +143,39 @@ function trackPlace(i, seconds) {
 }
 
 // Marks an object without a track.
-function drawMissedObject(i) {
-    const row = objectRow(state.frame, column('track_object')[i] - 1);
-    const at = toScreen(boxOf(row));
-    pen.strokeStyle = ink.lost;
-    pen.lineWidth = 2;
-    pen.setLineDash([3, 3]);
-    pen.strokeRect(at.x - 11, at.y - 11, 22, 22);
-    pen.setLineDash([]);
+function drawMissedObject(drawing, at, half) {
+    drawing.strokeStyle = ink.lost;
+    drawing.lineWidth = 2;
+    drawing.setLineDash([3, 3]);
+    drawing.strokeRect(at.x - half, at.y - half, 2 * half, 2 * half);
+    drawing.setLineDash([]);
+}
+
+function drawTrackMark(drawing, at, half, colour) {
+    drawing.strokeStyle = colour;
+    drawing.lineWidth = 2;
+    drawing.beginPath();
+    drawing.moveTo(at.x - half, at.y);
+    drawing.lineTo(at.x + half, at.y);
+    drawing.moveTo(at.x, at.y - half);
+    drawing.lineTo(at.x, at.y + half);
+    drawing.stroke();
 }
 
 function drawTrack(i) {
     const id = nameOrNone('track_id', i);
     if (!id) {
-        drawMissedObject(i);
+        const row = objectRow(state.frame, column('track_object')[i] - 1);
+        drawMissedObject(pen, toScreen(boxOf(row)), 11);
         return;
     }
     const at = toScreen(trackPlace(i, 0));
     const before = nameOrNone('track_before', i);
-    pen.strokeStyle = nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
-    pen.lineWidth = 2;
-    line({x: at.x - 7, y: at.y}, {x: at.x + 7, y: at.y});
-    line({x: at.x, y: at.y - 7}, {x: at.x, y: at.y + 7});
+    const colour = nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
+    drawTrackMark(pen, at, 7, colour);
     pen.lineWidth = 1.2;
     line(at, toScreen(trackPlace(i, 0.5)));
-    putLabel(before ? `${id}, before ${before}` : id, at, pen.strokeStyle);
+    putLabel(before ? `${id}, before ${before}` : id, at, colour);
 }
 
 function drawComparison() {
@@ -165,23 +185,24 @@ function drawComparison() {
     if (hasTruth) {
         pairsOfFrame(state.frame).forEach(drawPair);
     }
-    if (hasTracks) {
-        const {begin, end} = tracksOf(state.frame);
-        for (let i = begin; i < end; i++) {
-            drawTrack(i);
-        }
-    }
+    tracksOf(state.frame).forEach(drawTrack);
 }
 
 function comparisonMeanings() {
-    const alone = turn => drawing => drawAlone(drawing, {x: 9, y: 8}, 7, turn);
+    const middle = {x: 9, y: 8};
+    const alone = turn => drawing => drawAlone(drawing, middle, 7, turn);
+    const track = colour => drawing => drawTrackMark(drawing, middle, 6, colour);
     return [
         ...hasTruth ? [
             meaning(symbolMark(0, ink.ink, 'truth'), 'true target, tied to its pair'),
             meaning(alone(0), 'missed target'),
             meaning(alone(Math.PI / 4), 'false target'),
         ] : [],
-        ...hasTracks ? [meaning(lineMark(2, [[3, 8, 15, 8], [9, 2, 9, 14]]), 'track, with its id')] : [],
+        ...hasTracks ? [
+            meaning(track(ink.ink), 'track, with its id'),
+            meaning(track(ink.lost), 'track of no object, or switched'),
+            meaning(drawing => drawMissedObject(drawing, middle, 6), 'road user without a track'),
+        ] : [],
     ];
 }
 
@@ -251,10 +272,7 @@ function addToTotals(frame) {
     const {truth, listed} = countAlone(frame);
     totals.alone.truth += truth;
     totals.alone.listed += listed;
-    const {begin, end} = hasTracks ? tracksOf(frame) : {begin: 0, end: 0};
-    for (let i = begin; i < end; i++) {
-        totals.switches += column('track_before')[i] > 0 ? 1 : 0;
-    }
+    totals.switches += switchesOf(frame).length;
 }
 
 function kindsText({matched, missed, false: wrong}) {
@@ -299,12 +317,10 @@ function comparedTracks() {
     if (!column('frame_tracked')[state.frame]) {
         return [make('p', 'The tracks have no such frame.', 'soft')];
     }
-    const {begin, end} = tracksOf(state.frame);
     const table = make('table');
-    table.append(tableRow(['track', 'object', 'apart', 'switched'], 'th'));
-    for (let i = begin; i < end; i++) {
-        table.append(trackRow(i));
-    }
+    const titles = make('tr');
+    titles.append(make('th', 'track'), make('th', 'object'), make('th', 'apart', 'number'), make('th'));
+    table.append(titles, ...tracksOf(state.frame).map(trackRow));
     return [make('p', `Identity switches in the whole scene: ${comparisonTotals().switches}.`), table];
 }
 
@@ -318,13 +334,7 @@ function fillComparison() {
 function differencesOf(frame) {
     const targets = pairsOfFrame(frame).filter(pair => kindOfPair(pair) !== 'matched')
         .map(pair => ({target: pair.target, object: -1, missed: pair.target < 0 ? pair : null}));
-    const {begin, end} = hasTracks ? tracksOf(frame) : {begin: 0, end: 0};
-    for (let i = begin; i < end; i++) {
-        if (column('track_before')[i] > 0) {
-            targets.push({target: -1, object: column('track_object')[i] - 1});
-        }
-    }
-    return targets;
+    return targets.concat(switchesOf(frame).map(i => ({target: -1, object: column('track_object')[i] - 1})));
 }
 
 function connectComparison() {

@@ -5,7 +5,7 @@ const eventKinds = {
     ghost: {title: 'ghosts', tells: 'a ghost that its sensor did not list in the scan before'},
     merge: {title: 'merges', tells: 'a target begins to have echoes of two objects'},
     split: {title: 'splits', tells: 'an object begins to have several targets of a sensor'},
-    miss: {title: 'misses', tells: 'an object in the scene loses its last target of a sensor'},
+    miss: {title: 'misses', tells: 'a road user in the scene loses its last target of a sensor'},
     false_alarm: {title: 'false alarms', tells: 'a target that is nothing but noise'},
     difference: {title: 'differences', tells: 'a missed or false target, or an identity switch'},
 };
@@ -51,7 +51,8 @@ function noteScan(row, frame, scan, before) {
         }
     }
     for (const object of before ? before.seen.keys() : []) {
-        if (!now.seen.has(object) && objectRow(frame, object) >= 0) {
+        const there = objectRow(frame, object);
+        if (!now.seen.has(object) && there >= 0 && isRoadUser(there)) {
             noteEvent('miss', {row, target: -1, object});
         }
     }

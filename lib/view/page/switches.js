@@ -18,6 +18,12 @@ function classOfObject(frame, object) {
     return found === undefined ? -1 : found;
 }
 
+const standing = new Set(['guardrail', 'post', 'wall']); // classes that are no road users
+
+function isRoadUser(row) {
+    return !standing.has(names[column('object_class')[row]]);
+}
+
 function isSensorShown(scan) {
     return !switchedOff.sensor.has(sensorStyle(scan));
 }
