@@ -27,14 +27,20 @@ function panBy(dx, dy) {
     redraw();
 }
 
-// Places that must be in view when the page fits the map: the sensors, the chosen object and its
-// targets, those that the scene is about; without a chosen object all objects and targets.
-function placesToFit() {
-    const places = [];
-    const scans = scansOf(state.frame);
-    for (let scan = scans.begin; scan < scans.end; scan++) {
+// Places of the ego and its sensors.
+function ownPlaces() {
+    const {begin, end} = scansOf(state.frame);
+    const places = state.ego ? outlineOf(state.ego) : [];
+    for (let scan = begin; scan < end; scan++) {
         places.push(scanPlace(scan, 0, 0));
     }
+    return places;
+}
+
+// Places that must be in view when the page fits the map: the sensors, the chosen object and its
+// targets; without a chosen object all objects and targets.
+function placesToFit() {
+    const places = ownPlaces();
     const {begin, end} = objectsOf(state.frame);
     for (let row = begin; row < end; row++) {
         if (state.object < 0 || column('object_id')[row] === state.object) {
@@ -42,14 +48,14 @@ function placesToFit() {
         }
     }
     eachTarget(state.frame, (scan, target) => {
-        if (state.object < 0 || objectOfTarget(target) === state.object || state.focus.includes(target)) {
+        if (state.object < 0 || objectOfTarget(target) === state.object) {
             places.push(targetPlace(scan, target));
         }
     });
     if (state.cause !== null && state.object < 0) {
         places.push(...placesOfCause());
     }
-    return places.concat(state.ego ? outlineOf(state.ego) : []).map(toLocal);
+    return places.map(toLocal);
 }
 
 // Low and high end of places along an axis, seen from the ego if the view follows it.
@@ -90,35 +96,36 @@ function cameraFor(places) {
         y: (y.low + y.high) / 2 + beside / 2 / scale};
 }
 
-// The local places of a frame's targets, from near to far, without false alarms: where those are is
-// chance.
-function targetsToOpen() {
+// The local places of a frame's targets, or else of its road users; from near to far.
+function placesToOpen() {
     const {x, y} = state.ego ? toLocal(state.ego) : {x: 0, y: 0};
     const places = [];
-    eachTarget(state.frame, (scan, target) => {
-        if (kindOf(target) !== 'false_alarm') {
-            places.push(toLocal(targetPlace(scan, target)));
+    eachTarget(state.frame, (scan, target) => places.push(toLocal(targetPlace(scan, target))));
+    const {begin, end} = places.length === 0 ? objectsOf(state.frame) : {begin: 0, end: 0};
+    for (let row = begin; row < end; row++) {
+        if (isRoadUser(row)) {
+            places.push(toLocal(boxOf(row)));
         }
-    });
+    }
     const far = place => Math.hypot(place.x - x, place.y - y);
     return places.sort((a, b) => far(a) - far(b));
 }
 
-const leastScale = 10 / 4.5; // of the first view, px/m: a car is 10 px long
+const openedHeight = 120; // m, most that the first view shows from bottom to top for other targets
 
-// Shows what must be in view and all targets. Where they lie so far apart that a car would be shorter
-// than 10 px, the farthest are left out.
+// Shows the chosen object with its targets, and what else is near enough to see: of the other targets, as
+// many of the nearest as fit.
 function openView() {
     if (state.frame < 0) {
         return;
     }
-    const needed = placesToFit();
-    const targets = targetsToOpen();
-    const least = Math.min(leastScale, cameraFor(needed).scale);
-    while (targets.length > 0 && cameraFor(needed.concat(targets)).scale < least) {
-        targets.pop();
+    const needed = state.object < 0 ? ownPlaces().map(toLocal) : placesToFit();
+    const others = placesToOpen();
+    const least = Math.min(canvas.clientHeight / openedHeight, cameraFor(needed).scale);
+    while (others.length > 0 && cameraFor(needed.concat(others)).scale < least) {
+        others.pop();
     }
-    Object.assign(camera, cameraFor(needed.concat(targets)));
+    Object.assign(camera, cameraFor(needed.concat(others)));
     redraw();
 }
 

@@ -25,13 +25,15 @@ function effectsOfScene(frames) {
     return found;
 }
 
-// The targets of a frame that have an effect which the scene is about.
+const nearRange = 80; // m, which the first view shows (openView)
+
+// The near targets of a frame that have an effect which the scene is about.
 function targetsAbout(frame, effects) {
     const found = [];
     const {begin, end} = scansOf(frame);
     const first = starts('scan_targets');
     for (let target = first[begin]; target < first[end]; target++) {
-        if (effectsOf(target).some(effect => effects.has(effect))) {
+        if (column('target_range_m')[target] < nearRange && effectsOf(target).some(effect => effects.has(effect))) {
             found.push(target);
         }
     }
@@ -129,14 +131,5 @@ function openingOf(number) {
         const found = bestOf(frames[row], row, effects);
         best = found.score > best.score ? found : best;
     }
-    const frame = frames[best.row];
-    return {...best, focus: frame === undefined ? [] : rareTargets(frame, effects)};
-}
-
-// Of the targets that the scene is about, those that are few beside the others.
-function rareTargets(frame, effects) {
-    const about = targetsAbout(frame, effects);
-    const share = effect => about.filter(target => effectsOf(target).includes(effect)).length;
-    const rare = [...effects].filter(effect => share(effect) <= Math.max(2, about.length / 3));
-    return about.filter(target => effectsOf(target).some(effect => rare.includes(effect)));
+    return best;
 }

@@ -20,7 +20,6 @@ const state = {
     effect: -1, // effect whose targets are coloured; -1: colour by `colour`
     rates: 'raw',
     up: 'up',
-    focus: [], // targets that the scene is about, which the map shows when it opens
     follow: true,
     trail: true,
     playing: false,
@@ -241,9 +240,7 @@ function setScene(number, place) {
     state.frame = -1;
     state.object = open.object;
     showRow(open.row);
-    state.focus = open.focus || [];
     openView();
-    state.focus = [];
     showTimeline();
     refresh();
 }
