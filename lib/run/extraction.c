@@ -132,9 +132,7 @@ static int find_class(struct extracted_class *class, const char *folder, const s
     class->noted = before.count > 0;
     class->vehicle =
         runner_vehicle(runner, folder, class->name, class->noted ? before.items->digest : NULL);
-    if (class->vehicle == NULL)
-        return -1;
-    return vehicle_check_frame(class->vehicle, frame, runner_diag(runner));
+    return class->vehicle != NULL ? 0 : -1;
 }
 
 /* The class of the object; NULL after a message. */
@@ -153,10 +151,14 @@ static struct extracted_class *class_of(struct extracted_classes *classes,
     return find_class(class, folder, frame, runner) == 0 ? class : NULL;
 }
 
-static void note_documents(struct frame *frame, const struct extracted_classes *classes)
+/* The documents that the frame names are those of its classes. */
+static int note_documents(struct frame *frame, const struct extracted_classes *classes,
+                          struct diag *diag)
 {
     for (size_t i = 0; i < classes->list.count; i++) {
         const struct vehicle *vehicle = classes->list.items[i].vehicle;
+        if (vehicle_check_frame(vehicle, frame, diag) != 0)
+            return -1;
         if (!classes->list.items[i].noted)
             *list_add(&frame->vehicles, frame->arena) =
                 (struct class_document){.class = vehicle->reflectors.model,
@@ -165,6 +167,7 @@ static void note_documents(struct frame *frame, const struct extracted_classes *
                                         .level = vehicle->level,
                                         .cell_max_m = vehicle->cell_max_m};
     }
+    return 0;
 }
 
 /* A new set of this object alone, or NULL if those of its class share one. */
@@ -219,6 +222,5 @@ int extraction_step(struct extraction *extraction, struct frame *frame, struct r
     }
     if (completes)
         frame_alter(frame, PART_OBJECTS);
-    note_documents(frame, &classes);
-    return 0;
+    return note_documents(frame, &classes, runner_diag(runner));
 }
