@@ -10,8 +10,17 @@ const isGhost = target => target.contributors[0].path.includes('wall');
 const isBody = target => ['direct', 'wheel', 'limb'].includes(target.contributors[0].path);
 const leader = target => target.contributors[0].object;
 
+// The objects that have at least this weight in a target, if they are several.
+function mergedIn({contributors}, least) {
+    const objects = [...new Set(contributors.map(part => part.object))].sort();
+    const weightOf = object => contributors.filter(part => part.object === object).reduce((sum, {weight}) => sum + weight, 0);
+    const heavy = objects.filter(object => weightOf(object) >= least);
+    return heavy.length > 1 ? heavy : [];
+}
+
 // What begins, by kind: the row of the frame for each key that a sensor's scan has and its scan before had not.
-function eventsOf(frames) {
+// Of merges only those of at least this weight, with all of these objects.
+function eventsOf(frames, least = 0, of = []) {
     const rows = {ghost: [], merge: [], split: [], miss: [], false_alarm: []};
     const before = new Map();
     frames.forEach((frame, row) => frame.sensors.list.filter(one => one.measured).forEach(({name}) => {
@@ -19,8 +28,8 @@ function eventsOf(frames) {
         const bodies = targets.filter(isBody).map(leader);
         const now = {
             ghost: targets.filter(isGhost).map(leader),
-            merge: targets.map(one => [...new Set(one.contributors.map(part => part.object))].sort())
-                .filter(list => list.length > 1).map(list => list.join('|')),
+            merge: targets.filter(one => mergedIn(one, least).length > 1 && of.every(id => mergedIn(one, least).includes(id)))
+                .map(one => mergedIn(one, 0).join('|')),
             split: bodies.filter((one, i) => bodies.indexOf(one) < i),
             seen: bodies,
         };
@@ -28,7 +37,8 @@ function eventsOf(frames) {
         for (const kind of ['ghost', 'merge', 'split']) {
             new Set(now[kind].filter(key => !then[kind].includes(key))).forEach(() => rows[kind].push(row));
         }
-        new Set(then.seen.filter(id => !now.seen.includes(id) && frame.objects.some(one => one.id === id)))
+        const isThere = id => frame.objects.some(one => one.id === id && !['guardrail', 'post', 'wall'].includes(one.class));
+        new Set(then.seen.filter(id => !now.seen.includes(id) && isThere(id)))
             .forEach(() => rows.miss.push(row));
         targets.filter(one => one.contributors[0].path === 'false_alarm').forEach(() => rows.false_alarm.push(row));
         before.set(name, now);
@@ -70,6 +80,87 @@ module.exports = ({stream, view, withPage, targetOnMap, panelText, clock}) => {
                     assert.strictEqual(await page.evaluate(() => state.row), every[1]);
                 });
             }
+        },
+
+        async 'merges are filtered by their objects and weights, and the link holds the filter'() {
+            const frames = stream('intersection');
+            const merged = frames.flatMap(({targets}) => targets.map(one => mergedIn(one, 0)).filter(list => list.length > 1));
+            const [one, other] = merged[0];
+            const all = eventsOf(frames).merge.length;
+            const titles = page => page.innerText('#lanes [data-kind=merge]');
+            let link;
+            await withPage(view(frames), async page => {
+                await page.click('[aria-controls=over-time]');
+                const listed = await page.locator('#merge-one option').allInnerTexts();
+                assert.deepStrictEqual(listed.slice(1).sort(), [...new Set(merged.flat())].sort());
+                const weights = (await page.locator('#merge-weight option').evaluateAll(list => list.map(({value}) => value)));
+                const counts = new Set();
+                for (const [of, weight] of [[[], '0'], ...weights.map(value => [[], value]), [[one], '0'], [[one, other], '0'], [[other, one], '0.25']]) {
+                    const [first = '', second = ''] = of;
+                    await page.selectOption('#merge-one', first);
+                    await page.selectOption('#merge-other', second);
+                    await page.selectOption('#merge-weight', weight);
+                    const {merge = []} = eventsOf(frames, Number(weight), of);
+                    counts.add(merge.length);
+                    assert.strictEqual(await titles(page), `merges: ${merge.length}`, `${of} ${weight}`);
+                }
+                assert.ok(counts.size > 1 && Math.max(...counts) === all, [...counts].join());
+                await page.selectOption('#merge-weight', '0');
+                await page.click('#lanes [data-kind=merge]');
+                await page.click('[aria-controls=panel]');
+                const text = await panelText(page);
+                assert.ok(text.includes(`of ${one}`) && text.includes(`of ${other}`), text);
+                await page.waitForFunction(() => location.hash.includes('merge-one='));
+                await page.waitForTimeout(400);
+                link = await page.evaluate(() => location.hash);
+            });
+            await withPage(view(frames), async page => {
+                await page.evaluate(hash => { location.hash = hash; }, link);
+                await page.click('[aria-controls=over-time]');
+                await page.waitForFunction(() => control('merge-one').value !== '');
+                assert.strictEqual(await titles(page), `merges: ${eventsOf(frames, 0, [one, other]).merge.length}`);
+            });
+        },
+
+        async 'a button and a key copy the link to the view as it is'() {
+            for (const act of [page => page.click('#share'), page => page.keyboard.press('k')]) {
+                await withPage(view(stream('side')), async page => {
+                    await page.evaluate(() => window.addEventListener('copy', event => {
+                        window.copied = event.clipboardData.getData('text/plain');
+                    }));
+                    await page.keyboard.press('n');
+                    await page.selectOption('#colour', 'path');
+                    const target = await page.evaluate(() => targetText());
+                    await act(page);
+                    const copied = new URL(await page.evaluate(() => window.copied));
+                    const parts = new URLSearchParams(copied.hash.slice(1));
+                    assert.strictEqual(copied.protocol, 'file:');
+                    assert.strictEqual(parts.get('target'), target);
+                    assert.strictEqual(parts.get('colour'), 'path');
+                    assert.strictEqual(await page.innerText('#share'), '✓');
+                    await page.waitForFunction(() => control('share').textContent === '↗');
+                });
+            }
+        },
+
+        async 'on paper the page is light and shows map, legend and detail, without controls'() {
+            await withPage(view(stream('corner')), async page => {
+                await page.evaluate(() => setTheme(true));
+                await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+                await page.emulateMedia({media: 'print'});
+                assert.strictEqual(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), 'rgb(255, 255, 255)');
+                for (const id of ['map', 'legend', 'panel', 'sentence']) {
+                    assert.ok(await page.isVisible('#' + id), id);
+                }
+                for (const one of ['header', 'footer', '#zoom', '#panes', '#legend input']) {
+                    assert.ok(await page.locator(one).first().isHidden(), one);
+                }
+                const [map, legend] = [await page.locator('#map').boundingBox(), await page.locator('#legend').boundingBox()];
+                assert.ok(legend.y >= map.y + map.height - 1, 'the legend lies below the map');
+                await page.emulateMedia({media: 'screen'});
+                await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
+                assert.ok(await page.evaluate(() => isDark()));
+            });
         },
 
         async 'each event of a frame is reached, by keys, by the name of its lane and by its line'() {

@@ -37,6 +37,7 @@ module.exports = ({stream, view, save, openFile, withPage, targetOnMap}) => {
                 const frame = frames.find(one => one.frame === number);
                 const scene = frame.scene.replace('/ego', '');
                 await withPage(view(frames, '--frame', String(number)), async page => {
+                    await page.keyboard.press('a');
                     const file = await save(page, `${scene}-${number}.svg`);
                     const {root, title, words, kinds, targets} = await read(file);
                     assert.strictEqual(root, 'svg');

@@ -151,17 +151,6 @@ function drawMissedObject(drawing, at, half) {
     drawing.setLineDash([]);
 }
 
-function drawTrackMark(drawing, at, half, colour) {
-    drawing.strokeStyle = colour;
-    drawing.lineWidth = 2;
-    drawing.beginPath();
-    drawing.moveTo(at.x - half, at.y);
-    drawing.lineTo(at.x + half, at.y);
-    drawing.moveTo(at.x, at.y - half);
-    drawing.lineTo(at.x, at.y + half);
-    drawing.stroke();
-}
-
 function drawTrack(i) {
     const id = nameOrNone('track_id', i);
     if (!id) {
@@ -171,11 +160,13 @@ function drawTrack(i) {
     }
     const at = toScreen(trackPlace(i, 0));
     const before = nameOrNone('track_before', i);
-    const colour = nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
-    drawTrackMark(pen, at, 7, colour);
+    pen.strokeStyle = nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
+    pen.lineWidth = 2;
+    line({x: at.x - 7, y: at.y}, {x: at.x + 7, y: at.y});
+    line({x: at.x, y: at.y - 7}, {x: at.x, y: at.y + 7});
     pen.lineWidth = 1.2;
     line(at, toScreen(trackPlace(i, 0.5)));
-    putLabel(before ? `${id}, before ${before}` : id, at, colour);
+    putLabel(before ? `${id}, before ${before}` : id, at, pen.strokeStyle);
 }
 
 function drawComparison() {
@@ -191,7 +182,7 @@ function drawComparison() {
 function comparisonMeanings() {
     const middle = {x: 9, y: 8};
     const alone = turn => drawing => drawAlone(drawing, middle, 7, turn);
-    const track = colour => drawing => drawTrackMark(drawing, middle, 6, colour);
+    const track = colour => lineMark(2, [[3, 8, 15, 8], [9, 2, 9, 14]], colour);
     return [
         ...hasTruth ? [
             meaning(symbolMark(0, ink.ink, 'truth'), 'true target, tied to its pair'),

@@ -27,7 +27,7 @@ function keysOfScan(scan) {
         } else if (kind === 'body') {
             found[found.seen.has(object) ? 'split' : 'seen'].set(object, target);
         }
-        if (isMerged(target)) {
+        if (isMerged(target) && isWantedMerge(target)) {
             const objects = [];
             eachObjectOf(target, one => objects.push(one));
             found.merge.set([...new Set(objects)].sort().join(), target);
@@ -37,8 +37,7 @@ function keysOfScan(scan) {
 }
 
 function noteEvent(kind, event) {
-    events.of[kind] = events.of[kind] || [];
-    events.of[kind].push(event);
+    (events.of[kind] ||= []).push(event);
 }
 
 function noteScan(row, frame, scan, before) {
@@ -74,6 +73,9 @@ function eventsOfScene() {
             }
             differencesOf(frame).forEach(one => noteEvent('difference', {row, ...one}));
         });
+        if (mergeFilter.weight > 0 || mergeFilter.objects.length > 0) {
+            events.of.merge ||= [];
+        }
     }
     return events.of;
 }
@@ -150,12 +152,16 @@ function makeLane(kind, list) {
     title.textContent = `${eventKinds[kind].title}: ${list.length}`;
     title.title = `${capital(eventKinds[kind].tells)}. Click: to the first, again: to the next (. and ,)`;
     title.dataset.kind = kind;
+    title.disabled = list.length === 0;
     const lane = make('canvas');
+    lanes.canvases.set(kind, lane);
+    if (title.disabled) {
+        return [title, lane];
+    }
     lane.addEventListener('click', event => {
         state.event = kind;
         showEvent(eventInLane(list, laneSpan(lane), event.offsetX));
     });
-    lanes.canvases.set(kind, lane);
     return [title, lane];
 }
 

@@ -23,9 +23,9 @@ function symbolMark(style, colour, kind) {
     return drawing => drawTargetSymbol(drawing, style, 9, 8, 6, colour, kind);
 }
 
-function lineMark(width, lines) {
+function lineMark(width, lines, colour = ink.soft) {
     return drawing => {
-        drawing.strokeStyle = ink.soft;
+        drawing.strokeStyle = colour;
         drawing.lineWidth = width;
         drawing.beginPath();
         for (const [x, y, toX, toY] of lines) {

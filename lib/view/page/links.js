@@ -5,8 +5,10 @@ let written = null; // the part of the address that the page wrote itself
 let writing = 0;
 
 // Writes switches as text, and sets them from a text.
-const linkedChoices = {colour: 'sensor', effect: '-1', rates: 'raw', up: 'up', plotted: ''};
+const linkedChoices = {colour: 'sensor', effect: '-1', rates: 'raw', up: 'up', plotted: '',
+    'merge-one': '', 'merge-other': '', 'merge-weight': '0'};
 const linkedBoxes = {follow: true, trail: true};
+const switchedNames = {sensor: sensorNames, path: head.paths, class: names};
 
 function numbersText(values) {
     return values.map(value => Number(value.toPrecision(6))).join();
@@ -35,8 +37,7 @@ function targetText() {
 
 // The entries that the legend switches off, as kind and name.
 function offNames() {
-    const lists = {sensor: sensorNames, path: head.paths, class: names};
-    return Object.entries(switchedOff).flatMap(([kind, off]) => [...off].map(one => `${kind} ${lists[kind][one]}`));
+    return Object.entries(switchedOff).flatMap(([kind, off]) => [...off].map(one => `${kind} ${switchedNames[kind][one]}`));
 }
 
 function linkText() {
@@ -59,13 +60,20 @@ function linkText() {
     return '#' + parts;
 }
 
+function writePlace() {
+    written = linkText();
+    window.history.replaceState(null, '', written);
+}
+
 // Writes the address after a pause, once for many changes.
 function rememberPlace() {
     clearTimeout(writing);
-    writing = setTimeout(() => {
-        written = linkText();
-        window.history.replaceState(null, '', written);
-    }, 200);
+    writing = setTimeout(writePlace, 200);
+}
+
+function copyLink() {
+    writePlace();
+    copyText(location.href, control('share'), ['✓', '✗', '↗']);
 }
 
 // The number of an object's id. A word that labels of no object have, as "roadside", is chosen only where
@@ -90,7 +98,7 @@ function followChoices(parts) {
         const wanted = parts.has(id) ? parts.get(id) : usual;
         if (select.value !== wanted && [...select.options].some(option => option.value === wanted)) {
             select.value = wanted;
-            select.dispatchEvent(new Event('change'));
+            select.dispatchEvent(new Event('change', {bubbles: true}));
         }
     }
     for (const [id, usual] of Object.entries(linkedBoxes)) {
@@ -99,8 +107,7 @@ function followChoices(parts) {
         }
     }
     const off = parts.getAll('off');
-    const lists = {sensor: sensorNames, path: head.paths, class: names};
-    for (const [kind, list] of Object.entries(lists)) {
+    for (const [kind, list] of Object.entries(switchedNames)) {
         switchedOff[kind] = new Set(off.filter(one => one.startsWith(kind + ' '))
             .map(one => list.indexOf(one.slice(kind.length + 1))).filter(number => number >= 0));
     }

@@ -331,6 +331,7 @@ function connectButtons() {
     click('fit', fitView);
     click('outside', fitTargets);
     click('save', savePicture);
+    click('share', copyLink);
     click('theme', () => setTheme(!isDark()));
 }
 
@@ -356,6 +357,7 @@ const keyActions = {
     '0': fitView,
     'a': fitTargets,
     's': savePicture,
+    'k': copyLink,
     'n': () => chooseNext(1),
     'b': () => chooseNext(-1),
     'c': () => cycle('colour'),
@@ -412,6 +414,16 @@ function followTheme() {
     readInk();
 }
 
+// On paper the page is light.
+function connectPrinting() {
+    window.addEventListener('beforeprint', () => {
+        const dark = isDark();
+        setTheme(false);
+        draw();
+        window.addEventListener('afterprint', () => setTheme(dark), {once: true});
+    });
+}
+
 function showEmpty() {
     control('empty').hidden = false;
     control('empty').textContent = 'The stream is empty: it has no frames.';
@@ -443,7 +455,9 @@ function start() {
     connectTimeline();
     connectOverTime();
     connectComparison();
+    connectMerges();
     connectLinks();
+    connectPrinting();
     document.addEventListener('keydown', onKey);
     new ResizeObserver(redraw).observe(canvas);
     state.amplitudes = extremes('target_amplitude_db', false);

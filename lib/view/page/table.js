@@ -165,15 +165,20 @@ function tableText() {
         .join('');
 }
 
-function copyTable() {
+// Copies a text; the button says for a moment whether that went well, then what it is for.
+function copyText(text, told, [well, ill, usual]) {
     const put = event => {
-        event.clipboardData.setData('text/plain', tableText());
+        event.clipboardData.setData('text/plain', text);
         event.preventDefault();
     };
     document.addEventListener('copy', put, {once: true});
-    control('copy').textContent = document.execCommand('copy') ? 'Copied' : 'Not copied';
+    told.textContent = document.execCommand('copy') ? well : ill;
     document.removeEventListener('copy', put);
-    setTimeout(() => { control('copy').textContent = 'Copy'; }, 1200);
+    setTimeout(() => { told.textContent = usual; }, 1200);
+}
+
+function copyTable() {
+    copyText(tableText(), control('copy'), ['Copied', 'Not copied', 'Copy']);
 }
 
 function connectTable() {
