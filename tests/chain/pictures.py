@@ -38,12 +38,16 @@ def check(good, text):
 
 
 def pictures_of_pages():
-    """{picture: page}, paths from the root."""
+    """{picture: (page, its width there)}, paths from the root, by the narrowest place."""
     found = {}
     for page in tree.files("*.md"):
         with open(os.path.join(ROOT, page), encoding="utf-8") as file:
-            for path in re.findall(r"!\[[^]]*\]\(([^)]+)\)|<img[^>]*src=\"([^\"]+)\"", file.read()):
-                found[os.path.normpath(os.path.join(os.path.dirname(page), "".join(path)))] = page
+            lines = file.readlines()
+        for line in lines:
+            for path in re.findall(r"!\[[^]]*\]\(([^)]+)\)|<img[^>]*src=\"([^\"]+)\"", line):
+                picture = os.path.normpath(os.path.join(os.path.dirname(page), "".join(path)))
+                place = page, HALF if line.startswith("|") else PAGE
+                found[picture] = min(found.get(picture, place), place, key=lambda one: one[1])
     return found
 
 
@@ -176,7 +180,7 @@ def main(paths):
                                check=True).stdout.split()
         shown = pictures_of_pages()
         for path in sorted(shown.keys() - set(drawn)):
-            check(False, f"{shown[path]} shows {path}, which scripts/figures does not draw")
+            check(False, f"{shown[path][0]} shows {path}, which scripts/figures does not draw")
         for path in sorted(set(drawn) - shown.keys()):
             check(False, f"no page shows {path}")
         for path in sorted(set(tree.files("*.svg")) - set(drawn)):
@@ -184,8 +188,7 @@ def main(paths):
         check_frame("two-vehicles", 1)
         check_frame("intersection", 40)
         for path in drawn:
-            in_table = path.startswith("data/figures/fig") and "fig14" not in path
-            check_picture(os.path.join(ROOT, path), HALF if in_table else PAGE)
+            check_picture(os.path.join(ROOT, path), shown[path][1] if path in shown else PAGE)
     return 1 if failed else 0
 
 

@@ -187,6 +187,8 @@ def draw_key(drawing, x, y, entries):
             drawing.circle(x, y - 5, mark, 6.3 if mark == "right" else 3)
         elif mark == "line":
             drawing.add(f'<path class="rate-left" d="M{x - 8:.1f} {y - 5:.1f}h18"/>')
+        elif mark == "clutter":
+            draw_mark(drawing, x, y - 5, 0, mark, 9)
         else:
             drawing.star(x, y - 5, mark, 9)
         drawing.word(name, x + 14, y)
