@@ -144,8 +144,12 @@ const tests = {
         const leaders = frame.targets.filter(one => one.sensor === 'left').map(one => one.contributors[0]);
         const apart = (name, from, to) => Math.abs(leaders[from][name] - leaders[to][name]);
         const part = (value, cell, unit) => `${value.toFixed(2)} ${unit} = ${(value / cell / 2).toFixed(1)} cells`;
-        assert.ok(leaders.length === 3 && leaders[0].range_m < leaders[1].range_m && leaders[1].range_m < leaders[2].range_m);
+        assert.ok(leaders[0].range_m < leaders[1].range_m && leaders[1].range_m < leaders[2].range_m);
+        const farther = (from, to) => leaders[from].range_rate_mps > leaders[to].range_rate_mps;
+        assert.ok(farther(0, 1) && farther(1, 2));
         await withPage(view([frame]), async page => {
+            assert.ok((await panelText(page)).includes(
+                `${part(apart('range_m', 2, 1), sensor.resolution_range_m, 'm')} behind target 2`));
             await page.keyboard.press('n');
             await page.keyboard.press('n');
             const text = await panelText(page);
@@ -154,7 +158,7 @@ const tests = {
                 const range = part(apart('range_m', 1, other), sensor.resolution_range_m, 'm');
                 const rate = part(apart('range_rate_mps', 1, other), sensor.resolution_range_rate_mps, 'm/s');
                 assert.ok(text.includes(`${range} ${words}`), `${range} ${words}: ${text}`);
-                assert.ok(text.includes(rate), `${rate}: ${text}`);
+                assert.ok(text.includes(`${rate} ${other === 0 ? 'less' : 'more'} than it`), `${rate}: ${text}`);
             }
             await page.click('#panel .row:has-text("behind target 1")');
             assert.match(await panelText(page), /Target 1 of left/);

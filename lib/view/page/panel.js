@@ -168,11 +168,12 @@ function partsText(target, object) {
         (parts.length > shown.length ? ` and ${parts.length - shown.length} more` : '');
 }
 
-function targetRow(scan, target, number, object) {
-    const mark = targetSymbol(scan, target);
+// A target in a list; before is the target of the same object above it, if any.
+function targetRow(scan, target, number, object, before) {
     const label = make('b', `${number} `);
     const level = `${round(column('target_amplitude_db')[target], 1)} dB`;
-    return rowButton(mark, [label, partsText(target, object)], level, () => chooseTarget(target));
+    const apart = before && cellOf(scan) ? [apartLine(scan, target, before)] : [];
+    return rowButton(targetSymbol(scan, target), [label, partsText(target, object), ...apart], level, () => chooseTarget(target));
 }
 
 function lossRow(loss) {
@@ -302,7 +303,7 @@ function objectBlocks(scan) {
     return [
         sensorTitle(scan, summary(scan, targets, notable, silent)),
         ...sightingLines(scan),
-        ...targets.map(one => targetRow(scan, one.target, one.number, state.object)),
+        ...targets.map((one, i) => targetRow(scan, one.target, one.number, state.object, targets[i - 1])),
         ...notable.slice(0, 40).map(lossRow),
         ...moreLine(notable.length - 40),
         ...silentBlock(silent),
@@ -428,9 +429,9 @@ function showTarget() {
     order.sort((a, b) => weights[b] - weights[a]);
     const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
     panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
-        ...targetNotes(scan), ...qualityBlock(state.target), ...block(`Made of ${plural(order.length, 'reflection centre')}`, rows),
+        ...targetNotes(scan), ...block(`Made of ${plural(order.length, 'reflection centre')}`, rows),
         ...moreLine(order.length - rows.length), ...apartBlock(scan, state.target),
-        make('p', cellWords(cellOf(scan)), 'soft'));
+        make('p', cellWords(cellOf(scan)), 'soft'), ...qualityBlock(state.target));
 }
 
 // The resolution cell that is drawn around a chosen target.
@@ -511,9 +512,7 @@ function reflectorFates(scan) {
 }
 
 function showReflector() {
-    const parts = [button('', () => chooseReflector(null)),
-        make('h2', `${state.reflector} of ${objectTitle(state.object)}`)];
-    parts[0].textContent = '‹ all of this object';
+    const parts = [backButton(), make('h2', `${state.reflector} of ${objectTitle(state.object)}`)];
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
         const fates = reflectorFates(scan);
