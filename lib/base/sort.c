@@ -2,7 +2,7 @@
 
 #include <stdbool.h>
 
-/* So few items are inserted one by one. */
+/* At most so many items are inserted one by one. */
 enum { FEW = 12 };
 
 /* The addresses of the items in the order reached so far, and where each run in order ends. */

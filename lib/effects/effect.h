@@ -167,7 +167,8 @@ static inline bool effect_has_cause(const struct effect *effect)
 /* The condition that random scenes draw as this number >= 1; NULL: they draw fewer. */
 const struct effect_member *effect_random_condition(int number);
 
-/* The parts of the frame that effects read which scans of the sensor simulate at this home. */
+/* The parts of the frame that the effects of this home read if a scan of the sensor simulates
+ * them. */
 unsigned effect_reads(const struct frame *frame, const struct sensor *sensor,
                       const struct selection *selection, enum effect_home home);
 

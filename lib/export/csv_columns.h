@@ -30,13 +30,14 @@ struct csv_columns {
 void csv_columns_add(struct csv_columns *columns, const struct record *record,
                      const char *const *without, struct arena *arena);
 
-/* The struct in the one at base (or NULL) that has the value of a column, or NULL if there is no
- * value. Columns are asked for in order: there tells the next one of an embedded struct whether it
- * is absent. */
+/* The value of column i of the struct at base, which may be NULL: returns the struct that the
+ * column's field is a member of, itself or one embedded in it, or NULL if there is no value.
+ * Columns are asked for in order, with the same `there`, which keeps for the columns of an embedded
+ * struct whether it is present. */
 const void *csv_columns_owner(const struct csv_columns *columns, size_t i, const void *base,
                               bool *there);
 
-/* Appends the text of a member of the struct at base. */
+/* Appends the text of a cell: of this member of the struct at base. */
 void csv_columns_add_cell(const struct field *field, const void *base, struct text *row);
 
 /* Appends to a row the names of the columns, or the cells of a struct, which are empty where it is

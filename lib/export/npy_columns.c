@@ -29,13 +29,17 @@ void npy_columns_end(struct npy_names *names)
     text_free(&names->word);
 }
 
+/* The type of a column for NumPy. A flag has one byte; the seven behind it are a column without a
+ * name. */
 static const char *type_of(const struct field *field)
 {
     if (field->kind == FIELD_REAL)
         return "'<f8'";
     if (field->kind == FIELD_INTEGER)
         return "'<i8'";
-    return field->kind == FIELD_FLAG ? "'|b1'), ('', '|V7'" : "'<u8'";
+    if (field->kind == FIELD_FLAG)
+        return "'|b1'), ('', '|V7'";
+    return "'<u8'";
 }
 
 void npy_columns_write_head(const struct csv_columns *lists, size_t count, int64_t rows,
@@ -57,7 +61,7 @@ void npy_columns_write_head(const struct csv_columns *lists, size_t count, int64
     text->bytes[begin + HEAD_BEGIN - 1] = (char)(length >> 8);
 }
 
-/* The number of the name whose text is that of the cell. */
+/* The number of the cell's text in the list of names. */
 static uint64_t word_of(const struct field *field, const void *base, struct npy_names *names)
 {
     if (field->kind == FIELD_NAME)

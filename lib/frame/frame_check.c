@@ -144,7 +144,7 @@ static int check_lost(const struct frame *frame, struct diag *diag)
 }
 
 /* Echoes, cells and targets name sensors, so that new sensors need a check of these parts too. */
-static int check_parts(struct frame *frame, unsigned parts, struct diag *diag)
+int frame_check(struct frame *frame, unsigned parts, struct diag *diag)
 {
     if ((parts & PART_SENSORS) != 0)
         parts |= PART_ECHOES | PART_CELLS | PART_TARGETS | PART_VISIBILITY;
@@ -162,11 +162,6 @@ static int check_parts(struct frame *frame, unsigned parts, struct diag *diag)
                 ((parts & PART_CELLS) == 0 || check_cells(frame, diag) == 0) &&
                 ((parts & PART_TARGETS) == 0 || check_targets(frame, diag) == 0);
     return good ? 0 : -1;
-}
-
-int frame_check(struct frame *frame, unsigned parts, struct diag *diag)
-{
-    return check_parts(frame, parts, diag);
 }
 
 static int check_lost_members(const struct frame *frame, const char *stage, struct diag *diag)
@@ -188,7 +183,7 @@ int frame_check_parts(struct frame *frame, struct frame_parts written, struct di
     if (record_write_check(&frame_record, frame, whole, diag) != 0 ||
         ((written.parts & PART_LOST) != 0 && check_lost_members(frame, written.stage, diag) != 0))
         return -1;
-    return check_parts(frame, written.parts, diag);
+    return frame_check(frame, written.parts, diag);
 }
 
 /* An entry's own values. An amplitude beyond the doubles is told before the angle it spoils. */

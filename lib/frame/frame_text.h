@@ -12,10 +12,12 @@ enum { FRAME_TEXT_SIZE = 16 * 1024 * 1024 };
 int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag);
 
 /* The same, but the frame keeps the text of each member: what no stage alters is written word for
- * word. The line must stay as it is until then. Of parts in `unread` the frame has the text alone,
- * if they are lists without lists; frame_text_read_left reads them later. */
+ * word. The line must stay as it is until then. The parts in `unread` are not parsed where the end
+ * of their list can be told without (json_scan_skip_flat); frame->line.unread tells which. */
 int frame_text_take(const char *line, size_t length, unsigned unread, struct frame *frame,
                     struct diag *diag);
+
+/* Reads those of these parts that were left unread. */
 int frame_text_read_left(struct frame *frame, unsigned parts, struct diag *diag);
 
 /* Appends the frame's line, with its newline, to text. The frame must have passed

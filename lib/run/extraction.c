@@ -151,7 +151,7 @@ static struct extracted_class *class_of(struct extracted_classes *classes,
     return find_class(class, folder, frame, runner) == 0 ? class : NULL;
 }
 
-/* The documents that the frame names are those of its classes. */
+/* Names in the frame the document of each class. One that it named before must be the same. */
 static int note_documents(struct frame *frame, const struct extracted_classes *classes,
                           struct diag *diag)
 {

@@ -19,8 +19,8 @@ static int open_next(struct frame_stream *stream, struct diag *diag)
     return 1;
 }
 
-/* Lines of other programs may have their parts in any order; stages rely on the canonical one. */
-static int order(struct frame *frame, unsigned parts, struct diag *diag)
+/* Other programs may list the items of a part in any order; stages rely on the canonical one. */
+static int order_and_check(struct frame *frame, unsigned parts, struct diag *diag)
 {
     frame_order_parts(frame, (struct frame_parts){.parts = parts});
     return frame_check(frame, parts, diag);
@@ -28,7 +28,7 @@ static int order(struct frame *frame, unsigned parts, struct diag *diag)
 
 int frame_stream_parse(const char *line, size_t length, struct frame *frame, struct diag *diag)
 {
-    return frame_text_read(line, length, frame, diag) == 0 ? order(frame, ~0U, diag) : -1;
+    return frame_text_read(line, length, frame, diag) == 0 ? order_and_check(frame, ~0U, diag) : -1;
 }
 
 int frame_stream_read_left(struct frame *frame, unsigned parts, struct diag *diag)
@@ -36,7 +36,7 @@ int frame_stream_read_left(struct frame *frame, unsigned parts, struct diag *dia
     parts &= frame->line.unread;
     if (parts == 0)
         return 0;
-    return frame_text_read_left(frame, parts, diag) == 0 ? order(frame, parts, diag) : -1;
+    return frame_text_read_left(frame, parts, diag) == 0 ? order_and_check(frame, parts, diag) : -1;
 }
 
 /* The input keeps the line until the next one is asked for. */
@@ -44,7 +44,7 @@ static int take(const struct frame_stream *stream, const char *line, size_t leng
                 struct frame *frame, struct diag *diag)
 {
     int result = frame_text_take(line, length, stream->unread, frame, diag);
-    return result == 0 ? order(frame, ~0U, diag) : -1;
+    return result == 0 ? order_and_check(frame, ~0U, diag) : -1;
 }
 
 /* A file of another format is named instead of its first line. */

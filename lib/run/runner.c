@@ -215,11 +215,13 @@ static int apply_sections(struct runner *runner, struct frame *frame)
                : sections_apply(&runner->sections, frame, &runner->diag);
 }
 
-/* Objects that leave the stream unread would take their faults along. */
+/* Reads the objects if they leave the stream behind this step: no later program could find a fault
+ * in them. */
 static int read_leaving(struct frame *frame, struct diag *diag)
 {
-    bool leave = (frame->present & PART_TARGETS) != 0 && !frame_carries(frame, CARRY_OBJECTS);
-    return leave ? frame_stream_read_left(frame, PART_OBJECTS, diag) : 0;
+    if ((frame->present & PART_TARGETS) == 0 || frame_carries(frame, CARRY_OBJECTS))
+        return 0;
+    return frame_stream_read_left(frame, PART_OBJECTS, diag);
 }
 
 static bool has_header(const struct frame *frame, const struct frame_header *header)
@@ -228,8 +230,9 @@ static bool has_header(const struct frame *frame, const struct frame_header *hea
 }
 
 /* After every step: drops the parts that nobody needs any more; orders and checks those that the
- * stage wrote, and the header if it is not as before, so that a stage that writes an invalid frame
- * fails itself and not its neighbour. All else was checked when it was read or written. */
+ * stage wrote, and the header if it is not as before the step, so that a stage that writes an
+ * invalid frame fails itself and not its neighbour. All else was checked when it was read or
+ * written. A source has no header before its step: NULL. */
 static int finish_step(struct runner *runner, struct frame *frame,
                        const struct frame_header *before)
 {

@@ -115,8 +115,8 @@ struct effect_log *runner_log(struct runner *runner);
 const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class,
                                      const char *digest);
 
-/* What a sink writes: bytes, a text, whose memory is given back, one for people, which fits the
- * terminal that shows it, or a record as a line of JSON. */
+/* What a sink writes: bytes; a text, whose memory is given back; such a text for people, which is
+ * broken at the width of a terminal that shows it; or a record as a line of JSON. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);
 int runner_write_text(struct runner *runner, struct text *text);
 int runner_write_page(struct runner *runner, struct text *text);

@@ -254,13 +254,13 @@ static int check_clutter(const struct frame *frame, const struct sensor *sensor,
 int suite_choice_read(struct frame *frame, const struct suite *suite,
                       const struct selection *selection, struct runner *runner)
 {
-    const struct stage *stage = runner_stage(runner);
-    unsigned parts = 0;
     if (frame->line.unread == 0)
         return 0;
-    if ((stage->writes & PART_TARGETS) != 0 && frame_carries(frame, CARRY_QUALITY))
-        parts = PART_OBJECTS;
-    for (size_t i = 0; i < suite->sensors.count && (stage->reads & PART_ECHOES) != 0; i++)
+    const struct stage *stage = runner_stage(runner);
+    bool simulates_effects = (stage->reads & PART_ECHOES) != 0;
+    bool adds_quality = (stage->writes & PART_TARGETS) != 0 && frame_carries(frame, CARRY_QUALITY);
+    unsigned parts = adds_quality ? PART_OBJECTS : 0;
+    for (size_t i = 0; simulates_effects && i < suite->sensors.count; i++)
         parts |= effect_reads(frame, &suite->sensors.items[i], selection, EFFECT_HOME_SENSOR);
     return frame_stream_read_left(frame, parts, runner_diag(runner));
 }

@@ -1,4 +1,4 @@
-/* JSON documents for people: found, read, checked and drawn. jansson checks the syntax, and
+/* JSON documents for people: found, read and checked. jansson checks the syntax, and
  * record_read.h reads the values.
  *
  * A bare name (no slash, no dot) means <kind>/<name>.json in the data folders (data_folder.h);
@@ -17,7 +17,7 @@ void document_guard_memory(void);
 /* The path of a document by its name, in the arena; NULL after a message that lists the folders
  * searched and the names in them. own is a folder of the user that is searched first and holds
  * documents of this kind alone, or NULL. ending is ".json", ".csv" for a table, or ".sh" for a
- * pipeline; in a checkout the folder of pipelines lies beside data/, not in it. */
+ * pipeline; the folder of shipped pipelines lies beside data/, not in it. */
 const char *document_find(const char *own, const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag);
 

@@ -45,7 +45,7 @@ struct field_text {
 struct field_line {
     struct field_text *texts; /* by the fields of the record; NULL: there is no line */
     unsigned same;
-    unsigned unread; /* groups of lists that only texts have: nobody has asked for them yet */
+    unsigned unread; /* groups of lists that are there as texts alone, not parsed yet */
 };
 
 /* The members that are in no group, in a set of groups. */
@@ -207,7 +207,7 @@ int field_add_to_set(const struct field *field, void *base, const char *text, si
  * one. */
 int field_read_number(const char *text, size_t length, double *value);
 
-/* True if the member differs from its value when absent; one of a group has none. */
+/* True if a member without a group differs from its value when absent. */
 bool field_differs(const struct field *field, const void *base);
 
 /* True if the member is required, or differs from its value when absent. */

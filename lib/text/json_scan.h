@@ -56,9 +56,10 @@ int json_scan_flag(struct json_scan *scan, bool *value);
 /* Reads any value, checked but not decoded: bytes from its first to its last character. */
 int json_scan_value(struct json_scan *scan, struct json_string *bytes);
 
-/* Moves past an array without reading it, if its end can be told: no array lies in it, and a key or
- * the end of the line stands behind it. In a name no such end can be: a letter never follows the
- * quote that ends a string. What lies in the array is not checked. */
+/* Moves past an array without reading it; false, and nowhere, if its end cannot be told. It can
+ * where no array lies within, and `]` stands before the next key or before the end of the line. A
+ * `]` in a string is not taken for it: no letter follows the quote that ends a string, as one
+ * follows the quote that begins a key. What lies in the array is not checked. */
 bool json_scan_skip_flat(struct json_scan *scan);
 
 /* The kind of the next value, for messages: "a string", "null", ... */

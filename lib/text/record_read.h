@@ -7,9 +7,9 @@
 
 #include "text/list_cache.h"
 
-/* Reads the line (without its newline) into the struct, which must have been cleared. Texts of a
- * record with texts lie in the line. All else that the struct holds lies in the arena, or in the
- * cache of steady lists, which may be NULL. */
+/* Reads the line (without its newline) into the struct, which must have been cleared. The texts
+ * of a record that keeps its line (field.h) point into it. All else that the struct holds lies in
+ * the arena, or in the cache of steady lists, which may be NULL. */
 int record_read(const char *line, size_t length, const struct record *record, void *base,
                 struct arena *arena, struct list_cache *cache, struct diag *diag);
 

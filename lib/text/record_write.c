@@ -229,7 +229,7 @@ static inline void write_name(const char *name, struct writer *writer)
     writer->at = text_put_json(writer->at, name, length);
 }
 
-/* Words of tables are far shorter than a record. */
+/* A choice is a word of the program's own, far shorter than RECORD_ROOM. */
 static void write_choice(const char *choice, struct writer *writer)
 {
     make_room(writer, RECORD_ROOM);

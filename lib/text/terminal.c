@@ -23,18 +23,20 @@ static bool is_comment(const char *line, size_t length)
     return length > 2 && memcmp(line, "# ", 2) == 0;
 }
 
-/* Where a line of a table, of which columns have two blanks between them, and any other goes on. */
+/* How far the rest of a broken line is indented: behind the mark of a comment, and farther if two
+ * blanks in the line tell that it is of a table. */
 static size_t indent_of(const char *line, size_t length)
 {
-    size_t mark = is_comment(line, length) ? 2 : 0;
+    enum { MARK = 2, TABLE = 4 };
+    size_t mark = is_comment(line, length) ? MARK : 0;
     for (size_t i = mark + 2; i < length; i++)
         if (line[i] != ' ' && line[i - 1] == ' ' && line[i - 2] == ' ')
-            return mark + 4;
+            return mark + TABLE;
     return mark;
 }
 
-/* The length of the piece that stands on a line: up to the last blank behind `from` that leaves
- * room for it, or up to the first one at all. */
+/* The length of the piece that goes on one line: up to the last blank behind `from` up to which it
+ * fits the room, or else up to the first blank. */
 static size_t piece_length(const char *line, size_t length, size_t from, size_t room)
 {
     size_t piece = length;

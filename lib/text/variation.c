@@ -27,7 +27,7 @@ struct place {
 struct variation {
     struct json_scan scan;
     struct random_address address;
-    const char *copied; /* so far the line is in drawn */
+    const char *copied; /* up to here the line is in drawn */
     struct text drawn;
 };
 
@@ -156,8 +156,10 @@ static int draw_law(struct variation *variation, const struct law *law, const st
     variation->address.item = hash_bytes(HASH_START, path.bytes, path.length);
     copy_to(variation, scan->at);
     json_scan_value(&behind, &whole);
-    values.at = scan->at += strlen(law->begin);
+    scan->at += strlen(law->begin);
+    values.at = scan->at;
     json_scan_value(&values, &value);
+    /* The values are all that the object has. */
     int result = values.at + 1 == behind.at ? law->draw(variation, place) : 0;
     if (result == 0)
         diag_fail(scan->diag, DIAG_CONFIG, "%.*s: %.*s; expected {\"%s\": %s}", (int)path.length,
@@ -169,7 +171,8 @@ static int draw_law(struct variation *variation, const struct law *law, const st
     return result > 0 ? 0 : -1;
 }
 
-/* Draws the values within an array or an object. */
+/* Draws the values within an array or an object. The line is known to be JSON, so that marks
+ * between values need no check. */
 static int draw_within(struct variation *variation, const struct place *outer)
 {
     struct json_scan *scan = &variation->scan;
@@ -200,7 +203,8 @@ static int draw_value(struct variation *variation, const struct place *place)
     return json_scan_value(scan, &bytes);
 }
 
-/* Does the document have a distribution? No string of a line has quotes without a backslash. */
+/* May the document have a distribution? A string with the same text has a backslash before each
+ * quote, so it does not count. */
 static bool names_law(const char *line)
 {
     for (size_t i = 0; i < sizeof laws / sizeof laws[0]; i++)
