@@ -9,7 +9,7 @@ struct mcap_stage {
     bool ros2;
     struct mcap_ros_times transforms;
     struct vec2 origin_m; /* of the first frame */
-    size_t points, flat;  /* those so far, and how many have no elevation */
+    size_t points, flat;  /* how many so far, and how many of them have no elevation */
 };
 
 static int mcap_start(void *state, struct runner *runner)

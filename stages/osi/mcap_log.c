@@ -6,10 +6,10 @@ void mcap_log_add_message(struct mcap_log *log, uint16_t channel)
     log->message.length = 0;
 }
 
-uint16_t mcap_log_channel(struct mcap_log *log, size_t others, const char *sensor,
+uint16_t mcap_log_channel(struct mcap_log *log, size_t fixed_count, const char *sensor,
                           const struct mcap_schema *schema, struct diag *diag)
 {
-    size_t channel = others + 1 + intern_word(&log->sensors, sensor, log->trace.arena);
+    size_t channel = fixed_count + 1 + intern_word(&log->sensors, sensor, log->trace.arena);
     if (channel <= log->file.channels.count)
         return (uint16_t)channel;
     if (channel <= UINT16_MAX)

@@ -1,7 +1,7 @@
 /* A file of MCAP that is filled frame by frame.
  *
- * Its first channels are of no sensor; each sensor has a channel of its own, from its first scan
- * on. */
+ * Its first channels are fixed, and belong to no sensor. Behind them each sensor has a channel of
+ * its own, from its first scan on. */
 #pragma once
 
 #include "mcap_file.h"
@@ -18,7 +18,7 @@ struct mcap_log {
 /* Adds the message at the time of the trace's frame, and empties it. */
 void mcap_log_add_message(struct mcap_log *log, uint16_t channel);
 
-/* The channel of a sensor, behind so many that are of none. A sensor without one gets it, with the
+/* The channel of a sensor, behind so many fixed ones. A sensor without a channel gets one, with the
  * topic /radar/NAME and this schema. 0 after a message: MCAP has no room for it. */
-uint16_t mcap_log_channel(struct mcap_log *log, size_t others, const char *sensor,
+uint16_t mcap_log_channel(struct mcap_log *log, size_t fixed_count, const char *sensor,
                           const struct mcap_schema *schema, struct diag *diag);

@@ -1,7 +1,7 @@
 #include "mcap_ros.h"
 #include "ros.h"
 
-enum { TRANSFORMS = 1, OBJECTS, OTHERS = OBJECTS }; /* channels that are of no sensor */
+enum { TRANSFORMS = 1, OBJECTS, FIXED_COUNT = OBJECTS }; /* channels that are of no sensor */
 
 static struct mcap_schema schema_of(const char *name, const char *definition)
 {
@@ -22,7 +22,7 @@ void mcap_ros_begin(struct mcap_log *log)
 }
 
 /* Notes a time. Returns false if it was noted before: tf2 complains of a stamp that comes twice. */
-static bool is_new(struct mcap_ros_times *sent, uint64_t time_ns)
+static bool note_time(struct mcap_ros_times *sent, uint64_t time_ns)
 {
     for (size_t i = 0; i < MCAP_ROS_RECENT && i < sent->count; i++)
         if (sent->ns[i] == time_ns)
@@ -33,7 +33,7 @@ static bool is_new(struct mcap_ros_times *sent, uint64_t time_ns)
 
 static void add_transforms(struct mcap_log *log, struct mcap_ros_times *sent, double age_s)
 {
-    if (!is_new(sent, trace_ns(&log->trace, log->trace.frame->time_s - age_s)))
+    if (!note_time(sent, trace_ns(&log->trace, log->trace.frame->time_s - age_s)))
         return;
     ros_add_transforms(&log->trace, age_s, &log->message);
     mcap_log_add_message(log, TRANSFORMS);
@@ -48,7 +48,7 @@ static int add_points(struct mcap_log *log, const struct sensor_view *sensor, st
             "and _, no digit first",
             sensor->name);
     struct mcap_schema schema = schema_of("sensor_msgs/msg/PointCloud2", ros_point_cloud);
-    uint16_t channel = mcap_log_channel(log, OTHERS, sensor->name, &schema, diag);
+    uint16_t channel = mcap_log_channel(log, FIXED_COUNT, sensor->name, &schema, diag);
     if (channel == 0)
         return -1;
     ros_add_points(&log->trace, sensor, &log->message);

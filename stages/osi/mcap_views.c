@@ -6,7 +6,7 @@
 
 #include <protobuf-c/protobuf-c.h>
 
-enum { OSI = 1, FRAMES, SCENE, OTHERS = SCENE }; /* channels that are of no sensor */
+enum { OSI = 1, FRAMES, SCENE, FIXED_COUNT = SCENE }; /* channels that are of no sensor */
 
 /* The interface of OSI as a FileDescriptorSet (Makefile). */
 extern const char osi_trace_descriptors[];
@@ -58,7 +58,7 @@ void mcap_views_begin(struct mcap_log *log)
 static int add_points(struct mcap_log *log, const struct sensor_view *sensor, struct diag *diag)
 {
     struct mcap_schema schema = json_of("foxglove.PointCloud", foxglove_points_schema);
-    uint16_t channel = mcap_log_channel(log, OTHERS, sensor->name, &schema, diag);
+    uint16_t channel = mcap_log_channel(log, FIXED_COUNT, sensor->name, &schema, diag);
     if (channel == 0)
         return -1;
     foxglove_add_points(&log->trace, sensor, &log->message);

@@ -73,9 +73,9 @@ static void add_fields(struct cdr *cdr)
     for (uint32_t i = 0; i < REALS + LABELS; i++) {
         bool real = i < REALS;
         cdr_add_string(cdr, real ? names_of_reals[i] : names_of_labels[i - REALS]);
-        cdr_add_uint32(cdr, 4 * i);
+        cdr_add_uint32(cdr, 4 * i); /* offset */
         cdr_add_uint8(cdr, real ? FLOAT32 : UINT32);
-        cdr_add_uint32(cdr, 1);
+        cdr_add_uint32(cdr, 1); /* count */
     }
 }
 
@@ -132,12 +132,12 @@ void ros_add_points(struct trace *trace, const struct sensor_view *sensor, struc
     struct cdr cdr = cdr_begin(text);
     bool dense = true;
     add_header(&cdr, trace_ns(trace, frame->time_s - sensor->age_s), frame_of(frame, sensor));
-    cdr_add_uint32(&cdr, 1);
-    cdr_add_uint32(&cdr, count);
+    cdr_add_uint32(&cdr, 1);     /* height */
+    cdr_add_uint32(&cdr, count); /* width */
     add_fields(&cdr);
     cdr_add_uint8(&cdr, false); /* not big-endian */
     cdr_add_uint32(&cdr, POINT_STEP);
-    cdr_add_uint32(&cdr, POINT_STEP * count);
+    cdr_add_uint32(&cdr, POINT_STEP * count); /* row_step */
     cdr_add_uint32(&cdr, POINT_STEP * count); /* bytes that follow */
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];

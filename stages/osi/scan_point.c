@@ -3,9 +3,9 @@
 
 double scan_point_azimuth_rad(const struct target *target)
 {
-    struct vec2 place_m = frame_target_place(target);
     if ((target->present & VALUE_ELEVATION) == 0)
         return target->azimuth_rad;
+    struct vec2 place_m = frame_target_place(target);
     return elementary_atan2(place_m.y, place_m.x);
 }
 

@@ -11,9 +11,9 @@ struct scan_point {
     uint32_t contributors; /* how many */
 };
 
-/* The azimuth of a target about the vertical axis of its sensor, of which azimuth and elevation are
- * turns one after the other. The reported azimuth of a sensor that measures elevation is another
- * angle, that of a cone. */
+/* The azimuth of a target as a turn about the vertical axis of its sensor, after which its
+ * elevation is a turn upward. A sensor that measures elevation reports another azimuth: the angle
+ * of a cone (frame_target_place). */
 double scan_point_azimuth_rad(const struct target *target);
 
 /* The point of a target of the trace's frame. */

@@ -13,7 +13,8 @@ uint32_t trace_object(struct trace *trace, const char *id)
     return intern_word(&trace->objects, id, trace->arena) + 1;
 }
 
-/* Where the first frame is at 0 s, its oldest scan was made that long before 0. */
+/* The shift that brings all scans of the first frame to begin_s or later, 0 if none is needed. A
+ * frame at 0 s has scans from before 0, as old as its radars' latency. */
 static double first_shift_s(const struct trace *trace, const struct frame *frame)
 {
     double age_s = 0;
