@@ -40,7 +40,7 @@ class Stream:
         self.free(self.state)
 
     def step(self, call, given, size, *more):
-        """Lets the library go on with what is given; at most so many bytes that it made, and how much is left to be done."""
+        """Lets the library go on with what is given. Returns what it made, at most `size` bytes, and how much it has left to do."""
         made = Buffer(ctypes.cast(self.room, ctypes.c_char_p), min(size, ROOM), 0)
         left = ctypes.c_size_t(call(self.state, ctypes.byref(made), ctypes.byref(given), *more))
         if library().ZSTD_isError(left):
@@ -79,7 +79,9 @@ class Unpacked(io.RawIOBase):
     def __init__(self, file):
         super().__init__()
         self.file, self.stream = file, Stream(library().ZSTD_createDCtx, library().ZSTD_freeDCtx)
-        self.given, self.is_inside, self.has_more = buffer(b""), False, False  # a frame; bytes for which there was no room
+        self.given = buffer(b"")
+        self.is_inside = False  # a frame of zstd that has not ended
+        self.has_more = False  # bytes in the library for which there was no room
 
     def readable(self):
         return True

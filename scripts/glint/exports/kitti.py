@@ -25,10 +25,11 @@ def picture(box, x, y, z, yaw, focal):
     depths = [max(one, NEAR_M) for one in ahead]
     across = [WIDTH / 2 - focal * left / depth for left, depth in zip(lefts, depths)]
     down = [HEIGHT / 2 - focal * up / depth for up in (z, z + box["height_m"]) for depth in (min(depths), max(depths))]
-    whole = first, high, last, low = min(across), min(down), max(across), max(down)
-    left, top, right, bottom = cut = [min(max(one, 0), most) for one, most in zip(whole, (WIDTH, HEIGHT) * 2)]
-    share = (right - left) * (bottom - top) / ((last - first) * (low - high))
-    return (*cut, max(1 - share, 0)) if share > 0 else None
+    whole_width, whole_height = max(across) - min(across), max(down) - min(down)
+    left, right = (min(max(one, 0), WIDTH) for one in (min(across), max(across)))
+    top, bottom = (min(max(one, 0), HEIGHT) for one in (min(down), max(down)))
+    share = (right - left) * (bottom - top) / (whole_width * whole_height)
+    return (left, top, right, bottom, max(1 - share, 0)) if share > 0 else None
 
 
 def focal_of(sensor):

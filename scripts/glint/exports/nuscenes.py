@@ -82,7 +82,9 @@ class Writer:
 
     def __init__(self, layout, output):
         self.layout, self.output, self.radars = layout, output, RadarFiles(layout["point"], layout["fields"].split())
-        self.scene, self.titles, self.splits, self.shared, self.newest_us = None, set(), {}, {}, {}  # the last of each channel
+        self.scene, self.titles, self.splits = None, set(), {}
+        self.shared = {}  # tokens of rows that are written once
+        self.newest_us = {}  # time of the last scan of each channel
         self.lidar = layout["lidar"] | {"path": f"samples/{layout['lidar']['channel']}/none{layout['lidar']['suffix']}"}
         for name, text in {self.lidar["path"]: "", **layout.get("files", {})}.items():
             output.write(name, base64.b64decode(text))
@@ -166,7 +168,7 @@ class Writer:
         for channel in channels:
             self.scans([(frame, scan, sample_of[i], i in names) for i, (frame, scans) in enumerate(frames) for scan in scans if scan.channel == channel])
         self.motion(scene, newest)
-        self.nothing(samples)
+        self.empty_lidar(samples)
         self.boxes(samples)
         self.scene = None
 
@@ -198,7 +200,7 @@ class Writer:
         self.rows("ego_pose", poses)
         self.linked("sample_data", tokens, rows)
 
-    def nothing(self, samples):
+    def empty_lidar(self, samples):
         """Rows of a lidar that sees nothing: devkits take the time and the pose of a sample from it."""
         mount, tokens = self.calibrated(self.lidar["channel"], "lidar", "[0.0,0.0,0.0]", turn(0)), [token(name, self.lidar["channel"]) for _, _, _, name in samples]
         self.linked("sample_data", tokens, [

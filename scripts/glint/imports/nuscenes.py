@@ -108,18 +108,24 @@ def yaw_of(rotation):
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
+def neighbours(at, times):
+    """The first and the last of up to three times in a row, each at most GAP_S behind the one before. Time `at` is one of
+    them, in the middle if it can be."""
+    def follows(i):
+        """Whether there is a time i, close behind the one before."""
+        return 0 < i < len(times) and times[i] - times[i - 1] <= GAP_S
+    if follows(at) and follows(at + 1):
+        return at - 1, at + 1
+    if follows(at + 1):
+        return at, at + 1 + follows(at + 2)
+    if follows(at):
+        return at - 1 - follows(at - 1), at
+    return at, at
+
+
 def slope(at, values, times):
-    """The derivative of the parabola through a value and two neighbours in time, of the line through one, or 0. Neighbours are at
-    most GAP_S from the next one."""
-    low = high = at
-    if at > 0 and times[at] - times[at - 1] <= GAP_S:
-        low = at - 1
-    if at + 1 < len(times) and times[at + 1] - times[at] <= GAP_S:
-        high = at + 1
-    if low == at and at < high < len(times) - 1 and times[high + 1] - times[high] <= GAP_S:
-        high += 1
-    elif high == at and 0 < low < at and times[low] - times[low - 1] <= GAP_S:
-        low -= 1
+    """The derivative of the parabola through a value and its two neighbours in time, of the line if there is one neighbour, or 0."""
+    low, high = neighbours(at, times)
     if low == high:
         return 0.0
     if high - low == 1:

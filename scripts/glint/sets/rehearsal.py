@@ -68,7 +68,7 @@ class Rehearsal:
         """Refuses tables that this build of glint-tables cannot pack."""
         with tempfile.TemporaryDirectory() as place:
             words = shlex.split(tool_of({**self.plan, "lines": "none"}, 0, place, None))
-            words.remove("--complete")  # of no frames
+            words.remove("--complete")  # which refuses an input without frames
             done = subprocess.run(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
         if done.returncode != 0:
             raise Fault(done.returncode, f"/compression: this fails: {shlex.join(words)}")

@@ -78,19 +78,19 @@ def rows_of_tables(counts):
 
 
 @functools.lru_cache(maxsize=None)
-def at_state(path, read, *_):
+def read_of_state(path, read, *_):
     return read(path)
 
 
-def at_its_state(path, read):
-    """What is read of a file: read again only if the system says that the file is another one, or has been written."""
+def read_if_changed(path, read):
+    """What `read` returns for the path of a file. It is called again only if the file is another one, or was written meanwhile."""
     state = os.stat(path)
-    return at_state(path, read, state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns)
+    return read_of_state(path, read, state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns)
 
 
 def check_inputs(layout, shard, folder, plan_folder):
     """The program, the copies of documents and the shard's own inputs are those of the layout."""
-    program = at_its_state(GLINT, program_version)
+    program = read_if_changed(GLINT, program_version)
     if program != layout["program"]:
         raise Fault(BAD_DATA, f"the set was begun by {layout['program']}; this is {program}")
     for place, known, names in ((folder, layout["documents"], None), (plan_folder, layout["inputs"], shard["inputs"])):
@@ -100,7 +100,7 @@ def check_inputs(layout, shard, folder, plan_folder):
                 continue
             if not os.path.isfile(path):
                 raise Fault(NO_INPUT, f"{path}: no such file")
-            if at_its_state(path, digest_of_file) != input_["hash"]:
+            if read_if_changed(path, digest_of_file) != input_["hash"]:
                 raise Fault(BAD_DATA, f"{path}: has changed since the set was begun")
 
 
@@ -138,7 +138,7 @@ def make(layout, part, folder, plan_folder):
 
 
 def side_by_side(work, items, jobs):
-    """Does the work for each item, for so many at a time. A fault is raised when what was begun has ended."""
+    """Calls work(item) for each item, as many at a time as `jobs`. A fault is raised when the calls that were begun have ended."""
     pool = concurrent.futures.ThreadPoolExecutor(jobs)
     try:
         for _ in pool.map(work, items):
@@ -148,7 +148,7 @@ def side_by_side(work, items, jobs):
 
 
 def make_missing(layout, left, folder, plan_folder, jobs):
-    """Makes shards, so many at a time. One that fails is named, and stops no other."""
+    """Makes the shards `left`, as many at a time as `jobs`. One that fails is named, and stops no other."""
     def attempt(part):
         try:
             make(layout, part, folder, plan_folder)
