@@ -79,7 +79,7 @@ static int print(const struct cost_state *own, struct runner *runner)
     if (own->json || runner_output_ends(runner, ".json"))
         return runner_write_record(runner, &cost_table_record, &cost->table);
     cost_write(cost, own->chosen, &text);
-    return runner_write_page(runner, &text);
+    return runner_write_fitted(runner, &text);
 }
 
 static int cost_run(void *state, struct runner *runner)

@@ -17,7 +17,7 @@ static int print(const struct plan_state *own, struct runner *runner)
     if (own->json || runner_output_ends(runner, ".json"))
         return runner_write_record(runner, &cost_table_record, &own->plan.table);
     plan_write(&own->plan, own->all, &text);
-    return runner_write_page(runner, &text);
+    return runner_write_fitted(runner, &text);
 }
 
 static int plan_run(void *state, struct runner *runner)

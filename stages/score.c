@@ -71,7 +71,7 @@ static int write_ensemble(struct score_state *own, struct runner *runner)
         return runner_write_record(runner, &ensemble_score_record, &score);
     struct text text = {0};
     ensemble_table(&score, &text);
-    return runner_write_page(runner, &text);
+    return runner_write_fitted(runner, &text);
 }
 
 static int score_stop(void *state, struct runner *runner)
@@ -93,7 +93,7 @@ static int score_stop(void *state, struct runner *runner)
         return runner_write_record(runner, &score_summary_record, &summary);
     struct text text = {0};
     score_table_summary(&summary, &text, runner_arena(runner));
-    return runner_write_page(runner, &text);
+    return runner_write_fitted(runner, &text);
 }
 
 static const struct field score_options[] = {

@@ -133,7 +133,7 @@ static int score_tracks_stop(void *state, struct runner *runner)
         return runner_write_record(runner, &score_track_summary_record, &summary);
     struct text text = {0};
     score_table_track_summary(&summary, &text);
-    return runner_write_page(runner, &text);
+    return runner_write_fitted(runner, &text);
 }
 
 static const struct field score_tracks_options[] = {

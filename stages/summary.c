@@ -36,7 +36,7 @@ static int summary_run(void *state, struct runner *runner)
     struct text text = {0};
     if (more == 0)
         stream_counts_write(&summary->counts, &text);
-    return more == 0 ? runner_write_page(runner, &text) : -1;
+    return more == 0 ? runner_write_fitted(runner, &text) : -1;
 }
 
 static void summary_release(void *state)

@@ -136,7 +136,7 @@ static int write_counts(struct tables_state *own, struct runner *runner)
     struct text text = {0};
     stream_counts_write(&own->counted, &text);
     detection_tables_write_counts(&own->tables, &text);
-    return runner_write_page(runner, &text);
+    return runner_write_fitted(runner, &text);
 }
 
 static int tables_run(void *state, struct runner *runner)
@@ -186,9 +186,10 @@ const struct stage stage_tables = {
         "the frame, with the same names and units. Columns that end in _key are whole numbers "
         "that join the rows of two tables. The parts of one set need different keys: --part gives "
         "each part its own. --npy writes arrays of NumPy, in which text is a number: the place of "
-        "a name in names.json. schemas/README.md describes the tables. A folder that has a table "
-        "of another kind, packed (.csv.gz, .csv.zst) or plain (.csv), is refused, as readers take "
-        "all. Old tables go before the first new one comes: where a run is killed meanwhile, some "
+        "a name in names.json. schemas/README.md describes the tables. Readers take tables of "
+        "CSV plain (.csv) or packed (.csv.gz, .csv.zst), so a folder with tables of CSV of another "
+        "kind is refused; arrays may lie beside them. Old tables go before the first new one "
+        "comes: where a run is killed meanwhile, some "
         "tables are missing, and none is older than another. Run it again then.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",

@@ -67,7 +67,7 @@ int runner_write_text(struct runner *runner, struct text *text)
     return result;
 }
 
-int runner_write_page(struct runner *runner, struct text *text)
+int runner_write_fitted(struct runner *runner, struct text *text)
 {
     if (runner_output_is_terminal(runner))
         terminal_fit(text, terminal_columns(STDOUT_FILENO));

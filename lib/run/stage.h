@@ -119,7 +119,7 @@ const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, 
  * broken at the width of a terminal that shows it; or a record as a line of JSON. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);
 int runner_write_text(struct runner *runner, struct text *text);
-int runner_write_page(struct runner *runner, struct text *text);
+int runner_write_fitted(struct runner *runner, struct text *text);
 int runner_write_record(struct runner *runner, const struct record *record, const void *base);
 
 /* True if the name that --output gives ends in this, or in this and .gz or .zst, in letters
