@@ -486,6 +486,9 @@ class Loop:
     def restart(self):
         self.end()
         self.frames, self.answers, self.told = 0, b"", tempfile.TemporaryFile()
+        self.starts += 1
+        if self.record is not None:
+            self._begin_recording(self.record if self.starts == 1 else f"{self.record}.{self.starts}")
         for command in self.commands:
             before = self.processes[-1].stdout if self.processes else subprocess.PIPE
             try:
@@ -498,15 +501,24 @@ class Loop:
                 before.close()  # the next one has it, and alone: its end is told to the one before
         for pipe in (self.processes[0].stdin, self.processes[-1].stdout):
             os.set_blocking(pipe.fileno(), False)
-        self.starts += 1
-        if self.record is not None:
-            self._begin_recording(self.record if self.starts == 1 else f"{self.record}.{self.starts}")
 
     def _begin_recording(self, path):
         first, *others = map(shlex.join, stages_of(self.chain))
         chain = " | ".join([f"{first} <<'END'", *others])
         self.recording = open(path, "wb", buffering=0)
-        self.recording.write(f"# A recording of glint.Loop: `glint FILE` plays it.\nset -o pipefail\n{chain}\n".encode())
+        self._keep(f"# A recording of glint.Loop: `glint FILE` plays it.\nset -o pipefail\n{chain}\n".encode())
+
+    def _keep(self, text):
+        """Writes all of a text into the recording; where that fails, the recording ends there, and the chain with it."""
+        try:
+            while text:
+                text = text[self.recording.write(text):]
+        except OSError as error:
+            path = self.recording.name
+            self.recording.close()
+            self.recording = None
+            self.end()
+            raise OSError(error.errno, f"{path}: {error.strerror}") from None
 
     def step(self, ego, objects, **members):
         """The targets of the next frame; members: others of the frame, as conditions."""
@@ -519,7 +531,7 @@ class Loop:
             raise ChainError("the chain has ended; restart() starts it again")
         text = json.dumps(frame, allow_nan=False, separators=(",", ":")).encode() + b"\n"
         if self.recording:
-            self.recording.write(text)
+            self._keep(text)
         try:
             answer = decoded(self._exchange(text))
             if not all(answer[name] == frame[name] for name in ("scene", "frame")) or "targets" not in answer:
@@ -559,10 +571,6 @@ class Loop:
     def end(self, patience_s=0):
         """Ends the chain, by force what has not ended after patience_s; the exit status of the last stage that failed, or 0."""
         processes, self.processes, end_s = self.processes, [], time.monotonic() + patience_s
-        if self.recording:
-            self.recording.write(b"END\n")
-            self.recording.close()
-            self.recording = None
         for process in processes[:1]:
             process.stdin.close()
         for process in processes:
@@ -571,6 +579,10 @@ class Loop:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             process.stdout.close()
+        if self.recording:
+            self._keep(b"END\n")
+            self.recording.close()
+            self.recording = None
         return next(filter(None, [process.wait() for process in reversed(processes)]), 0)
 
     def __enter__(self):

@@ -6,6 +6,7 @@ Through pipes, FIFOs, sockets and terminals, plain and gzip, through processes a
 of a run over a file. An answer that has not come after a minute counts as never coming. glint.Loop (scripts/glint) is
 tried hard: its chains are killed, stopped, fed and made to write garbage, and started again.
 """
+import contextlib
 import json
 import math
 import os
@@ -16,6 +17,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import tty
 import zlib
@@ -350,6 +352,20 @@ def recordings(folder):
         loop.step("ego", OBJECTS)
     yield "bash plays stages of one's own", played(["bash", path], loop.heard) or (None if b'"first"' in loop.heard else "no first")
     yield "glint does not", played(["glint", path], b"", 64)
+    with glint.Loop(CHAIN, record=path) as loop:
+        process = loop.processes[0]
+        os.dup2(os.open("/dev/full", os.O_WRONLY), loop.recording.fileno())
+        try:
+            loop.step("ego", OBJECTS)
+            yield "a recording on a full disk", "does not fail"
+        except OSError as error:
+            yield "a recording on a full disk", None if str(error) == f"[Errno 28] {path}: No space left on device" else str(error)
+        yield "its chain", None if process.poll() is not None else "it still runs"
+    with contextlib.suppress(FileNotFoundError), glint.Loop(CHAIN, record=os.path.join(folder, "none", "loop.sh")):
+        pass
+    with open(f"/proc/self/task/{threading.get_native_id()}/children", encoding="ascii") as children:
+        left = children.read()
+    yield "a recording in no folder leaves no chain", f"processes {left}" if left else None
 
 
 def large_frames(folder):
