@@ -47,8 +47,9 @@ struct stage {
     /* Sets of enum frame_part. A frame must have the parts that the stage reads. It must not yet
      * have those that the stage writes, except lost, counts and vehicles, which it adds to, and
      * parts that it reads as well, which it changes in place. The runner orders and checks only
-     * the parts in writes after a step, so a stage must change no other (test_runner). A tool
-     * with an empty set reads no frames. */
+     * the parts in writes after a step, so a stage must change no other (test_runner). It may set
+     * members of the header; in place of roadside strips, interferers and letters of a name, which
+     * the runner does not compare, it sets new ones. A tool with an empty set reads no frames. */
     unsigned reads, writes;
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
