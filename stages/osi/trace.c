@@ -35,7 +35,7 @@ static int check_times(struct trace *trace, const struct frame *frame, bool firs
         return diag_fail(diag, DIAG_DATA,
                          "time_s: a measurement at %.12g s; expected one in [0, %.12g] s: "
                          "--shift-s is added to all times",
-                         first_s, trace->end_s);
+                         first_s < 0 ? first_s : last_s, trace->end_s);
     uint64_t before_ns = trace->time_ns;
     trace->time_ns = trace_ns(trace, frame->time_s);
     if (!first && trace->time_ns <= before_ns)
