@@ -183,6 +183,7 @@ def what_is_no_set_is_refused(folder):
             ({"sample_annotation": changed("sample_annotation", 4, instance_token="x")}, "instance_token 'x'; expected a token of instance.json"),
             ({"sample_annotation": changed("sample_annotation", 2, size=[1, 2])}, "sample_annotation.json: row 3.size: [1, 2]; expected three numbers"),
             ({"sample_annotation": changed("sample_annotation", 0, rotation=[1, 0, 0, "0"])}, "row 1.rotation: [1, 0, 0, '0']; expected a quaternion w, x, y, z"),
+            ({"sample_annotation": [*good["sample_annotation"], good["sample_annotation"][0]]}, f"{good['sample_annotation'][0]['instance_token']} is in two boxes at "),
             ({"sample_annotation": "[{}"}, "sample_annotation.json: row 1.sample_token: missing"),
             ({"sample_annotation": json.dumps(good["sample_annotation"])[:-300]}, "sample_annotation.json: row 5: "),
             ({"sample_annotation": json.dumps(good["sample_annotation"])[:-1]}, "sample_annotation.json: row 6: the end; expected , or ]"),
@@ -199,6 +200,14 @@ def what_is_no_set_is_refused(folder):
         assert sorted(os.listdir(folder)) == ["set"]
     shutil.rmtree(os.path.join(folder, "set"))
     root, _ = a_set(folder)
+    for name, text, wrong in (("boxes", b"box,object\n1,car\n", "glint-boxes.csv: no column 'class'; expected box, object, class"),
+                              ("egos", b"\xff\n", "glint-egos.csv: 'utf-8' codec can't decode byte 0xff"),
+                              ("egos", b"token,object,class,rear_axle_x_m\ns,ego,car,far\n", "glint-egos.csv: could not convert string to float: 'far'")):
+        path = f"{root}/glint-{name}.csv"
+        with open(path, "wb") as file:
+            file.write(text)
+        assert wrong in imported("nuscenes", "--out", out, root, status=65), wrong
+        os.remove(path)
     for words, status, wrong in ((["nuscenes", "--out", out, folder + "/no"], 66, "no scene.json; expected one folder of tables"), (["kitti", "--out", out, root], 65, "kitti.json: no read"),
                                  (["nuscenes", "--out", root, root], 73, "is there already"), (["nuscenes", root], 64, "--out"), (["nuscenes", "--out", out], 64, "set"),
                                  (["nuscenes", "--out", out, "--scene", "scene-9", root], 65, "no scene scene-9; it has scene-0061")):

@@ -94,13 +94,22 @@ def tables_of(folder):
     return found[0]
 
 
-def beside(tables, name):
+BOXES = {"box": str, "object": str, "class": str}
+EGOS = {"token": str, "object": str, "class": str, "rear_axle_x_m": float, "length_m": float, "width_m": float, "height_m": float}
+
+
+def beside(tables, name, columns):
     """The rows of a table of glint's that scripts/export wrote beside those of the layout."""
     path = os.path.join(tables, "..", f"glint-{name}.csv")
     if not os.path.exists(path):
         return []
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            return [{column: kind(row[column]) for column, kind in columns.items()} for row in csv.DictReader(file, restval="")]
+    except KeyError as error:
+        raise Fault(BAD_DATA, f"{path}: no column {error}; expected {', '.join(columns)}") from error
+    except (ValueError, csv.Error) as error:
+        raise Fault(BAD_DATA, f"{path}: {error}") from error
 
 
 def yaw_of(rotation):
@@ -147,8 +156,8 @@ class Source:
         self.samples = {row["token"]: (row["scene_token"], row["timestamp"]) for row in self.rows("sample")}
         self.categories = {row["token"]: row["name"] for row in self.rows("category")}
         self.instances = {row["token"]: row["category_token"] for row in self.rows("instance")}
-        self.named = {row["box"]: (row["object"], row["class"]) for row in beside(self.tables, "boxes")}
-        self.carriers = {row["token"]: row for row in beside(self.tables, "egos")}
+        self.named = {row["box"]: (row["object"], row["class"]) for row in beside(self.tables, "boxes", BOXES)}
+        self.carriers = {row["token"]: row for row in beside(self.tables, "egos", EGOS)}
         self.tracks = {token: {} for token in self.scenes}  # of a scene by instance: time in us, x, y, yaw, length, width, height
 
     def rows(self, table):
@@ -182,9 +191,9 @@ class Source:
         for row in self.rows("ego_pose"):
             for scene, at in wanted.pop(row["token"], ()):
                 box = self.carriers.get(scene, self.words["ego"])
-                ahead, yaw = -float(box["rear_axle_x_m"]), yaw_of(row["rotation"])
+                ahead, yaw = -box["rear_axle_x_m"], yaw_of(row["rotation"])
                 x, y = (place + ahead * part for place, part in zip(row["translation"], (math.cos(yaw), math.sin(yaw))))
-                self.keep(scene, "", at, (x, y, yaw, *(float(box[name]) for name in ("length_m", "width_m", "height_m"))))
+                self.keep(scene, "", at, (x, y, yaw, *(box[name] for name in ("length_m", "width_m", "height_m"))))
         if wanted:
             raise Fault(BAD_DATA, f"{self.tables}/sample_data.json: ego_pose_token {min(wanted)!r}; expected a token of ego_pose.json")
 
@@ -217,6 +226,8 @@ class Source:
         table.writerow(HEADING)
         for instance, values in self.tracks[scene].items():
             (name, kind), steps = self.label(scene, instance), sorted(zip(*[iter(values)] * 7))
+            if again := next((int(one[0]) for one, other in zip(steps, steps[1:]) if one[0] == other[0]), None):
+                raise Fault(BAD_DATA, f"{self.tables}: {instance or 'the ego'} is in two boxes at {again} us; expected one in a sample")
             times = [(step[0] - steps[0][0]) / 1e6 for step in steps]
             places = [[step[i] for step in steps] for i in (1, 2)]
             for i, (at, x, y, *shape) in enumerate(steps):
