@@ -145,7 +145,9 @@ static const struct field score_tracks_options[] = {
      .word = "FILE"},
     {OPTIONAL_CHOICE(struct score_tracks, objects, track_score_truths,
                      "the objects that a tracker should find; absent: in_view")},
-    {OPTIONAL_NAME(struct score_tracks, classes, "only objects of these classes: car,truck"),
+    {OPTIONAL_NAME(
+         struct score_tracks, classes,
+         "only objects of these classes: car,truck; absent: all but guardrail, post, wall"),
      .word = "LIST"},
     {OPTIONAL_FLAG(struct score_tracks, summary, "write one JSON line for the whole stream")},
     {OPTIONAL_FLAG(struct score_tracks, text,
@@ -168,7 +170,11 @@ const struct stage stage_score_tracks = {
         "is right. --objects chooses the objects that count: in_view, if their centre is within "
         "the range and field of view of a sensor; detected, if a target of the frame contains one "
         "of their echoes, where frames without a measurement are counted and not scored; all. The "
-        "ego never counts. A frame that one side lacks is an error. "
+        "ego never counts, and guardrails, posts and walls only where --classes names them. A "
+        "track "
+        "without a pair within 2 m of the box of an object that does not count is neither right "
+        "nor "
+        "false, and not in listed_count. A frame that one side lacks is an error. "
         "Tracks have no seed, so each scene of the stream must have a "
         "single seed.\n\n"
         "--against has the tracks of another tracker, or those from another chain's lists. The "

@@ -152,11 +152,17 @@ static bool in_view(const struct frame *frame, const struct object *object)
     return false;
 }
 
+static bool is_of_class(const struct object *object, const char *classes)
+{
+    if (classes == NULL)
+        return !is_named(TRACK_SCORE_STRUCTURES, object->class);
+    return is_named(classes, object->class);
+}
+
 bool track_score_counts(const struct frame *frame, const struct object *object,
                         enum track_truth truth, const char *classes)
 {
-    return strcmp(object->id, frame->ego) != 0 &&
-           (classes == NULL || is_named(classes, object->class)) &&
+    return strcmp(object->id, frame->ego) != 0 && is_of_class(object, classes) &&
            (truth == TRACK_TRUTH_ALL || (truth == TRACK_TRUTH_IN_VIEW && in_view(frame, object)) ||
             (truth == TRACK_TRUTH_DETECTED && frame_detects(frame, object->id)));
 }
@@ -206,6 +212,30 @@ static struct object_list true_objects(const struct frame *frame, enum track_tru
     return objects;
 }
 
+/* Distance of the track from the box of the object, 0 inside. */
+static double beside_m(const struct track *track, const struct object *object)
+{
+    struct vec2 offset = {track->x_m - object->x_m, track->y_m - object->y_m};
+    struct vec2 heading = vec2_heading(object->yaw_rad);
+    double along = fabs(vec2_dot(offset, heading)) - object->length_m / 2;
+    double across = fabs(vec2_cross(heading, offset)) - object->width_m / 2;
+    return elementary_hypot(fmax(along, 0), fmax(across, 0));
+}
+
+/* True if the track is of an object that is not expected. */
+static bool excused(const struct frame *frame, const struct track *track, enum track_truth truth,
+                    const char *classes)
+{
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        if (strcmp(object->id, frame->ego) != 0 &&
+            beside_m(track, object) <= TRACK_SCORE_BESIDE_M &&
+            !track_score_counts(frame, object, truth, classes))
+            return true;
+    }
+    return false;
+}
+
 struct track_pairs track_score_pairs(const struct frame *frame, const struct track_list *list,
                                      enum track_truth truth, const char *classes)
 {
@@ -230,9 +260,13 @@ struct track_pairs track_score_pairs(const struct frame *frame, const struct tra
         pair->apart_m = distance[i * columns + track_of[i]];
         paired[track_of[i]] = true;
     }
-    for (size_t j = 0; j < columns; j++)
-        if (!paired[j])
-            list_add(&pairs.list, frame->arena)->track = &list->tracks.items[j];
+    for (size_t j = 0; j < columns; j++) {
+        if (paired[j])
+            continue;
+        struct track_pair *alone = list_add(&pairs.list, frame->arena);
+        alone->track = &list->tracks.items[j];
+        alone->excused = excused(frame, alone->track, truth, classes);
+    }
     return pairs;
 }
 
@@ -248,12 +282,13 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
     struct score_values *errors = tally->values[SCORE_ERROR];
     double squares = 0;
     int64_t switches = 0;
-    size_t objects = 0, pairs = 0;
+    size_t objects = 0, listed = 0, pairs = 0;
     for (size_t i = 0; i < found.list.count; i++) {
         const struct track_pair *pair = &found.list.items[i];
         const struct object *object = pair->object;
         const struct track *track = pair->track;
         objects += object != NULL;
+        listed += track != NULL && !pair->excused;
         if (object == NULL || track == NULL)
             continue;
         pairs++;
@@ -266,7 +301,7 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
         switches +=
             track_score_replaced(memory, frame->scene, object->id, track->id, lasting) != NULL;
     }
-    score_add_scan(tally, squares, pairs, objects, list->tracks.count, TRACK_SCORE_CUTOFF_M);
+    score_add_scan(tally, squares, pairs, objects, listed, TRACK_SCORE_CUTOFF_M);
     return switches;
 }
 

@@ -2,7 +2,8 @@
  *
  * The distance of a track and an object is that of their centres in the plane, in metres. An
  * identity switch is an object that is paired with another track than when it was last paired in
- * its scene, however long ago. */
+ * its scene, however long ago. A track that is paired with no object and lies on one that is not
+ * expected is excused: it is no false track, and is not counted. */
 #pragma once
 
 #include "base/intern.h"
@@ -49,12 +50,16 @@ extern const char *const track_score_truths[];
 /* Refuses a frame without the part that decides which objects count (DIAG_DATA). */
 int track_score_check(const struct frame *frame, enum track_truth truth, struct diag *diag);
 
+/* Classes of what stands beside the road. */
+#define TRACK_SCORE_STRUCTURES "guardrail,post,wall"
+
 /* True if the tracker is expected to have the object. classes is a list of names separated by
- * commas, NULL for any. */
+ * commas, NULL for any but structures. */
 bool track_score_counts(const struct frame *frame, const struct object *object,
                         enum track_truth truth, const char *classes);
 
 enum { TRACK_SCORE_CUTOFF_M = 5 }; /* tracks so far off an object are not paired with it */
+enum { TRACK_SCORE_BESIDE_M = 2 }; /* tracks at most so far off the box of an object lie on it */
 
 /* The last track of every object, by scene. It lies in the arena it is given and grows with the
  * objects. A zeroed one is empty. */
@@ -74,18 +79,19 @@ const char *track_score_replaced(struct track_memory *memory, const char *scene,
 void track_score_forget(struct track_memory *memory, const char *scene);
 
 /* An expected object and its track, and the distance of their centres. object is NULL for a false
- * track, track for a missed object. */
+ * or excused track, track for a missed object. */
 struct track_pair {
     const struct object *object;
     const struct track *track;
     double apart_m;
+    bool excused;
 };
 
 struct track_pairs {
     LIST_OF(struct track_pair) list;
 };
 
-/* Pairs as the score does: all expected objects, and then all false tracks, each in the order of
+/* Pairs as the score does: all expected objects, and then all other tracks, each in the order of
  * their ids. The pairs lie in the frame's arena. */
 struct track_pairs track_score_pairs(const struct frame *frame, const struct track_list *list,
                                      enum track_truth truth, const char *classes);

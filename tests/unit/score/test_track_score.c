@@ -75,6 +75,62 @@ TEST(classes_are_whole_words)
                          cases[i].counts);
 }
 
+TEST(structures_count_where_they_are_asked_for)
+{
+    struct frame frame = frame_with_thing_at(90, 52);
+    objects[1].class = "guardrail";
+    assert_false(track_score_counts(&frame, &objects[1], TRACK_TRUTH_ALL, NULL));
+    assert_true(track_score_counts(&frame, &objects[1], TRACK_TRUTH_ALL, "car,guardrail"));
+    objects[1].class = "truck";
+}
+
+/* A wall of 300 m by 0.2 m, turned by atan(3/4), whose middle is 100 m from the track along it. */
+TEST(a_track_on_an_object_that_is_not_expected_is_not_false)
+{
+    struct arena *arena = check_arena();
+    struct object wall = {.id = "thing",
+                          .class = "wall",
+                          .x_m = 10,
+                          .y_m = -8,
+                          .yaw_rad = 0.64350110879328437,
+                          .length_m = 300,
+                          .width_m = 0.2};
+    static const struct {
+        double along_m, across_m;
+        const char *classes;
+        bool excused;
+    } cases[] = {{100, 2.09, NULL, true},    {100, -2.09, NULL, true},  {100, 2.11, NULL, false},
+                 {100, -2.11, NULL, false},  {151.99, 0, NULL, true},   {152.01, 0, NULL, false},
+                 {151.2, 1.71, NULL, false}, {151.2, 1.69, NULL, true}, {100, 0, "wall", false}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct frame frame = frame_with_thing_at(0, 0);
+        frame.objects.items = (struct object[]){objects[0], wall};
+        frame.arena = arena;
+        struct track track = {.id = "1",
+                              .x_m = 10 + 0.8 * cases[i].along_m - 0.6 * cases[i].across_m,
+                              .y_m = -8 + 0.6 * cases[i].along_m + 0.8 * cases[i].across_m};
+        struct track_list list = {.tracks = {&track, 1, 1}};
+        struct track_memory memory = {0};
+        struct score_tally tally = {0};
+        track_score_frame(&tally, &frame, &list, TRACK_TRUTH_ALL, cases[i].classes, &memory, arena);
+        struct score score = score_of(&tally, 1, arena);
+        assert_int_equal(score.false_count, !cases[i].excused);
+        assert_int_equal(score.missed_count, cases[i].classes != NULL);
+    }
+}
+
+TEST(a_track_on_the_ego_is_false)
+{
+    struct arena *arena = check_arena();
+    struct frame frame = frame_with_thing_at(200, 200);
+    frame.arena = arena;
+    struct track track = {.id = "1", .x_m = 100, .y_m = 50};
+    struct track_list list = {.tracks = {&track, 1, 1}};
+    struct track_pairs pairs = track_score_pairs(&frame, &list, TRACK_TRUTH_IN_VIEW, NULL);
+    assert_int_equal(pairs.list.count, 1);
+    assert_false(pairs.list.items[0].excused);
+}
+
 TEST(a_frame_without_the_part_that_decides_is_refused)
 {
     struct diag diag = {0};
