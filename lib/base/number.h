@@ -7,6 +7,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
+
+/* The bits of a double, which tell 0 from -0. */
+static inline uint64_t number_bits(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
 
 enum { NUMBER_SIZE = 40, NUMBER_DIGITS = 19, NUMBER_ROOM = 64 };
 

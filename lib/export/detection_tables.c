@@ -207,7 +207,7 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key, 
             columns->zeros = structs[table][i].record == &sighting_record;
         }
         if (rows != NULL)
-            detection_tables_write_head(tables, table, rows);
+            detection_tables_write_head(tables, (enum table)table, rows);
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/number.h"
+
 /* NumPy wants data at a multiple of 64 bytes, behind a magic word, a version and the length of the
  * text. Spaces fill the text up, so that a number of rows of any size fits. */
 enum { HEAD_BEGIN = 10, HEAD_UNIT = 64, CELL_SIZE = 8, ROWS_WIDTH = 20 };
@@ -71,17 +73,10 @@ static uint64_t word_of(const struct field *field, const void *base, struct npy_
     return intern_number(&names->list, names->word.bytes, names->word.length, names->arena);
 }
 
-static uint64_t bits_of(double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
 static uint64_t cell_of(const struct field *field, const void *base, struct npy_names *names)
 {
     if (field->kind == FIELD_REAL)
-        return bits_of(base != NULL ? FIELD_LOAD(double, field, base) : (double)NAN);
+        return number_bits(base != NULL ? FIELD_LOAD(double, field, base) : (double)NAN);
     if (field->kind == FIELD_INTEGER)
         return base != NULL ? (uint64_t)FIELD_LOAD(int64_t, field, base) : UINT64_MAX;
     if (base == NULL)

@@ -1,5 +1,7 @@
 #include "run/extraction.h"
 
+#include <assert.h>
+
 #include "base/hash.h"
 #include "documents/vehicle_set.h"
 #include "frame/frame_order.h"
@@ -121,7 +123,9 @@ struct extracted_classes {
 
 static bool is_named(const void *classes, uint32_t number, const void *name)
 {
-    return frame_same_name(((const struct extracted_class *)classes)[number].name, name);
+    const struct extracted_class *list = classes;
+    assert(list != NULL);
+    return frame_same_name(list[number].name, name);
 }
 
 /* A frame that was extracted before keeps to the documents that it names. */

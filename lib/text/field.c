@@ -219,18 +219,11 @@ int field_read_number(const char *text, size_t length, double *value)
 
 static bool any_present(const struct record *record, const void *base);
 
-static uint64_t bits_of(double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
 bool field_differs(const struct field *field, const void *base)
 {
     switch (field->kind) {
     case FIELD_REAL: /* bit by bit, because readers distinguish minus zero from zero */
-        return FIELD_LOAD(uint64_t, field, base) != bits_of(field->absent);
+        return FIELD_LOAD(uint64_t, field, base) != number_bits(field->absent);
     case FIELD_INTEGER:
         return FIELD_LOAD(int64_t, field, base) != (int64_t)field->absent;
     case FIELD_SEED:

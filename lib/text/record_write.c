@@ -30,8 +30,7 @@ static inline bool reals_inside(const struct field *field, const char *item, con
 /* Is this optional number absent? Bit by bit, because an absent 0 has one sign. */
 static bool is_absent(const struct field *field, double value)
 {
-    return field->optional && field->group == 0 &&
-           memcmp(&value, &field->absent, sizeof value) == 0;
+    return field->optional && field->group == 0 && number_bits(value) == number_bits(field->absent);
 }
 
 static int check_numbers(const struct record *record, const struct field *field,
