@@ -219,7 +219,7 @@ static double beside_m(const struct track *track, const struct object *object)
     struct vec2 heading = vec2_heading(object->yaw_rad);
     double along = fabs(vec2_dot(offset, heading)) - object->length_m / 2;
     double across = fabs(vec2_cross(heading, offset)) - object->width_m / 2;
-    return elementary_hypot(fmax(along, 0), fmax(across, 0));
+    return elementary_hypot(along > 0 ? along : 0, across > 0 ? across : 0);
 }
 
 /* True if the track is of an object that is not expected. */
