@@ -16,12 +16,13 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
+ROOT = Path(__file__).resolve().parents[2]
+sys.path += [str(ROOT / "tests/support"), str(ROOT / "scripts")]
+import glint  # noqa: E402
 import suites  # noqa: E402
 from sizes import quick  # noqa: E402
 
 C = 299792458.0
-ROOT = Path(__file__).resolve().parents[2]
 QUIET = "all,-angle_noise"
 PADDING = 2  # cells of the transforms to a bin
 SEED = 14
@@ -214,7 +215,7 @@ class Program:
                               env={"GLINT_DATA": str(ROOT / "data"), "PATH": str(self.bin)})
         if done.returncode:
             raise SystemExit(f"{text}: exit status {done.returncode}\n{done.stderr}")
-        return [json.loads(line) for line in done.stdout.splitlines()]
+        return [glint.name_lost(json.loads(line)) for line in done.stdout.splitlines()]
 
     def targets(self, sensor, scans, effects=QUIET, stages="glint-sensor-signal"):
         """The targets of scans, each of which is a list of points (range, rate, ERCS) on boresight."""
