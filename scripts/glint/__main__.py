@@ -7,6 +7,7 @@
 pip installs the same under the programs' own names: glint, glint-traffic, glint-dataset ...
 """
 import os
+import re
 import runpy
 import signal
 import sys
@@ -37,5 +38,5 @@ def called():
 
 if __name__ == "__main__":
     sys.argv[0] = "python3 -m glint"
-    command_line.check(__doc__, sys.argv[1:])
-    run(sys.argv[1], sys.argv[2:])
+    command_line.check(__doc__, len(sys.argv) > 1 and re.fullmatch(r"[a-z][a-z0-9-]*", sys.argv[1]))
+    run(sys.argv[1].removeprefix("glint-"), sys.argv[2:])

@@ -397,14 +397,17 @@ def columns(*sources, chain=None):
         return _arrays(folder)
 
 
+TABLES = "contributors", "detections", "frames", "lost", "objects", "scans", "sightings"
+
+
 def _arrays(folder):
     import numpy  # of all functions here this one alone needs it
     with open(os.path.join(folder, "names.json"), encoding="utf-8") as file:
         names = numpy.array(json.load(file), dtype=object)
     tables = {}
-    for path in sorted(glob.glob(os.path.join(glob.escape(folder), "*.npy"))):
-        rows = numpy.load(path, mmap_mode="r")
-        tables[os.path.basename(path)[:-len(".npy")]] = {
+    for table in TABLES:  # a folder that lacks one was not written to its end
+        rows = numpy.load(os.path.join(folder, f"{table}.npy"), mmap_mode="r")
+        tables[table] = {
             name: names[rows[name]] if rows.dtype[name].kind == "u" else numpy.array(rows[name]) for name in rows.dtype.names}
     return tables
 
