@@ -105,9 +105,11 @@ module.exports = ({work, write, view, withPage}) => {
                         missed_count: ids.filter((one, i) => !one && objects[i]).length,
                         false_count: ids.filter((one, i) => one && !objects[i]).length};
                 });
-                for (const [name, count] of Object.entries(counts)) {
-                    assert.strictEqual(count, score.all[name], name);
+                for (const name of ['pair_count', 'missed_count']) {
+                    assert.strictEqual(counts[name], score.all[name], name);
                 }
+                // The page also shows the tracks on objects that do not count, which are neither right nor false.
+                assert.ok(counts.false_count >= score.all.false_count, 'false_count');
                 assert.match(await page.innerText('#comparison'),
                     new RegExp(`Identity switches in the whole scene: ${score.id_switches}\\.`));
                 await page.keyboard.press('Home');

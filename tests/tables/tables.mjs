@@ -17,6 +17,12 @@ const DETECTIONS_A_FRAME = 26.5;
 const CHAIN = 'glint-extract | glint-ideal --sensors corner77-four ACCOUNT | glint-sensor | glint-noise';
 let faults = 0;
 
+// Lost echoes with the object and the path that a line leaves out: those of the echo before, and "direct".
+function named(echoes) {
+    let object = null;
+    return echoes.map(echo => ({path: 'direct', ...echo, object: object = echo.object ?? object}));
+}
+
 function stream(frames, account, seed) {
     return `glint-traffic-random --density dense --frames ${frames} --seed ${seed} | ${CHAIN.replace('ACCOUNT', account)}`;
 }
@@ -134,7 +140,7 @@ function rowsOfFrame(frame, next) {
                     ...Object.fromEntries(COUNTS.map(name => [name, 0])), ...sighting});
         for (const group of frame.lost ?? [])
             if (group.sensor === sensor.name)
-                for (const echo of group.echoes)
+                for (const echo of named(group.echoes))
                     rows.lost.push({scan_key: next.scan, object_key: keys.get(echo.object) ?? null, ...values(group),
                         ...values(echo)});
         next.scan++;
