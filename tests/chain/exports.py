@@ -697,6 +697,16 @@ def what_formats_cannot_hold_is_refused(folder):
     assert not [name for name in os.listdir(folder) if name.startswith("out")], os.listdir(folder)
 
 
+def spoil(record, path, value):
+    """Gives the member at the path this value, or takes it away."""
+    for key in path[:-1]:
+        record = record[key]
+    if value == "left out":
+        del record[path[-1]]
+    else:
+        record[path[-1]] = value
+
+
 def any_member_may_be_wrong(folder):
     """Each member of the second frame is left out or replaced: what is not written is refused in one line, with 65."""
     good = [frame_of([body("ego", vx=20), body("other", x=12)], [target(), target()], i, visibility=[
@@ -707,13 +717,7 @@ def any_member_may_be_wrong(folder):
     for path in list(members(good[1])):
         for value in ("left out", None, "x", [1], 1e308):
             frames = json.loads(json.dumps(good))
-            record = frames[1]
-            for key in path[:-1]:
-                record = record[key]
-            if value == "left out":
-                del record[path[-1]]
-            else:
-                record[path[-1]] = value
+            spoil(frames[1], path, value)
             save(folder, "wrong.jsonl", frames)
             for form in ("nuscenes", "kitti"):
                 status, said = in_a_fork("export", [form, "--out", "out", "wrong.jsonl"])
@@ -734,13 +738,8 @@ def what_is_taken_at_once_is_whole(_):
     for path in members(good):
         for value in ("left out", None, "x", "", [], [1], {}, True, -1, 0, 1.5, 1e4, 1e8, 1e308, math.inf, math.nan):
             frame = glint.Frame(json.loads(json.dumps(good)))
-            record, frame.place = frame, "here"
-            for key in path[:-1]:
-                record = record[key]
-            if value == "left out":
-                del record[path[-1]]
-            else:
-                record[path[-1]] = value
+            frame.place = "here"
+            spoil(frame, path, value)
             if quick.is_whole(frame, of_quality):
                 streams.refuse_what_is_not_whole(frame)
                 taken += 1

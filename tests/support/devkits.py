@@ -142,18 +142,14 @@ class Tables:
                 assert (row["next"] == "") == (after is None) and (after is None or after["prev"] == row["token"])
                 if after and name != "sample_annotation":
                     assert after["timestamp"] > row["timestamp"]
-        for row in self.rows["scene"]:
-            walked, at = [], row["first_sample_token"]
-            while at:
-                walked.append(at)
-                at = self.of("sample", at)["next"]
-            assert walked[-1] == row["last_sample_token"] and len(walked) == row["nbr_samples"]
-        for row in self.rows["instance"]:
-            walked, at = [], row["first_annotation_token"]
-            while at:
-                walked.append(at)
-                at = self.of("sample_annotation", at)["next"]
-            assert walked[-1] == row["last_annotation_token"] and len(walked) == row["nbr_annotations"]
+        for owner, name, part, number in (("scene", "sample", "sample", "nbr_samples"),
+                                          ("instance", "sample_annotation", "annotation", "nbr_annotations")):
+            for row in self.rows[owner]:
+                walked, at = [], row[f"first_{part}_token"]
+                while at:
+                    walked.append(at)
+                    at = self.of(name, at)["next"]
+                assert walked[-1] == row[f"last_{part}_token"] and len(walked) == row[number]
 
     def points(self, data):
         path = os.path.join(self.root, data["filename"])
