@@ -757,13 +757,7 @@ def any_member_of_a_layout_may_be_wrong(folder):
         for path in [(), *members(good)]:
             for value in ("left out", 0, "x", {"car": 0}):
                 layout = {"": json.loads(json.dumps(good))}
-                record, name = layout, ""
-                for key in path:
-                    record, name = record[name], key
-                if value == "left out":
-                    del record[name]
-                else:
-                    record[name] = value
+                spoil(layout, ("", *path), value)
                 save(folder, "layout.json", [layout.get("", [])])
                 status, said = in_a_fork("export", ["./layout.json", "--out", "out", "hand.jsonl"])
                 assert status == 0 or status == 65 and said.startswith("export: ./layout.json: /"), (form, path, value, status, said)
