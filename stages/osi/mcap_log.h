@@ -18,7 +18,10 @@ struct mcap_log {
 /* Adds the message at the time of the trace's frame, and empties it. */
 void mcap_log_add_message(struct mcap_log *log, uint16_t channel);
 
-/* The channel of a sensor, behind so many fixed ones. A sensor without a channel gets one, with the
- * topic /radar/NAME and this schema. 0 after a message: MCAP has no room for it. */
-uint16_t mcap_log_channel(struct mcap_log *log, size_t fixed_count, const char *sensor,
-                          const struct mcap_schema *schema, struct diag *diag);
+/* Adds a message of points for each sensor that measured, whose bytes `points` appends, to the
+ * sensor's channel, behind so many fixed ones. A sensor without a channel gets one, with the topic
+ * /radar/NAME and this schema. 0, or -1 after a message: MCAP has no room for it. */
+typedef void mcap_log_points(struct trace *trace, const struct sensor_view *sensor,
+                             struct text *text);
+int mcap_log_add_points(struct mcap_log *log, size_t fixed_count, const struct mcap_schema *schema,
+                        mcap_log_points *points, struct diag *diag);

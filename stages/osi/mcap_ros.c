@@ -39,20 +39,17 @@ static void add_transforms(struct mcap_log *log, struct mcap_ros_times *sent, do
     mcap_log_add_message(log, TRANSFORMS);
 }
 
-static int add_points(struct mcap_log *log, const struct sensor_view *sensor, struct diag *diag)
+static int check_names(const struct frame *frame, struct diag *diag)
 {
-    if (!ros_takes_name(sensor->name))
-        return diag_fail(
-            diag, DIAG_DATA,
-            "sensors: \"%s\" is no name in ROS 2; expected at most 200 letters, digits "
-            "and _, no digit first",
-            sensor->name);
-    struct mcap_schema schema = schema_of("sensor_msgs/msg/PointCloud2", ros_point_cloud);
-    uint16_t channel = mcap_log_channel(log, FIXED_COUNT, sensor->name, &schema, diag);
-    if (channel == 0)
-        return -1;
-    ros_add_points(&log->trace, sensor, &log->message);
-    mcap_log_add_message(log, channel);
+    for (size_t i = 0; i < frame->sensors.list.count; i++) {
+        const struct sensor_view *sensor = &frame->sensors.list.items[i];
+        if (sensor->measured && !ros_takes_name(sensor->name))
+            return diag_fail(
+                diag, DIAG_DATA,
+                "sensors: \"%s\" is no name in ROS 2; expected at most 200 letters, digits "
+                "and _, no digit first",
+                sensor->name);
+    }
     return 0;
 }
 
@@ -60,15 +57,14 @@ static int add_points(struct mcap_log *log, const struct sensor_view *sensor, st
 int mcap_ros_add(struct mcap_log *log, struct mcap_ros_times *sent, struct diag *diag)
 {
     const struct frame *frame = log->trace.frame;
+    if (check_names(frame, diag) != 0)
+        return -1;
     for (size_t i = 0; i < frame->sensors.list.count; i++)
         if (frame->sensors.list.items[i].measured)
             add_transforms(log, sent, frame->sensors.list.items[i].age_s);
     add_transforms(log, sent, 0);
     ros_add_boxes(&log->trace, &log->message);
     mcap_log_add_message(log, OBJECTS);
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (frame->sensors.list.items[i].measured &&
-            add_points(log, &frame->sensors.list.items[i], diag) != 0)
-            return -1;
-    return 0;
+    struct mcap_schema points = schema_of("sensor_msgs/msg/PointCloud2", ros_point_cloud);
+    return mcap_log_add_points(log, FIXED_COUNT, &points, ros_add_points, diag);
 }

@@ -55,17 +55,6 @@ void mcap_views_begin(struct mcap_log *log)
     log->message.length = 0;
 }
 
-static int add_points(struct mcap_log *log, const struct sensor_view *sensor, struct diag *diag)
-{
-    struct mcap_schema schema = json_of("foxglove.PointCloud", foxglove_points_schema);
-    uint16_t channel = mcap_log_channel(log, FIXED_COUNT, sensor->name, &schema, diag);
-    if (channel == 0)
-        return -1;
-    foxglove_add_points(&log->trace, sensor, &log->message);
-    mcap_log_add_message(log, channel);
-    return 0;
-}
-
 int mcap_views_add(struct mcap_log *log, struct diag *diag)
 {
     const struct frame *frame = log->trace.frame;
@@ -77,9 +66,6 @@ int mcap_views_add(struct mcap_log *log, struct diag *diag)
     mcap_log_add_message(log, FRAMES);
     foxglove_add_scene(&log->trace, &log->message);
     mcap_log_add_message(log, SCENE);
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (frame->sensors.list.items[i].measured &&
-            add_points(log, &frame->sensors.list.items[i], diag) != 0)
-            return -1;
-    return 0;
+    struct mcap_schema points = json_of("foxglove.PointCloud", foxglove_points_schema);
+    return mcap_log_add_points(log, FIXED_COUNT, &points, foxglove_add_points, diag);
 }
