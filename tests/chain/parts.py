@@ -124,7 +124,7 @@ good() { sleep 1.2; echo "good is $1"; }
 bad() { for line in $(seq 60); do echo "line $line of bad"; done; [ 1 = 2 ]; echo "not reached"; }
 killed() { sh -c 'kill -KILL $$'; }
 every_part() {
-    part first good one
+    needed first %s
     beside second good two
     beside third %s
     beside fourth good four
@@ -135,8 +135,8 @@ run_parts every_part
 """
 
 
-def fake(third):
-    return f"export PARTS_SECONDS=$(mktemp); printf '1 first\\n1 second\\n2 third\\n1 last\\n' >$PARTS_SECONDS; {PARTS % third}"
+def fake(third, first="good one"):
+    return f"export PARTS_SECONDS=$(mktemp); printf '1 first\\n1 second\\n2 third\\n1 last\\n' >$PARTS_SECONDS; {PARTS % (first, third)}"
 
 
 def parts_that_pass_print_what_they_say_in_their_order(_):
@@ -153,11 +153,16 @@ def why_a_part_failed_stands_last_with_its_log(_):
         last = done.stdout[done.stdout.rindex("\nFAILED: third "):]
         if done.returncode != 1 or why not in last or len(re.findall(r"(?m)^    line \d+ of bad$", last)) != lines:
             return last
-        if "not reached" in done.stdout or "good is five" in done.stdout or "good is four" not in done.stdout:
+        if "not reached" in done.stdout or "good is five" not in done.stdout or "all tests passed" in done.stdout:
             return f"goes on wrongly after {third}: {done.stdout}"
         if third == "bad" and not last.endswith("    this failed with exit status 1: [ 1 = 2 ]\n"):
             return f"does not say what failed: {last}"
     return None
+
+
+def nothing_runs_after_a_needed_part_that_failed(_):
+    done = shell(fake("good three", first="bad"))
+    return None if done.returncode == 1 and "FAILED: first" in done.stdout and "good" not in done.stdout else done.stdout
 
 
 def a_terminal_shows_the_time_left_by_cost_and_the_names(_):
@@ -255,7 +260,7 @@ def whoever_sends_a_signal_that_can_be_ignored_sets_it(_):
 
 TESTS = [the_time_left_of_parts_is_true_from_the_first_tenth_on, a_part_that_had_nothing_to_build_says_nothing_of_the_others,
          a_share_that_a_part_tells_counts_more_than_its_seconds, a_part_that_lasts_goes_on_lasting, items_of_python_follow_the_same_law,
-         parts_that_pass_print_what_they_say_in_their_order, why_a_part_failed_stands_last_with_its_log,
+         parts_that_pass_print_what_they_say_in_their_order, why_a_part_failed_stands_last_with_its_log, nothing_runs_after_a_needed_part_that_failed,
          a_terminal_shows_the_time_left_by_cost_and_the_names, a_part_tells_its_share_and_what_it_starts_does_not, who_waits_for_files_fails_only_with_the_command,
          a_program_of_tests_finds_signals_at_their_defaults, a_program_that_fails_says_how, tests_run_under_nohup,
          whoever_sends_a_signal_that_can_be_ignored_sets_it]

@@ -1,12 +1,13 @@
 # Parts of a long test: run alone or beside each other, with the time left by what they cost, and with the reasons last
 # if some fail. To be sourced by bash. A function names the parts in their order:
 #
-#     every_part() { part "TITLE" COMMAND...; beside "TITLE" COMMAND...; together; }
+#     every_part() { needed "TITLE" COMMAND...; part "TITLE" COMMAND...; beside "TITLE" COMMAND...; together; }
 #     run_parts every_part
 #
 # `part` waits for all before it and runs alone; `beside` runs beside others, one a core; `together` waits for all. A
 # command may be a function; any command that fails ends it, and its log says which. A part prints into a log, which is
-# shown when the part ends. After a failure those beside it go on, and `together` ends the script.
+# shown when the part ends. After a failure the others run, too, but for `needed`: that part runs alone, and its failure
+# ends the script.
 #
 # A line of PARTS_SECONDS (absent: tests/seconds) has the seconds and the title of a part, and + behind the seconds where
 # most of them are for building, which is done once.
@@ -19,9 +20,12 @@ declare -A parts_how parts_state parts_begin parts_took parts_title parts_comman
 
 part() { parts_next alone "$@"; }
 beside() { parts_next beside "$@"; }
+needed() {
+    part "$@"
+    [ ${#parts_failed[@]} -eq 0 ] || parts_why
+}
 together() {
     [ -z "$parts_listed" ] || while [ ${#parts_running[@]} -gt 0 ]; do parts_collect; done
-    [ ${#parts_failed[@]} -eq 0 ] || parts_why
 }
 
 parts_next() { # HOW TITLE COMMAND...
@@ -199,6 +203,7 @@ run_parts() { # FUNCTION [RENEW]
     "$1"
     together
     progress_end
+    [ ${#parts_failed[@]} -eq 0 ] || parts_why
     [ -z "${2:-}" ] || parts_renew
     echo "all tests passed in $((SECONDS - begin)) s"
 }
