@@ -6,9 +6,9 @@
 
 struct view {
     int64_t frame;
-    const char *only, *truth, *tracks;
+    const char *truth, *tracks;
     const char *vehicles; /* as in extraction.h */
-    bool found;           /* a frame that was asked for */
+    bool found;           /* the frame that was asked for */
     struct view_data data;
     struct frame_sequence sequence;
 };
@@ -71,29 +71,21 @@ static int check_order(struct view *view, const struct frame *frame, struct runn
 static int view_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct view *view = state;
-    if (view->only != NULL && strcmp(view->only, frame->scene) != 0)
-        return 0;
     if (check_order(view, frame, runner) != 0 ||
         view_frame_check_vehicles(&view->data.models, frame, runner_diag(runner)) != 0)
         return -1;
-    view->found = view->found || view->frame < 0 || view->frame == frame->frame;
+    view->found = view->found || view->frame == frame->frame;
     return view_data_add(&view->data, frame, runner_diag(runner));
 }
 
-/* Refuses a stream without the scene or frame that was asked for. A stream without any frame has a
- * page, too. */
+/* Refuses a stream without the frame that was asked for. A stream without any frame has a page,
+ * too. */
 static int check_found(const struct view *view, struct runner *runner)
 {
-    if (view->found || (view->frame < 0 && view->only == NULL))
+    if (view->found || view->frame < 0)
         return 0;
-    if (view->frame < 0)
-        return diag_fail(runner_diag(runner), DIAG_DATA, "no scene \"%s\" in the stream",
-                         view->only);
-    if (view->only == NULL)
-        return diag_fail(runner_diag(runner), DIAG_DATA, "no frame %lld in the stream",
-                         (long long)view->frame);
-    return diag_fail(runner_diag(runner), DIAG_DATA, "no frame %lld in the stream of scene %s",
-                     (long long)view->frame, view->only);
+    return diag_fail(runner_diag(runner), DIAG_DATA, "no frame %lld in the stream",
+                     (long long)view->frame);
 }
 
 static int view_stop(void *state, struct runner *runner)
@@ -109,7 +101,6 @@ static int view_stop(void *state, struct runner *runner)
 static const struct field view_fields[] = {
     {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53, "number of the frame at which the page opens"),
      .absent = -1},
-    {OPTIONAL_NAME(struct view, only, "show only this scene"), .word = "SCENE"},
     {OPTIONAL_NAME(struct view, vehicles,
                    "the vehicle documents that were given to glint-extract, if any"),
      .word = "SET"},
@@ -121,7 +112,11 @@ static const struct field view_fields[] = {
     {0},
 };
 
-static const struct field_gone gone_options[] = {{"svg", PICTURES}, {NULL, NULL}};
+static const struct field_gone gone_options[] = {
+    {"svg", PICTURES},
+    {"only", "the page has all scenes of the stream; choose one in its list"},
+    {NULL, NULL},
+};
 
 const struct stage stage_view = {
     .name = "view",
