@@ -24,7 +24,7 @@
 #include "radar/array.h"
 #include "text/field.h"
 
-enum { FRAME_VERSION = 0 };
+enum { FRAME_VERSION = 1, FRAME_OLDEST_VERSION = 0 }; /* written; the oldest one that is read */
 
 enum frame_part {
     PART_OBJECTS = 1 << 0,

@@ -348,8 +348,9 @@ static const struct record count_record = {
 #define PART(bit) FIELD_OPTIONAL, .group = (bit)
 
 static const struct field frame_fields[] = {
-    {FIELD_INTEGER_IN(struct frame, version, FRAME_VERSION, FRAME_VERSION,
-                      "version of this schema")},
+    {FIELD_INTEGER_IN(struct frame, version, FRAME_OLDEST_VERSION, FRAME_VERSION,
+                      "version of this schema"),
+     .beyond = "; a newer glint reads it"},
     {NAME(struct frame, scene, "unique in a set: source, ego, variant")},
     {FIELD_INTEGER_IN(struct frame, frame, 0, 9007199254740991, "number in the scene, from 0")},
     {FIELD_REAL_IN(struct frame, time_s, -1e10, 1e10,

@@ -291,14 +291,15 @@ static int check_account(const struct runner *runner, const struct frame *frame,
     return frame_check_account(frame, diag);
 }
 
-/* Before every step: the frame takes the seed of the command line, must have the parts that the
- * program reads, and must follow the frames before it (--complete). */
+/* Before every step: the frame becomes one of today's version, takes the seed of the command line,
+ * must have the parts that the program reads, and must follow the frames before it (--complete). */
 static int take_frame(struct runner *runner, struct frame *frame)
 {
-    if (runner->common.seed_given) {
+    if (runner->common.seed_given)
         frame->seed = runner->common.seed;
+    if (runner->common.seed_given || frame->version != FRAME_VERSION)
         frame_alter(frame, PART_HEADER);
-    }
+    frame->version = FRAME_VERSION;
     if (check_parts(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0 ||
         apply_sections(runner, frame) != 0)
         return -1;
@@ -372,9 +373,7 @@ int runner_finish(struct runner *runner)
     const struct stage *stage = runner->stage;
     if (check_complete(runner) != 0)
         return -1;
-    if (stage->stop != NULL && ensure_message(runner, stage->stop(runner->state, runner)) != 0)
-        return -1;
-    return 0;
+    return stage->stop == NULL ? 0 : ensure_message(runner, stage->stop(runner->state, runner));
 }
 
 int runner_run_tool(struct runner *runner)

@@ -86,9 +86,10 @@ int field_out_of_bounds(const struct field *field, double value, struct diag *di
         snprintf(digits, sizeof digits, "%g", value);
     const char *unit = field_unit(field->name);
     char low[NUMBER_SIZE], high[NUMBER_SIZE];
-    return diag_fail(diag, DIAG_DATA, "%s: %s is outside [%s, %s]%s%s", field->name, digits,
+    return diag_fail(diag, DIAG_DATA, "%s: %s is outside [%s, %s]%s%s%s", field->name, digits,
                      show(field->low, low, sizeof low), show(field->high, high, sizeof high),
-                     *unit ? " " : "", unit);
+                     *unit ? " " : "", unit,
+                     field->beyond != NULL && value > field->high ? field->beyond : "");
 }
 
 int field_set_number(const struct field *field, void *base, double value, struct diag *diag)

@@ -68,7 +68,8 @@ struct field {
     const char *const *choices; /* NULL-terminated */
     unsigned group;             /* its bit in `present`, or 0 */
     const char *help;
-    const char *word; /* name of the value in --help, if not NUMBER, NAME, ... */
+    const char *word;   /* name of the value in --help, if not NUMBER, NAME, ... */
+    const char *beyond; /* what to do with a number above high; NULL: nothing is said */
 };
 
 /* A member that a record had once, and what to write instead. */

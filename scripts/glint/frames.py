@@ -34,6 +34,9 @@ import threading
 import time
 import zlib
 
+# What frames are written as; those of version 0 are read, too.
+VERSION = 1
+
 # Numbers of a target that are there in every list.
 MEASURED = ("range_m", "azimuth_rad", "range_rate_mps", "amplitude_db")
 
@@ -67,10 +70,11 @@ TARGET = {"sensor": NAME, "range_m": number(0, 1e7), "azimuth_rad": number(-math
           "contributors": [{"object": NAME, "reflector": NAME, "weight": number(0, 1)}]}
 LOST = {"echoes": (lambda value: type(value) is list and all(type(one) is dict for one in value)
                    and all(NAME[0](one.get("object")) for one in value[:1]), "an array of objects, the first of which names its object")}
-FRAME = {"scene": NAME, "seed": SEED, "frame": WHOLE, "time_s": number(-1e10, 1e10), "ego": NAME, "origin_x_m": ORIGIN,
+VERSIONS = lambda value: type(value) in (int, float) and value in (0, VERSION), f"0 or {VERSION}; a newer glint reads others"
+FRAME = {"version": VERSIONS, "scene": NAME, "seed": SEED, "frame": WHOLE, "time_s": number(-1e10, 1e10), "ego": NAME, "origin_x_m": ORIGIN,
          "origin_y_m": ORIGIN, "objects": [OBJECT], "sensors": {"list": [SENSOR]}, "targets": [TARGET],
          "lost": [LOST]}
-OPTIONAL = {*FRAME, "age_s", "elevation_rad", "mount_z_m", "quality"}
+OPTIONAL = {*FRAME, "age_s", "elevation_rad", "mount_z_m", "quality"} - {"version"}
 
 
 def fault(value, shape, optional=OPTIONAL):
@@ -483,7 +487,7 @@ class Loop:
             self.commands = [["glint", "-c", " | ".join(map(shlex.join, self.commands))]]
         self.chain, self.timeout_s, self.processes = chain, timeout_s, []
         self.record, self.recording, self.starts = record, None, 0
-        self.head = {"version": 0, "scene": scene, "interval_s": interval_s, "seed": str(seed)}
+        self.head = {"version": VERSION, "scene": scene, "interval_s": interval_s, "seed": str(seed)}
         self.restart()
 
     def restart(self):

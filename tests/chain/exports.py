@@ -79,7 +79,7 @@ def frame_of(objects, targets, number=0, sensors=None, **members):
     sensors = sensors or [{}]
     listed = [{"name": "front", "mount_x_m": 2.25, "mount_y_m": 0, "mount_z_m": 0.4, "mount_yaw_rad": 0, "field_of_view_rad": math.pi / 2,
                "range_max_m": 100, "cell_range_m": 1, "cell_range_rate_mps": 1, "carrier_hz": 77e9} | one for one in sensors]
-    return {"version": 0, "scene": "by-hand", "frame": number, "time_s": 0.1 * number, "interval_s": 0.1, "seed": "1", "ego": "ego",
+    return {"version": 1, "scene": "by-hand", "frame": number, "time_s": 0.1 * number, "interval_s": 0.1, "seed": "1", "ego": "ego",
             "objects": objects, "sensors": {"suite": "mine", "digest": "0", "list": listed}, "targets": targets} | members
 
 

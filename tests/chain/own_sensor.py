@@ -90,7 +90,7 @@ def borders_of_the_grid_cut_targets_and_lose_few(ideal):
 
 
 def a_frame_without_echoes_is_refused():
-    frame = {"version": 0, "scene": "s", "frame": 0, "time_s": 0, "interval_s": 0.1, "seed": "1", "ego": "e",
+    frame = {"version": 1, "scene": "s", "frame": 0, "time_s": 0, "interval_s": 0.1, "seed": "1", "ego": "e",
              "objects": [{"id": "e", "class": "car", "x_m": 0, "y_m": 0, "yaw_rad": 0, "vx_mps": 0, "vy_mps": 0, "yaw_rate_radps": 0}]}
     run(BINS, json.dumps(frame) + "\n", expected=65)
 

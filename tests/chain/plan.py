@@ -118,7 +118,7 @@ def frame_of(number, objects, count):
     rows = [{"id": "ego", "class": "car", "x_m": 0, "y_m": 0, "length_m": 4.5, "width_m": 1.8}]
     rows += [dict(zip(("id", "class", "x_m", "y_m", "length_m", "width_m"), row)) for row in objects]
     rows = [dict({"yaw_rad": 0, "vx_mps": 0, "vy_mps": 0, "yaw_rate_radps": 0, "height_m": 0, "travelled_m": 0}, **row) for row in rows]
-    frame = {"version": 0, "scene": "known", "frame": number, "time_s": 0.1 * number, "interval_s": 0.1, "seed": "5", "ego": "ego",
+    frame = {"version": 1, "scene": "known", "frame": number, "time_s": 0.1 * number, "interval_s": 0.1, "seed": "5", "ego": "ego",
              "objects": rows}
     return json.dumps(frame | ({"last": True} if number == count - 1 else {})) + "\n"
 

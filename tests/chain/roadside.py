@@ -152,7 +152,7 @@ def street_frames(speed_mps):
     for number in range(15):
         ego = {"id": "ego", "class": "car", "x_m": 4 * number, "y_m": 0, "yaw_rad": 0, "vx_mps": speed_mps, "vy_mps": 0,
                "yaw_rate_radps": 0, "length_m": 4.5, "width_m": 1.8, "height_m": 1.5, "travelled_m": 4 * number}
-        yield json.dumps({"version": 0, "scene": "street", "frame": number, "time_s": number, "interval_s": 1, "seed": "1",
+        yield json.dumps({"version": 1, "scene": "street", "frame": number, "time_s": number, "interval_s": 1, "seed": "1",
                           "ego": "ego", "roadside": bushes, "objects": [ego]})
 
 

@@ -192,7 +192,7 @@ def thing(name, kind, x, y, yaw=0.0, vx=0.0, vy=0.0, rate=0.0):
 
 
 def scene(*objects, **more):
-    frame = {"version": 0, "scene": "by hand", "frame": 0, "time_s": 7.24, "interval_s": 0.04, "last": True, "seed": "1",
+    frame = {"version": 1, "scene": "by hand", "frame": 0, "time_s": 7.24, "interval_s": 0.04, "last": True, "seed": "1",
              "ego": objects[0]["id"], "sections": ["objects", "quality"], "objects": list(objects), **more}
     return json.dumps(frame).encode() + b"\n"
 

@@ -58,7 +58,7 @@ def scene_of(name, bodies, **more):
     rest = {"yaw_rad": 0, "vx_mps": 0, "vy_mps": 0, "yaw_rate_radps": 0, "travelled_m": 0}
     objects = [rest | dict(zip(("id", "x_m", "y_m", "length_m", "width_m", "height_m"), body)) | {"class": "van" if body[0] == "van" else "car"}
                for body in [("ego", -2.25, 0, *CAR_M), *bodies]]
-    return {"version": 0, "scene": name, "frame": 0, "time_s": 0, "interval_s": 0.1, "seed": "1", "ego": "ego", "last": True,
+    return {"version": 1, "scene": name, "frame": 0, "time_s": 0, "interval_s": 0.1, "seed": "1", "ego": "ego", "last": True,
             "objects": objects} | more
 
 

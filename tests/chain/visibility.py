@@ -119,7 +119,7 @@ def hide_half_a_body():
         edge_y = (-4 + 8 * tenth / 10) * wall_m / near_m
         objects = [thing("ego", "car", -2.25, 0, 4.5, 2), thing("across", "truck", near_m + 1.25, 0, 8, 2.5, RIGHT_ANGLE),
                    thing("screen", "wall", wall_m + 0.05, edge_y - 10, 20, 0.1, RIGHT_ANGLE)]
-        frame = {"version": 0, "scene": "half", "frame": 0, "time_s": 0.1, "interval_s": 0.1, "seed": "1",
+        frame = {"version": 1, "scene": "half", "frame": 0, "time_s": 0.1, "interval_s": 0.1, "seed": "1",
                  "ego": "ego", "objects": objects, "sections": ["objects", "visibility"]}
         out = run(f"glint-extract-contour --spacing-m {spacing} | glint-ideal --sensors lrr77-every-frame",
                   json.dumps(frame) + "\n")

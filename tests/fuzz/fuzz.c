@@ -60,7 +60,7 @@ void fuzz_scene(struct frame *frame, int number, const char *class)
     struct text line = {0};
     struct diag diag = {0};
     text_format(&line,
-                "{\"version\":0,\"scene\":\"s\",\"frame\":%d,\"time_s\":%d,\"interval_s\":1,"
+                "{\"version\":1,\"scene\":\"s\",\"frame\":%d,\"time_s\":%d,\"interval_s\":1,"
                 "\"seed\":\"1\",\"ego\":\"ego\",\"objects\":["
                 "{\"id\":\"ego\",\"class\":\"car\",\"x_m\":0,\"y_m\":0,\"yaw_rad\":0,%s},"
                 "{\"id\":\"other\",\"class\":\"%s\",\"x_m\":12,\"y_m\":1,\"yaw_rad\":0.3,%s}]}",

@@ -84,7 +84,7 @@ static int read_frame(const char *seed, const char *x, const char *more, struct 
     *frame = (struct frame){.arena = check_arena()};
     *diag = (struct diag){0};
     int length = snprintf(line, sizeof line,
-                          "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,"
+                          "{\"version\":1,\"scene\":\"s\",\"frame\":0,\"time_s\":0,"
                           "\"interval_s\":1,\"last\":true,\"seed\":%s,\"ego\":\"e\","
                           "\"origin_x_m\":0,\"origin_y_m\":0,\"objects\":[{\"id\":\"e\","
                           "\"class\":\"car\",\"x_m\":%s,\"y_m\":0,\"yaw_rad\":0,\"vx_mps\":0,"

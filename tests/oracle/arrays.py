@@ -171,7 +171,7 @@ class Chain(Program):
         suite.write_text(json.dumps({"origin": "Made by tests/oracle/arrays.py.", "sensors": [sensor]}))
         ego = {"id": "ego", "class": "car", "length_m": 4, "width_m": 2, "height_m": 1,
                **dict.fromkeys(("x_m", "y_m", "yaw_rad", "vx_mps", "vy_mps", "yaw_rate_radps", "travelled_m"), 0)}
-        head = {"version": 0, "scene": "scene", "frame": 0, "time_s": 1, "interval_s": 1, "last": True,
+        head = {"version": 1, "scene": "scene", "frame": 0, "time_s": 1, "interval_s": 1, "last": True,
                 "seed": str(SEED), "ego": "ego", "objects": [ego]}
         asked = f"--sections {sections}" if sections else ""
         empty, = self.run(f"glint-extract | glint-ideal {asked} --sensors {suite} --effects {effects}",

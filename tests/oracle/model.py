@@ -183,7 +183,7 @@ def ego(x=0.0, y=0.0, **rest):
 
 
 def frame(objects, scene="scene"):
-    return {"version": 0, "scene": scene, "frame": 0, "time_s": 0.5, "interval_s": 0.1, "last": True, "seed": "1",
+    return {"version": 1, "scene": scene, "frame": 0, "time_s": 0.5, "interval_s": 0.1, "last": True, "seed": "1",
             "ego": "ego", "objects": objects}
 
 

@@ -67,7 +67,7 @@ def thing(name, kind, x_m, y_m, yaw_rad=0.0, size=(0, 0)):
 
 
 def make_frame(number, objects):
-    return {"version": 0, "scene": "figures", "frame": number, "time_s": number * 0.04,
+    return {"version": glint.VERSION, "scene": "figures", "frame": number, "time_s": number * 0.04,
             "interval_s": 0.04, "seed": "1", "ego": "ego", "objects": objects}
 
 

@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 from collections import namedtuple
 
+from glint.frames import VERSION
 from glint.places import DATA, GLINT
 from glint.recordings import dense
 from glint.recordings.readers import Box, Detection, refuse
@@ -42,7 +43,7 @@ def frames(scans, speeds, seed, strips, surface):
         for box in bodies:
             driven_m = math.hypot(speed + box.vx_mps, box.vy_mps) * interval_s
             ways[box.id] = ways[box.id] + driven_m if box.id in ways else 0
-        yield {"version": 0, "scene": f"seed{seed}", "frame": i, "time_s": scan.time_s - scans[0].time_s,
+        yield {"version": VERSION, "scene": f"seed{seed}", "frame": i, "time_s": scan.time_s - scans[0].time_s,
                "interval_s": interval_s, "seed": str(seed), "ego": "ego", "last": i + 1 == len(scans),
                "conditions": {"road": surface}, "roadside": strips, "objects": [
                    {"id": box.id, "class": box.kind, "x_m": ahead_m + box.x_m, "y_m": box.y_m, "yaw_rad": box.yaw_rad,

@@ -264,7 +264,7 @@ static bool check_line(const char *line, size_t length)
 }
 
 #define HEAD                                                                                       \
-    "{\"version\":0,\"scene\":\"cut-in\",\"frame\":7,\"time_s\":0.28,\"interval_s\":0.04,"         \
+    "{\"version\":1,\"scene\":\"cut-in\",\"frame\":7,\"time_s\":0.28,\"interval_s\":0.04,"         \
     "\"last\":true,\"seed\":\"18446744073709551615\",\"ego\":\"e\",\"sections\":[\"account\"]"
 #define ECHO                                                                                       \
     "\"object\":\"e\",\"reflector\":\"p\",\"path\":\"direct\",\"range_m\":12.25,"                  \
@@ -369,15 +369,15 @@ static const struct {
 
 /* Where a fragment is put: for a value of each kind, among the keys, inside extra, and outside. */
 static const char *const places[] = {
-    "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":@,\"interval_s\":1,\"seed\":\"1\","
+    "{\"version\":1,\"scene\":\"s\",\"frame\":0,\"time_s\":@,\"interval_s\":1,\"seed\":\"1\","
     "\"ego\":\"e\"}",
     "{\"version\":@,\"scene\":\"s\",\"frame\":0,\"time_s\":1,\"interval_s\":1,\"seed\":\"1\","
     "\"ego\":\"e\"}",
-    "{\"version\":0,\"scene\":@,\"frame\":0,\"time_s\":1,\"interval_s\":1,\"seed\":\"1\",\"ego\":"
+    "{\"version\":1,\"scene\":@,\"frame\":0,\"time_s\":1,\"interval_s\":1,\"seed\":\"1\",\"ego\":"
     "\"e\"}",
-    "{\"version\":0,\"scene\":\"s\",\"frame\":@,\"time_s\":1,\"interval_s\":1,\"seed\":\"1\","
+    "{\"version\":1,\"scene\":\"s\",\"frame\":@,\"time_s\":1,\"interval_s\":1,\"seed\":\"1\","
     "\"ego\":\"e\"}",
-    "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":1,\"interval_s\":1,\"seed\":@,\"ego\":"
+    "{\"version\":1,\"scene\":\"s\",\"frame\":0,\"time_s\":1,\"interval_s\":1,\"seed\":@,\"ego\":"
     "\"e\"}",
     HEAD ",\"margins\":@}",
     HEAD ",\"objects\":@}",

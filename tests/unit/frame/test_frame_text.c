@@ -8,7 +8,7 @@
 
 /* A frame with every member of every record, in the writer's own spelling. */
 #define HEAD                                                                                       \
-    "{\"version\":0,\"scene\":\"cut-in\",\"frame\":7,\"time_s\":0.28,\"interval_s\":0.04,"         \
+    "{\"version\":1,\"scene\":\"cut-in\",\"frame\":7,\"time_s\":0.28,\"interval_s\":0.04,"         \
     "\"last\":true,\"seed\":\"18446744073709551615\",\"ego\":\"e\",\"origin_x_m\":500000.25,"      \
     "\"origin_y_m\":-0.0,\"sections\":[\"objects\",\"account\",\"margins\"],"
 #define OBJECTS                                                                                    \
@@ -108,17 +108,17 @@ TEST(members_that_nobody_alters_are_written_word_for_word)
 {
     static const char line[] =
         "{\"scene\":\"\\u0061\",\"ego\":\"e\",\"objects\":[ ],\"lost\":[],\"seed\" : \"007\","
-        "\"version\":0e1,\"origin_x_m\":0.0,\"interval_s\":\t1.0 ,\"time_s\":1E-1,\"frame\":1e0}";
+        "\"version\":1e0,\"origin_x_m\":0.0,\"interval_s\":\t1.0 ,\"time_s\":1E-1,\"frame\":1e0}";
     assert_written(line, 0, 0,
-                   "{\"version\":0e1,\"scene\":\"\\u0061\",\"frame\":1e0,\"time_s\":1E-1,"
+                   "{\"version\":1e0,\"scene\":\"\\u0061\",\"frame\":1e0,\"time_s\":1E-1,"
                    "\"interval_s\":1.0,\"seed\":\"007\",\"ego\":\"e\",\"origin_x_m\":0.0,"
                    "\"objects\":[ ],\"lost\":[]}\n");
     assert_written(line, PART_OBJECTS, PART_LOST,
-                   "{\"version\":0e1,\"scene\":\"\\u0061\",\"frame\":1e0,\"time_s\":1E-1,"
+                   "{\"version\":1e0,\"scene\":\"\\u0061\",\"frame\":1e0,\"time_s\":1E-1,"
                    "\"interval_s\":1.0,\"seed\":\"007\",\"ego\":\"e\",\"origin_x_m\":0.0,"
                    "\"objects\":[]}\n");
     assert_written(line, PART_HEADER, 0,
-                   "{\"version\":0,\"scene\":\"a\",\"frame\":1,\"time_s\":0.1,"
+                   "{\"version\":1,\"scene\":\"a\",\"frame\":1,\"time_s\":0.1,"
                    "\"interval_s\":1,\"seed\":\"7\",\"ego\":\"e\",\"objects\":[ ],\"lost\":[]}\n");
 }
 
@@ -226,8 +226,8 @@ TEST(a_number_may_be_spelled_in_any_way)
         {"\"pairs\":2", "\"pairs\":0.2e+01"},
         {"\"x_m\":-0.0,", "\"x_m\":-0e9,"},
         {"\"x_m\":-0.0,", "\"x_m\":-1e-400,"},
-        {"\"version\":0", "\"version\":0.0"},
-        {"\"version\":0", "\"version\":-0"},
+        {"\"version\":1", "\"version\":1.0"},
+        {"\"version\":1", "\"version\":10e-1"},
         {"\"length_m\":4.5", "\"length_m\":0.00000045E7"},
         {"\"range_m\":1e+06", "\"range_m\":1000000"},
         {"\"seed\":\"18446744073709551615\"", "\"seed\":\"\\u00318446744073709551615\""},
@@ -266,7 +266,7 @@ TEST(a_lost_echo_without_an_object_is_of_the_object_of_the_echo_before)
 
 TEST(what_is_absent_stays_absent)
 {
-    static const char head[] = "{\"version\":0,\"scene\":\"a\",\"frame\":0,\"time_s\":0,"
+    static const char head[] = "{\"version\":1,\"scene\":\"a\",\"frame\":0,\"time_s\":0,"
                                "\"interval_s\":1,\"seed\":\"0\",\"ego\":\"e\"";
     static const char *const tails[] = {"}\n", ",\"objects\":[]}\n",
                                         ",\"echoes\":[],\"cells\":[]}\n",
@@ -306,7 +306,7 @@ TEST(faults_are_named_with_their_path_value_and_expectation)
          "frame: a string; expected a whole number in [0, 9007199254740991]"},
         {"\"frame\":7", "\"frame\":null",
          "frame: null; expected a whole number in [0, 9007199254740991]"},
-        {"\"version\":0", "\"version\":1", "version: 1 is outside [0, 0]"},
+        {"\"version\":1", "\"version\":2", "version: 2 is outside [0, 1]; a newer glint reads it"},
         {"\"time_s\":0.28", "\"time_s\":1e999", "time_s: 1e999 is too large for a double"},
         {"\"time_s\":0.28", "\"time_s\":NaN", "time_s: 'N' where a value is expected"},
         {"\"last\":true", "\"last\":1", "last: a number; expected true or false"},

@@ -105,7 +105,7 @@ TEST(every_frame_goes_through_all_stages)
     const char *at = captured->out;
     for (int i = 0; i < 3; i++) {
         char begin[64];
-        snprintf(begin, sizeof begin, "{\"version\":0,\"scene\":\"s\",\"frame\":%d,", i);
+        snprintf(begin, sizeof begin, "{\"version\":1,\"scene\":\"s\",\"frame\":%d,", i);
         assert_memory_equal(at, begin, strlen(begin));
         at = strstr(at, "\"yaw_rad\":0.5,");
         assert_non_null(at);

@@ -4,10 +4,10 @@
 #include "run/frame_stream.h"
 
 #define FRAME(number)                                                                              \
-    "{\"version\":0,\"scene\":\"s\",\"frame\":" number ",\"time_s\":" number                       \
+    "{\"version\":1,\"scene\":\"s\",\"frame\":" number ",\"time_s\":" number                       \
     ",\"interval_s\":1,\"seed\":\"1\",\"ego\":\"e\"}"
 #define LAST(number)                                                                               \
-    "{\"version\":0,\"scene\":\"s\",\"frame\":" number ",\"time_s\":" number                       \
+    "{\"version\":1,\"scene\":\"s\",\"frame\":" number ",\"time_s\":" number                       \
     ",\"interval_s\":1,\"last\":true,\"seed\":\"1\",\"ego\":\"e\"}"
 
 struct bench {
@@ -112,7 +112,7 @@ TEST_OF(scratch, frames_are_checked)
 {
     struct bench bench;
     begin(&bench, scratch,
-          "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
+          "{\"version\":1,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
           "\"ego\":\"e\",\"objects\":[]}",
           1);
     assert_refuses(scratch, &bench, ":1: ego: \"e\" is not among the objects");
@@ -123,7 +123,7 @@ static void begin_unread(struct bench *bench, struct scratch *scratch, const cha
 {
     char line[512];
     snprintf(line, sizeof line,
-             "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,"
+             "{\"version\":1,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,"
              "\"seed\":\"1\",\"ego\":\"e\",\"objects\":%s,\"extra\":7}",
              objects);
     begin(bench, scratch, line, 1);

@@ -64,7 +64,7 @@ static const struct stage counter = {.name = "counter",
                                      .run = count_frames};
 
 #define HEAD(number, seed)                                                                         \
-    "{\"version\":0,\"scene\":\"a\",\"frame\":" number ",\"time_s\":" number                       \
+    "{\"version\":1,\"scene\":\"a\",\"frame\":" number ",\"time_s\":" number                       \
     ",\"interval_s\":1,\"seed\":\"" seed "\",\"ego\":\"e\""
 #define OBJECTS                                                                                    \
     ",\"objects\":[{\"id\":\"e\",\"class\":\"car\",\"x_m\":0,\"y_m\":0,\"yaw_rad\":0,\"vx_mps\":"  \

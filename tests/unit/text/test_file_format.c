@@ -39,7 +39,7 @@ TEST(a_file_that_cannot_be_read_is_of_no_format)
 TEST(encodings_that_no_reader_takes_are_named_before_what_they_hold)
 {
     struct diag diag;
-    assert_true(explains("frame", "\xef\xbb\xbf{\"version\":0}", DIAG_DATA, &diag));
+    assert_true(explains("frame", "\xef\xbb\xbf{\"version\":1}", DIAG_DATA, &diag));
     assert_string_equal(diag.text, "JSON behind a byte order mark; tail -c +4 leaves the mark out");
     assert_string_equal(file_format_of("\xff\xfe{\0\"\0", 6)->name, "text in UTF-16");
     assert_string_equal(file_format_of("\xfe\xff\0{\0\"", 6)->name, "text in UTF-16");
@@ -48,7 +48,7 @@ TEST(encodings_that_no_reader_takes_are_named_before_what_they_hold)
 
 TEST(words_count_only_behind_the_right_beginning)
 {
-    static const char frame[] = "{\"version\":0,\"scene\":\"<fcd-export xCenter trackId\"";
+    static const char frame[] = "{\"version\":1,\"scene\":\"<fcd-export xCenter trackId\"";
     assert_string_equal(file_format_of(frame, strlen(frame))->kind, "frame");
     assert_null(file_format_of("fcd-export>", 11));
     assert_null(file_format_of("text <fcd-export>", 17));

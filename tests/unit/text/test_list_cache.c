@@ -4,7 +4,7 @@
 #include "text/list_cache.h"
 
 static const char HEAD[] =
-    "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
+    "{\"version\":1,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
     "\"ego\":\"e\",\"objects\":[],\"reflectors\":[{\"model\":\"m\",\"objects\":[],\"points\":";
 
 static const char *point_of(const char *name, double x)

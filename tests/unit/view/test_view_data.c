@@ -36,7 +36,7 @@
     "{\"object\":\"</script>\",\"reflector\":\"d\",\"path\":\"direct\",\"shortfall_db\":2.5}]}]"
 #define FRAME(scene, number, time, last, rest) AGED("0", scene, number, time, last, rest)
 #define AGED(age, scene, number, time, last, rest)                                                 \
-    "{\"version\":0,\"scene\":\"" scene "\",\"frame\":" number ",\"time_s\":" time                 \
+    "{\"version\":1,\"scene\":\"" scene "\",\"frame\":" number ",\"time_s\":" time                 \
     ",\"interval_s\":0.04,\"last\":" last                                                          \
     ",\"seed\":\"1\",\"ego\":\"e\",\"sections\":[\"account\"],"                                    \
     "\"objects\":[" EGO "," OTHER "]," SENSORS(age) rest "}"
@@ -363,7 +363,7 @@ static struct sensor_view sensor_told(struct packed *packed, const char *part)
 {
     char line[2048];
     snprintf(line, sizeof line,
-             "{\"version\":0,\"scene\":\"x\",\"frame\":0,\"time_s\":4,\"interval_s\":0.04,"
+             "{\"version\":1,\"scene\":\"x\",\"frame\":0,\"time_s\":4,\"interval_s\":0.04,"
              "\"seed\":\"1\",\"ego\":\"e\",\"sections\":[],\"sensors\":{\"suite\":\"nowhere\","
              "\"digest\":\"0123456789abcdef\",\"list\":[{\"name\":\"front\",\"mount_x_m\":2,"
              "\"mount_y_m\":1,\"mount_yaw_rad\":0.25,\"field_of_view_rad\":3,\"range_max_m\":30,"
