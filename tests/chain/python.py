@@ -348,7 +348,7 @@ def workers_share_the_shards_of_a_set(folder):
     for number in range(5):
         os.makedirs(os.path.join(folder, "set", "train", "lrr77"), exist_ok=True)
         with gzip.open(os.path.join(folder, "set", "train", "lrr77", f"{number}.jsonl.gz"), "wt") as file:
-            file.write(f'{{"frame":{number}}}\n')
+            file.write(f'{{"version":1,"frame":{number}}}\n')
     read = [[frame["frame"] for frame in glint.Shards(os.path.join(folder, "set"), "train", worker=one, workers=2)]
             for one in (0, 1)]
     assert read == [[0, 2, 4], [1, 3]], read
