@@ -42,12 +42,17 @@ static const char *object_listed_twice(const struct reflector_set *set)
     return NULL;
 }
 
+static bool was_checked(struct reflector_set *set, struct list_cache *cache)
+{
+    return reflectors_unchanged(set) || (cache != NULL && reflectors_known(set, cache));
+}
+
 static int check_sets(const struct frame *frame, struct diag *diag)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++) {
-        const struct reflector_set *set = &frame->reflectors.items[i];
-        const char *twice =
-            reflectors_unchanged(set) ? NULL : reflectors_name_twice(set, frame->arena);
+        struct reflector_set *set = &frame->reflectors.items[i];
+        bool checked = was_checked(set, frame->list_cache);
+        const char *twice = checked ? NULL : reflectors_name_twice(set, frame->arena);
         if (twice == NULL)
             twice = object_listed_twice(set);
         if (twice != NULL)
@@ -58,6 +63,8 @@ static int check_sets(const struct frame *frame, struct diag *diag)
                              "reflectors[%zu].mirrors[%zu]: expected either a material or a "
                              "reflection",
                              i, unclear);
+        if (!checked && frame->list_cache != NULL)
+            reflectors_keep(set, frame->list_cache);
     }
     return 0;
 }

@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "base/number.h"
 #include "base/units.h"
+#include "text/list_cache.h"
 
 static const char *const shapes[] = {
     [VISIBILITY_RAISED_COSINE] = "raised_cosine",
@@ -161,13 +162,65 @@ const struct record reflector_model_record = {
     .fields = reflector_set_fields + 2,
 };
 
+#define SAME_LIST(one, other) ((one).items == (other).items && (one).count == (other).count)
+
 bool reflectors_unchanged(const struct reflector_set *set)
 {
+    const struct reflector_set *document = set->document;
+    return document != NULL && SAME_LIST(set->points, document->points) &&
+           SAME_LIST(set->planes, document->planes) && SAME_LIST(set->rows, document->rows) &&
+           SAME_LIST(set->mirrors, document->mirrors);
+}
+
+/* The first list of the set with items, from this field on; the field without a name if none has.
+ */
+static const struct field *next_list(const struct reflector_set *set, const struct field *field)
+{
+    while (field->name != NULL && (!field->steady || field_list(field, set).count == 0))
+        field++;
+    return field;
+}
+
+/* What the cache has of the set's first list, or NULL. */
+static struct list_cache_entry *first_kept(const struct reflector_set *set,
+                                           struct list_cache *cache)
+{
     const struct record *record = &reflector_set_record;
-    for (const struct field *field = record->fields; field->name != NULL; field++)
-        if (field->steady && !field_unchanged(record, field, set))
-            return false;
-    return true;
+    const struct field *first = next_list(set, record->fields);
+    return first->name == NULL ? NULL : list_cache_of(cache, record, first, set);
+}
+
+static bool all_kept(const struct reflector_set *set, struct list_cache *cache)
+{
+    const struct record *record = &reflector_set_record;
+    const struct field *list = next_list(set, record->fields);
+    while (list->name != NULL && list_cache_of(cache, record, list, set) != NULL)
+        list = next_list(set, list + 1);
+    return list->name == NULL;
+}
+
+void reflectors_keep(const struct reflector_set *set, struct list_cache *cache)
+{
+    struct list_cache_entry *first = first_kept(set, cache);
+    if (first == NULL || first->document != NULL || !all_kept(set, cache))
+        return;
+    struct reflector_set *document = arena_get(&cache->arena, sizeof *document);
+    document->points = set->points;
+    document->planes = set->planes;
+    document->rows = set->rows;
+    document->mirrors = set->mirrors;
+    document->shape = reflectors_shape(document, &cache->arena);
+    first->document = document;
+}
+
+bool reflectors_known(struct reflector_set *set, struct list_cache *cache)
+{
+    const struct list_cache_entry *first = first_kept(set, cache);
+    if (first == NULL || first->document == NULL)
+        return false;
+    set->document = first->document;
+    set->shape = set->document->shape;
+    return reflectors_unchanged(set);
 }
 
 /* The name of a reflector by its number: points come first, then planes, then rows. */

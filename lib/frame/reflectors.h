@@ -11,6 +11,8 @@
 #include "propagation/reflection.h"
 #include "text/field.h"
 
+struct list_cache;
+
 /* The part of an object at a point that moves against the body. */
 enum moving_part { MOVING_NONE, MOVING_WHEEL, MOVING_LIMBS };
 extern const char *const reflectors_moving_parts[]; /* names on the wire, ending with NULL */
@@ -77,7 +79,7 @@ struct reflector_set {
     LIST_OF(struct plane_reflector) planes;
     LIST_OF(struct post_row) rows;
     LIST_OF(struct mirror_plane) mirrors;
-    const struct reflector_set *document; /* the document's set that it was copied from, or NULL */
+    const struct reflector_set *document; /* a checked set that had these lists, or NULL */
     const struct reflectors_shape *shape; /* the document's, or NULL */
 };
 
@@ -102,6 +104,13 @@ extern const struct record reflector_model_record; /* of a vehicle document: wit
 
 /* True if all lists of the set are those of its document, which was checked when it was loaded. */
 bool reflectors_unchanged(const struct reflector_set *set);
+
+/* Keeps a set that was checked, with its shape, as the document of sets with the same lists in
+ * later lines. Does nothing unless the cache has all its lists. */
+void reflectors_keep(const struct reflector_set *set, struct list_cache *cache);
+
+/* True if such a set was kept, which is the document of this one from now on. */
+bool reflectors_known(struct reflector_set *set, struct list_cache *cache);
 
 /* A name of two reflectors of the set, or NULL. The posts of a row "a" have the names a_0, a_1 and
  * so on, which no point or plane may have. */

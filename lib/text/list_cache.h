@@ -15,6 +15,7 @@ struct list_cache_entry {
     LIST_OF(void) items;         /* without spare room, so that a list_add makes a copy */
     struct field_text read;      /* text of the list in the line it was read from */
     struct field_text written;   /* text of the list in lines that are written */
+    const void *document;        /* a struct that was checked and has this list first, or NULL */
 };
 
 /* A zeroed cache is empty. All its memory is its arena's. */

@@ -1,9 +1,12 @@
 #include "frame/reflectors.h"
 
+#include "base/text.h"
 #include "base/units.h"
 #include "check.h"
 #include "geometry/mirror.h"
 #include "sample.h"
+#include "text/list_cache.h"
+#include "text/record_read.h"
 
 /* A car of 4 m by 2 m at (10, 20) that heads along y. */
 static const struct box northward = {
@@ -339,4 +342,50 @@ TEST(a_set_has_its_documents_shape_until_one_of_its_lists_changes)
     set.points.items = points;
     list_add(&set.mirrors, arena)->reflection = 1;
     assert_false(reflectors_unchanged(&set));
+}
+
+/* A set with a point p and a plane of this name, as it is read from a line. */
+static struct reflector_set read_set(const char *plane, struct list_cache *cache)
+{
+    struct text *line = check_text();
+    struct reflector_set set = {0};
+    struct diag diag = {0};
+    text_format(line,
+                "{\"model\":\"m\",\"objects\":[\"a\"],\"points\":[{\"name\":\"p\",\"x\":0.6,"
+                "\"y\":0,\"facing_rad\":0,\"full_rad\":1,\"zero_rad\":2,\"ercs\":1}],\"planes\":["
+                "{\"name\":\"%s\",\"from_x\":0,\"from_y\":0,\"to_x\":1,\"to_y\":0,\"ercs\":1}]}",
+                plane);
+    assert_int_equal(record_read(line->bytes, line->length, &reflector_set_record, &set,
+                                 check_arena(), cache, &diag),
+                     0);
+    return set;
+}
+
+TEST(a_set_that_was_kept_is_known_in_later_lines_by_all_its_lists)
+{
+    struct list_cache cache = {0};
+    struct reflector_set set = read_set("q", &cache);
+    assert_false(reflectors_known(&set, &cache));
+    reflectors_keep(&set, &cache);
+    set = read_set("q", &cache);
+    assert_true(reflectors_known(&set, &cache));
+    assert_true(reflectors_unchanged(&set));
+    assert_ptr_equal(reflectors_shape(&set, check_arena()), set.shape);
+    assert_close(set.shape->share, 2, 0);
+    struct reflector_set other = read_set("p", &cache);
+    assert_false(reflectors_known(&other, &cache));
+    assert_string_equal(reflectors_name_twice(&other, check_arena()), "p");
+    arena_free(&cache.arena);
+}
+
+TEST(a_set_with_a_list_that_may_change_is_not_kept)
+{
+    struct list_cache cache = {0};
+    struct reflector_set set = read_set("q", &cache);
+    list_add(&set.mirrors, check_arena())->reflection = 1;
+    reflectors_keep(&set, &cache);
+    assert_false(reflectors_known(&set, &cache));
+    set = read_set("q", &cache);
+    assert_false(reflectors_known(&set, &cache));
+    arena_free(&cache.arena);
 }
