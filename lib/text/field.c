@@ -39,7 +39,7 @@ const struct field *field_find(const struct record *record, const char *name, si
 static void set_all_absent(const struct record *record, void *base)
 {
     for (const struct field *field = record->fields; field->name != NULL; field++)
-        if (field->absent != 0 || field->kind == FIELD_RECORD)
+        if (field_absent_differs(field))
             field_set_absent(field, base);
 }
 

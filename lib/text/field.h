@@ -96,9 +96,9 @@ struct record {
     const struct field_gone *gone; /* ends without a name; NULL: none */
 };
 
-/* The most members of a record: readers note in a set of 64-bit words which ones they have seen. A
- * longer table does not compile. */
-enum { FIELD_MOST = 127, FIELD_SEEN_WORDS = (FIELD_MOST + 64) / 64 };
+/* The most members of a record: readers note which ones they have seen. A longer table does not
+ * compile. */
+enum { FIELD_MOST = 127 };
 
 #define FIELD_TABLE(owner, fields_, name_, help_)                                                  \
     .name = (name_), .help = (help_), .size = sizeof(owner),                                       \
@@ -190,6 +190,12 @@ const struct field_gone *field_find_gone(const struct record *record, const char
 
 /* Sets every member to its value when absent. */
 void field_clear(const struct record *record, void *base);
+
+/* True if an absent member may have another value than zeros, which most have. */
+static inline bool field_absent_differs(const struct field *field)
+{
+    return field->absent != 0 || field->kind == FIELD_RECORD;
+}
 
 /* Sets one member of a zeroed struct to its value when absent. */
 void field_set_absent(const struct field *field, void *base);

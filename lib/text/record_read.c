@@ -323,7 +323,7 @@ static const struct field *take_key(struct json_scan *scan, const struct field *
 
 /* Reads the key and the colon of any member, in any spelling; NULL after a message. */
 static const struct field *read_key(struct json_scan *scan, const struct record *record,
-                                    const uint64_t *seen)
+                                    const bool *seen)
 {
     struct json_string key;
     const struct field *field = NULL;
@@ -334,7 +334,7 @@ static const struct field *read_key(struct json_scan *scan, const struct record 
     field = field_find(record, key.text, key.length);
     if (field == NULL)
         field_unknown(record, key.text, key.length, scan->diag);
-    else if ((seen[(field - record->fields) / 64] >> (field - record->fields) % 64 & 1) != 0)
+    else if (seen[field - record->fields])
         field_twice(field, scan->diag);
     else if (!json_scan_take(scan, ':'))
         unexpected(scan, "':'");
@@ -366,8 +366,7 @@ static int read_with_text(struct reader *reader, const struct record *record,
     return 0;
 }
 
-static int read_members(struct reader *reader, const struct record *record, void *base,
-                        uint64_t *seen)
+static int read_members(struct reader *reader, const struct record *record, void *base, bool *seen)
 {
     struct json_scan *scan = &reader->scan;
     const struct field *next = record->fields;
@@ -379,10 +378,9 @@ static int read_members(struct reader *reader, const struct record *record, void
         if (field == NULL)
             return -1;
         size_t number = (size_t)(field - record->fields);
-        uint64_t *word = &seen[number / 64], bit = UINT64_C(1) << number % 64;
-        if ((*word & bit) != 0)
+        if (seen[number])
             return field_twice(field, scan->diag);
-        *word |= bit;
+        seen[number] = true;
         next = field + 1;
         if ((keeps_line ? read_with_text(reader, record, field, base)
                         : read_member(reader, field, base)) != 0)
@@ -402,21 +400,19 @@ static bool inherits(const struct record *record, const struct field *field, con
 static int read_record(struct reader *reader, const struct record *record, void *base)
 {
     struct json_scan *scan = &reader->scan;
-    uint64_t seen[FIELD_SEEN_WORDS] = {0};
+    bool seen[FIELD_MOST] = {false};
     json_scan_take(scan, '{');
     if (!json_scan_take(scan, '}') && read_members(reader, record, base, seen) != 0)
         return -1;
-    for (size_t word = 0; word < FIELD_SEEN_WORDS; word++)
-        for (uint64_t unseen = ~seen[word]; unseen != 0; unseen &= unseen - 1) {
-            const struct field *field =
-                &record->fields[64 * word + (size_t)__builtin_ctzll(unseen)];
-            if (field->name == NULL)
-                return 0;
-            if (field->optional)
-                field_set_absent(field, base);
-            else if (field->group == 0 && !inherits(record, field, base))
-                return field_refuse(field, "missing", scan->diag);
-        }
+    const bool *known = seen;
+    for (const struct field *field = record->fields; field->name != NULL; field++, known++) {
+        if (*known || (field->optional && !field_absent_differs(field)))
+            continue;
+        if (field->optional)
+            field_set_absent(field, base);
+        else if (field->group == 0 && !inherits(record, field, base))
+            return field_refuse(field, "missing", scan->diag);
+    }
     return 0;
 }
 
