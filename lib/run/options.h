@@ -8,7 +8,7 @@
 #include "base/diag.h"
 #include "base/text.h"
 
-#define GLINT_VERSION "0.1.0"
+#define GLINT_VERSION "1.0.0"
 
 struct stage;
 

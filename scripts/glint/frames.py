@@ -34,10 +34,8 @@ import threading
 import time
 import zlib
 
-# What frames are written as; those of version 0 are read, too.
+# The version of frames (those of version 0 are read, too), and the numbers that a target has in every list.
 VERSION = 1
-
-# Numbers of a target that are there in every list.
 MEASURED = ("range_m", "azimuth_rad", "range_rate_mps", "amplitude_db")
 
 

@@ -55,6 +55,7 @@ def check_programs():
             assert run(f"{path} {option}") == run(f"{BUILT}/{name} {option}"), f"{name} {option} differs"
     assert sum(of_one_file.values()) <= MOST_BYTES, f"the programs have {sum(of_one_file.values())} bytes"
     assert not run(f"nm {PROGRAMS}/glint 2>/dev/null"), "glint is not stripped"
+    assert run("pkg-config --modversion glint") == run("glint --version").split()[-1] + "\n"
 
 
 def check_completions(folder):
