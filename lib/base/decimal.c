@@ -164,8 +164,10 @@ static uint64_t whole_between(wide low, wide value, wide high, int fraction)
 
 /* What reads back to a double lies between the midpoints to its neighbours, which read back to it
  * if its mantissa is even. places is the least number with a multiple of 10^-places in every such
- * interval: fewer than ten lie there, and at most one multiple of ten, which is then shorter. */
-struct decimal decimal_shortest(uint64_t bits)
+ * interval: fewer than ten lie there, and at most one multiple of ten, which is then shorter.
+ * Kept out of its callers, which rarely need it and would otherwise save registers for each number.
+ */
+__attribute__((noinline)) struct decimal decimal_shortest(uint64_t bits)
 {
     assert(bits > 0 && bits >> MANTISSA_BITS < 0x7ff);
     const int field = (int)(bits >> MANTISSA_BITS);
