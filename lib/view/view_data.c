@@ -450,6 +450,7 @@ static void add_track(struct view_data *data, const struct frame *frame,
     put_name(data, COLUMN_TRACK_ID, track->id);
     put_name(data, COLUMN_TRACK_OBJECT, pair->object != NULL ? pair->object->id : NULL);
     put_name(data, COLUMN_TRACK_BEFORE, before);
+    put_count(data, COLUMN_TRACK_EXCUSED, pair->excused);
 }
 
 static int compare_tracks(struct view_data *data, const struct frame *frame, struct diag *diag)

@@ -115,21 +115,18 @@ function drawPair(pair) {
     }
 }
 
-// The tracks of a frame, and the road users without one.
+// The tracks of a frame, and the objects that count without one, as glint-score-tracks pairs them.
 function tracksOf(frame) {
-    const begin = hasTracks ? starts('frame_tracks') : [];
+    const begin = starts('frame_tracks');
     const rows = [];
     for (let i = begin[frame]; i < begin[frame + 1]; i++) {
-        if (column('track_id')[i] > 0 || isRoadUser(objectRow(frame, column('track_object')[i] - 1))) {
-            rows.push(i);
-        }
+        rows.push(i);
     }
     return rows;
 }
 
 function nameOrNone(name, i) {
-    const number = column(name)[i];
-    return number === 0 ? null : names[number - 1];
+    return names[column(name)[i] - 1] ?? null;
 }
 
 // The tracks of a frame whose object had another one before.
@@ -160,7 +157,8 @@ function drawTrack(i) {
     }
     const at = toScreen(trackPlace(i, 0));
     const before = nameOrNone('track_before', i);
-    pen.strokeStyle = nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
+    const unpaired = column('track_excused')[i] ? ink.soft : ink.lost;
+    pen.strokeStyle = nameOrNone('track_object', i) && !before ? ink.ink : unpaired;
     pen.lineWidth = 2;
     line({x: at.x - 7, y: at.y}, {x: at.x + 7, y: at.y});
     line({x: at.x, y: at.y - 7}, {x: at.x, y: at.y + 7});
@@ -192,6 +190,7 @@ function comparisonMeanings() {
         ...hasTracks ? [
             meaning(track(ink.ink), 'track, with its id'),
             meaning(track(ink.lost), 'track of no object, or switched'),
+            meaning(track(ink.soft), 'track on an object that does not count'),
             meaning(drawing => drawMissedObject(drawing, middle, 6), 'road user without a track'),
         ] : [],
     ];
@@ -297,8 +296,9 @@ function trackRow(i) {
     const id = nameOrNone('track_id', i);
     const object = nameOrNone('track_object', i);
     const before = nameOrNone('track_before', i);
+    const unpaired = column('track_excused')[i] ? 'does not count' : 'of no object';
     const row = make('tr');
-    row.append(make('td', id || 'missed'), make('td', object || 'of no object'),
+    row.append(make('td', id || 'missed'), make('td', object || unpaired),
         make('td', id && object ? `${round(column('track_apart_m')[i], 2)} m` : '', 'number'),
         make('td', before ? `before ${before}` : '', 'switch'));
     return row;
