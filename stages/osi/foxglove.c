@@ -59,7 +59,8 @@ void foxglove_add_points(struct trace *trace, const struct sensor_view *sensor, 
             add_point(trace, &frame->targets.items[i], &base64);
     text_add(&base64, "", 1);
     fill(text, foxglove_points,
-         (double[]){TIME(time_ns), pose.position_m.x, pose.position_m.y, TURN(pose.yaw_rad)},
+         (double[]){TIME(time_ns), pose.position_m.x, pose.position_m.y, sensor->mount_z_m,
+                    TURN(pose.yaw_rad)},
          (const char *[]){base64.bytes});
     text_free(&base64);
 }

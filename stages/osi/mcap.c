@@ -1,5 +1,6 @@
 /* MCAP: one indexed file for viewers, with the frames themselves and messages of OSI, or for ROS 2.
  */
+#include "base/intern.h"
 #include "mcap_ros.h"
 #include "mcap_views.h"
 #include "run/stage.h"
@@ -10,6 +11,7 @@ struct mcap_stage {
     struct mcap_ros_times transforms;
     struct vec2 origin_m; /* of the first frame */
     size_t points, flat;  /* how many so far, and how many of them have no elevation */
+    struct intern low;    /* names of sensors whose height is not known */
 };
 
 static int mcap_start(void *state, struct runner *runner)
@@ -40,11 +42,15 @@ static int check_origin(struct mcap_stage *own, struct diag *diag)
                      origin_m.x, origin_m.y, own->origin_m.x, own->origin_m.y);
 }
 
-static void count_flat(struct mcap_stage *own, const struct frame *frame)
+/* Notes what stands for something that nobody measured. */
+static void note_constants(struct mcap_stage *own, const struct frame *frame, struct arena *lasting)
 {
     own->points += frame->targets.count;
     for (size_t i = 0; i < frame->targets.count; i++)
         own->flat += (frame->targets.items[i].present & VALUE_ELEVATION) == 0;
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (frame->sensors.list.items[i].mount_z_m == 0)
+            intern_word(&own->low, frame->sensors.list.items[i].name, lasting);
 }
 
 static int add_frame(struct mcap_stage *own, struct diag *diag)
@@ -68,18 +74,33 @@ static int mcap_step(void *state, struct frame *frame, struct runner *runner)
     if (trace_take(&own->log.trace, frame, diag) != 0 || check_origin(own, diag) != 0 ||
         add_frame(own, diag) != 0)
         return -1;
-    count_flat(own, frame);
+    note_constants(own, frame, runner_arena(runner));
     return send(&own->log.file, runner);
+}
+
+static void tell_constants(const struct mcap_stage *own, struct runner *runner)
+{
+    struct arena *arena = runner_arena(runner);
+    if (own->flat > 0)
+        runner_notice(runner,
+                      arena_format(arena,
+                                   "z is 0 in %zu of %zu points: their radars measure no elevation",
+                                   own->flat, own->points));
+    if (own->low.list.count == 0)
+        return;
+    const char *names = intern_text(&own->low, 0);
+    for (uint32_t i = 1; i < own->low.list.count; i++)
+        names = arena_format(arena, "%s, %s", names, intern_text(&own->low, i));
+    runner_notice(runner,
+                  arena_format(arena,
+                               "0 m is taken as the height of radars that have no mount_z_m: %s",
+                               names));
 }
 
 static int mcap_stop(void *state, struct runner *runner)
 {
     struct mcap_stage *own = state;
-    if (own->flat > 0)
-        runner_notice(runner, arena_format(runner_arena(runner),
-                                           "z is 0 in %zu of %zu points: their radars measure no "
-                                           "elevation",
-                                           own->flat, own->points));
+    tell_constants(own, runner);
     mcap_file_end(&own->log.file);
     return send(&own->log.file, runner);
 }

@@ -623,13 +623,15 @@ def a_plan_that_cannot_be_exported_makes_no_folder(folder):
 
 
 def what_nobody_measured_is_said(folder):
-    """Once, on stderr: heights of points and radars, levels of visibility, and what the layout's document calls constant. Where
-    targets have an elevation, radars a height and boxes a visibility, nothing is said of them."""
+    """Once, on stderr: heights of points and radars, levels of visibility, and what the layout's document calls constant, which the
+    page has, too. Where targets have an elevation, radars a height and boxes a visibility, nothing is said of them."""
     lacking = [frame_of([body("ego"), body("other", x=12)], [target(), target()], i) for i in range(2)]
     for frame in lacking:
         del frame["sensors"]["list"][0]["mount_z_m"]
     sightings = {"sensor": "front", "object": "other", "reflectors": 2, "in_range": 1, "in_view": 1, "visibility": "v80-100"}
     known = [frame_of([body("ego"), body("other", x=12)], [target() | {"elevation_rad": 0.01}], i, visibility=[sightings]) for i in range(2)]
+    with open(ROOT + "/data/exports/README.md", encoding="utf-8") as file:
+        page = " ".join(file.read().split())
     for form in ALL:
         with open(f"{ROOT}/data/exports/{form}.json", encoding="utf-8") as file:
             constants = [f"export: {text}" for text in json.load(file).get("constants", ())]
@@ -640,6 +642,7 @@ def what_nobody_measured_is_said(folder):
         assert [line for line in said[0] if line in measured] == measured, said
         assert any("in 2 of 2 boxes" in line for line in said[0]) == (form != "openpcdet"), said
         assert [line for line in said[1] if "7 columns" not in line] == constants == [line for line in said[0] if line in constants], said
+        assert all(text.replace("export: ", "") in page for text in constants), constants
 
 
 # --- refusals -------------------------------------------------------------------------------------
