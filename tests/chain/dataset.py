@@ -252,6 +252,9 @@ def counts_of_the_page_add_up(folder):
     for split, count in sums.items():
         assert re.search(rf"\n\| `{split}/lrr77-full` \| \d+ \| [\d,]+ \| {count:,} \|", page), page
     assert "no radar has measured them" in page and "- `random-dense`: snapshots that glint has drawn" in page
+    with open(os.path.join(place, "documents", "sensors", "lrr77-full.json"), encoding="utf-8") as suite:
+        assert f"\n- `lrr77-full`: {json.load(suite)['origin']}\n" in page
+    assert f"\n    {manifest(place)['content_hash']}\n" in page
 
 
 def counts_add_up_at_the_edges(folder):

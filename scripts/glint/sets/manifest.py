@@ -65,9 +65,12 @@ def origins_of(sources):
     return found if recorded else {}
 
 
+def resources_of(layout, records):
+    return [resource_of(file, layout["shards"][record["part"]]) for record in records for file in record["files"]]
+
+
 def package_of(layout, records, documents):
-    plan = layout["plan"]
-    resources = [resource_of(file, layout["shards"][record["part"]]) for record in records for file in record["files"]]
+    plan, resources = layout["plan"], resources_of(layout, records)
     return {"profile": "data-package", "name": plan["name"], "description": plan["origin"],
             **origins_of(plan["sources"]),
             "program": layout["program"], "identity": layout["identity"], "plan": plan,
@@ -98,7 +101,8 @@ def finish(layout, folder):
         for path, fields in schemas_of(layout).items():
             make_folder(os.path.dirname(os.path.join(folder, path)))
             write_whole(os.path.join(folder, path), work, json.dumps(fields, indent=1, ensure_ascii=False) + "\n")
-        write_whole(os.path.join(folder, README), work, readme.readme_of(layout, records))
+        page = readme.readme_of(layout, records, folder, content_hash(resources_of(layout, records)))
+        write_whole(os.path.join(folder, README), work, page)
         package = package_of(layout, records, documents_of(layout, folder))
         if os.path.exists(os.path.join(folder, pace.PATH)):
             os.remove(os.path.join(folder, pace.PATH))

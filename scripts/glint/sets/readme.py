@@ -1,9 +1,11 @@
 """The README.md of a data set, from the texts of data/sets: what is in it, its conventions, and how to load it."""
 import collections
 import json
+import os
 import shlex
 
-from glint.sets.plan import kind_of, scene_of, text_of
+from glint.sets.documents import DOCUMENTS, suite_name
+from glint.sets.plan import kind_of, read_json, scene_of, text_of
 from glint.sets.traffic import shell_of
 
 def split_table(layout, records):
@@ -42,21 +44,29 @@ def traffic_of(source):
     return f"- `{scene_of(source)}`: {made.get(kind, 'a scenario, played by glint')}"
 
 
-def readme_of(layout, records):
+def radar_of(suite, folder):
+    """What the set's copy of a suite says of itself."""
+    name = suite_name(suite)
+    return f"- `{name}`: {read_json(os.path.join(folder, DOCUMENTS, 'sensors', name + '.json')).get('origin', 'a suite of your own')}"
+
+
+def readme_of(layout, records, folder, content_hash):
     plan, counts = layout["plan"], classes_by_split(layout, records)
     splits, texts = plan.get("splits", {}), json.loads(text_of("readme.json"))
     first, parquet = layout["shards"][0], plan.get("tables") == "parquet"
     compression = plan.get("compression", "gzip")
     form = compression if first["lines"] else "tables"
-    loading = texts["loading"].get(form) or text_of("loading.txt")
+    loading = texts["loading"].get(form) or text_of("loading.txt").rstrip()
+    loading += "".join(texts["loading"].get(name, "") for name in plan.get("exports", ()))
     return text_of("readme.txt").format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
         rows=sum(record["frames"] for record in records),
         targets=sum(sum(record["targets"].values()) for record in records),
         table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
         classes=class_table(counts), traffic="\n".join(map(traffic_of, plan["sources"])),
+        radars="\n".join(radar_of(suite, folder) for suite in plan["suites"]), content_hash=content_hash,
         leak=texts["splits"][splits.get("by", "none")].format(gap_s=splits.get("gap_s")),
         lines=texts["lines"][form] + texts["bare"] * (plan.get("lines") == "without_objects"), shell=shlex.join(shell_of(plan)),
         tables=texts["tables"].format(form="Parquet" if parquet else f"CSV, {compression}") if plan.get("tables") else "",
         exports=texts["exports"].format(names=", ".join(plan["exports"])) if "exports" in plan else "",
-        loading=loading.format(first=first["lines"] or first["tables"][0], split=first["split"], reader="parquet" if parquet else "csv").rstrip())
+        loading=loading.format(first=first["lines"] or first["tables"][0], split=first["split"], reader="parquet" if parquet else "csv"))
