@@ -149,16 +149,16 @@ const tests = {
         assert.ok(farther(0, 1) && farther(1, 2));
         await withPage(view([frame]), async page => {
             assert.ok((await panelText(page)).includes(
-                `${part(apart('range_m', 2, 1), sensor.resolution_range_m, 'm')} behind target 2`));
+                `${part(apart('range_m', 2, 1), sensor.resolution_range_m, 'm')} behind target\u00a02`));
             await page.keyboard.press('n');
             await page.keyboard.press('n');
             const text = await panelText(page);
             assert.match(text, /Why are these apart\?/);
-            for (const [other, words] of [[0, 'behind target 1'], [2, 'in front of target 3']]) {
+            for (const [other, words] of [[0, 'behind target\u00a01'], [2, 'in front of target\u00a03']]) {
                 const range = part(apart('range_m', 1, other), sensor.resolution_range_m, 'm');
                 const rate = part(apart('range_rate_mps', 1, other), sensor.resolution_range_rate_mps, 'm/s');
                 assert.ok(text.includes(`${range} ${words}`), `${range} ${words}: ${text}`);
-                assert.ok(text.includes(`${rate} ${other === 0 ? 'less' : 'more'} than it`), `${rate}: ${text}`);
+                assert.ok(text.includes(`${rate} of rate ${other === 0 ? 'below' : 'above'} it`), `${rate}: ${text}`);
             }
             await page.click('#panel .row:has-text("behind target 1")');
             assert.match(await panelText(page), /Target 1 of left/);

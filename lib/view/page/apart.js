@@ -18,16 +18,16 @@ function waysApart(scan, target, other) {
     const azimuth = column('target_cell_azimuth_rad')[target] - column('target_cell_azimuth_rad')[other];
     const ways = [
         way(range, cell.range_m, `${round(Math.abs(range), 2)} m`, ['in front of #', 'behind #']),
-        way(rate, cell.range_rate_mps, `${round(Math.abs(rate), 2)} m/s`, ['less than #', 'more than #']),
+        way(rate, cell.range_rate_mps, `${round(Math.abs(rate), 2)} m/s`, ['of rate below #', 'of rate above #']),
         ...beam > 0 ? [way(azimuth, beam, `${round(degrees * Math.abs(azimuth), 1)}°`, ['right of #', 'left of #'])] : [],
     ];
     return ways.sort((a, b) => b.cells - a.cells);
 }
 
-// "0.70 m = 2.3 cells behind target 1": what tells a target most from another one.
+// "0.71 m = 2.4 cells behind target 1": what tells a target most from another one.
 function apartLine(scan, target, other) {
     const [{text, words}] = waysApart(scan, target, other.target);
-    return make('div', `${text} ${words.replace('#', `target ${other.number}`)}`, 'soft');
+    return make('div', `${text} ${words.replace('#', `target\u00a0${other.number}`)}`, 'soft');
 }
 
 // The targets of a scan that lie nearest to one: those of its object first.
@@ -48,7 +48,7 @@ function neighboursOf(scan, target) {
 // A target beside one: by the way in which they are farthest apart, and the others.
 function neighbourRow(scan, target, {other, number, foreign}) {
     const [first, ...others] = waysApart(scan, target, other);
-    const name = `target ${number}${foreign ? ` of ${names[objectOfTarget(other)]}` : ''}`;
+    const name = `target\u00a0${number}${foreign ? ` of ${names[objectOfTarget(other)]}` : ''}`;
     const line = [make('b', first.text), ` ${first.words.replace('#', () => name)}`,
         make('div', others.map(one => `${one.text} ${one.words.replace('#', 'it')}`).join(', '), 'soft')];
     return rowButton(targetSymbol(scan, other), line, '', () => chooseTarget(other));

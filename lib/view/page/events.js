@@ -4,7 +4,7 @@
 const eventKinds = {
     ghost: {title: 'ghosts', tells: 'a ghost that its sensor did not list in the scan before'},
     merge: {title: 'merges', tells: 'a target begins to have echoes of two objects'},
-    split: {title: 'splits', tells: 'an object begins to have several targets of a sensor'},
+    split: {title: 'splits', tells: 'a road user begins to have several targets of a sensor'},
     miss: {title: 'misses', tells: 'a road user in the scene loses its last target of a sensor'},
     false_alarm: {title: 'false alarms', tells: 'a target that is nothing but noise'},
     difference: {title: 'differences', tells: 'a missed or false target, or an identity switch'},
@@ -14,7 +14,7 @@ const eventKinds = {
 let events = {scene: -1, of: {}, shown: null};
 
 // The targets of a scan that show an event of each kind, by a key that is the same in the next scan.
-function keysOfScan(scan) {
+function keysOfScan(frame, scan) {
     const found = {ghost: new Map(), merge: new Map(), split: new Map(), false_alarm: new Map(), seen: new Map()};
     const {begin, end} = targetsOf(scan);
     for (let target = begin; target < end; target++) {
@@ -24,10 +24,10 @@ function keysOfScan(scan) {
             found.false_alarm.set(`target ${target}`, target); // each false alarm is a new one
         } else if (kind === 'ghost') {
             found.ghost.set(object, target);
-        } else if (kind === 'body') {
+        } else if (kind === 'body' && isRoadUser(objectRow(frame, object))) {
             found[found.seen.has(object) ? 'split' : 'seen'].set(object, target);
         }
-        if (isMerged(target) && isWantedMerge(target)) {
+        if (isMerged(target) && isWantedMerge(frame, target)) {
             const objects = [];
             eachObjectOf(target, one => objects.push(one));
             found.merge.set([...new Set(objects)].sort().join(), target);
@@ -41,7 +41,7 @@ function noteEvent(kind, event) {
 }
 
 function noteScan(row, frame, scan, before) {
-    const now = keysOfScan(scan);
+    const now = keysOfScan(frame, scan);
     for (const kind of ['ghost', 'merge', 'split', 'false_alarm']) {
         for (const [key, target] of now[kind]) {
             if (!before || !before[kind].has(key)) {
@@ -50,8 +50,7 @@ function noteScan(row, frame, scan, before) {
         }
     }
     for (const object of before ? before.seen.keys() : []) {
-        const there = objectRow(frame, object);
-        if (!now.seen.has(object) && there >= 0 && isRoadUser(there)) {
+        if (!now.seen.has(object) && objectRow(frame, object) >= 0) {
             noteEvent('miss', {row, target: -1, object});
         }
     }
@@ -73,9 +72,6 @@ function eventsOfScene() {
             }
             differencesOf(frame).forEach(one => noteEvent('difference', {row, ...one}));
         });
-        if (mergeFilter.weight > 0 || mergeFilter.objects.length > 0) {
-            events.of.merge ||= [];
-        }
     }
     return events.of;
 }
@@ -152,12 +148,8 @@ function makeLane(kind, list) {
     title.textContent = `${eventKinds[kind].title}: ${list.length}`;
     title.title = `${capital(eventKinds[kind].tells)}. Click: to the first, again: to the next (. and ,)`;
     title.dataset.kind = kind;
-    title.disabled = list.length === 0;
     const lane = make('canvas');
     lanes.canvases.set(kind, lane);
-    if (title.disabled) {
-        return [title, lane];
-    }
     lane.addEventListener('click', event => {
         state.event = kind;
         showEvent(eventInLane(list, laneSpan(lane), event.offsetX));
@@ -182,8 +174,10 @@ function showLanes() {
     if (lanes.scene !== state.scene) {
         lanes.scene = state.scene;
         lanes.canvases.clear();
-        control('lanes').replaceChildren(...Object.keys(eventKinds).filter(kind => of[kind])
-            .flatMap(kind => makeLane(kind, of[kind])));
+        const kinds = Object.keys(eventKinds).filter(kind => kind !== 'difference' || hasTruth || hasTracks);
+        const none = kinds.filter(kind => !of[kind]).map(kind => eventKinds[kind].title).join(', ');
+        control('lanes').replaceChildren(...kinds.filter(kind => of[kind]).flatMap(kind => makeLane(kind, of[kind])),
+            ...none ? [make('p', `none: ${none}`)] : []);
     }
     const look = [state.scene, control('lanes').clientWidth, isDark(), state.event].join();
     if (lanes.drawn !== look) {

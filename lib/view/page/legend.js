@@ -64,7 +64,7 @@ function legendTitle() {
     return title;
 }
 
-const smallScreen = window.matchMedia('(max-width: 800px), (max-height: 520px)');
+const smallScreen = window.matchMedia('screen and (max-width: 800px), screen and (max-height: 520px)');
 
 function foldLegend() {
     control('legend').open = !smallScreen.matches;

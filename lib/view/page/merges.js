@@ -1,9 +1,15 @@
 // Which merges are events: by the objects in a target and by their weights in it.
 
-const mergeFilter = {objects: [], weight: 0};
+const mergeFilter = {choices: ['', ''], weight: 0};
 
-// True if at least two objects have the wanted weight in a target, and those that were chosen are among them.
-function isWantedMerge(target) {
+// True for an object of a choice: of '' every one, of 'road user' every road user, else the one of that name.
+function isOfChoice(choice, frame, object) {
+    return choice === '' || choice === names[object] ||
+        choice === 'road user' && isRoadUser(objectRow(frame, object));
+}
+
+// True if two objects have the wanted weight in a target, one of each choice.
+function isWantedMerge(frame, target) {
     const weights = new Map();
     const {begin, end} = contributorsOf(target);
     for (let i = begin; i < end; i++) {
@@ -11,12 +17,12 @@ function isWantedMerge(target) {
         weights.set(object, (weights.get(object) || 0) + column('contributor_weight')[i]);
     }
     const heavy = [...weights.keys()].filter(object => weights.get(object) >= mergeFilter.weight);
-    return heavy.length > 1 && mergeFilter.objects.every(object => heavy.includes(object));
+    const [some, others] = mergeFilter.choices.map(choice => heavy.filter(object => isOfChoice(choice, frame, object)));
+    return some.some(one => others.some(other => other !== one));
 }
 
 function readMergeFilter() {
-    mergeFilter.objects = ['merge-one', 'merge-other'].map(id => control(id).value).filter(Boolean)
-        .map(id => names.indexOf(id));
+    mergeFilter.choices = ['merge-one', 'merge-other'].map(id => control(id).value);
     mergeFilter.weight = Number(control('merge-weight').value);
     events.scene = lanes.scene = -1; // they are found and drawn anew
     lanes.drawn = '';

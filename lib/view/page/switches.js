@@ -20,8 +20,9 @@ function classOfObject(frame, object) {
 
 const standing = new Set(['guardrail', 'post', 'wall']); // classes that are no road users
 
+// False for a row of no object, -1.
 function isRoadUser(row) {
-    return !standing.has(names[column('object_class')[row]]);
+    return row >= 0 && !standing.has(names[column('object_class')[row]]);
 }
 
 function isSensorShown(scan) {

@@ -61,8 +61,8 @@ function goTo(text) {
         : asked[2] || asked[1].includes('.')
             ? rowOfTime(Number(asked[1]) - head.scenes[state.scene].start_s)
             : frames.findIndex(frame => frameNumber(frame) === Number(asked[1]));
-    control('goto').setAttribute('aria-invalid', String(row < 0));
-    if (row >= 0) {
+    control('goto').setCustomValidity(row < 0 ? 'A frame of this scene, or a time such as 4.8 s' : '');
+    if (control('goto').reportValidity()) {
         setPlaying(false);
         showRow(row);
     }
@@ -111,14 +111,17 @@ function connectTimeline() {
     control('next-scene').addEventListener('click', () => stepScene(1));
     control('last-scene').addEventListener('click', () => stepScene(-1));
     control('loop').addEventListener('click', () => setLoop(!state.loop));
-    control('goto').addEventListener('keydown', event => {
+    const field = control('goto');
+    field.addEventListener('keydown', event => {
+        field.setCustomValidity('');
         if (event.key === 'Enter') {
-            goTo(control('goto').value);
+            goTo(field.value);
         }
-        if (event.key === 'Enter' || event.key === 'Escape') {
-            control('goto').blur();
+        if (event.key === 'Escape' || event.key === 'Enter' && field.validity.valid) {
+            field.blur();
         }
         event.stopPropagation();
     });
+    field.addEventListener('blur', () => { field.value = ''; });
     new ResizeObserver(drawBand).observe(band);
 }
