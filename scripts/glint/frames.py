@@ -390,7 +390,9 @@ def columns(*sources, chain=None):
         return _arrays(sources[0])
     with tempfile.TemporaryDirectory() as folder:
         words = ["glint-tables", "--npy", folder, *map(os.fspath, sources)]
-        words = words if chain is None else ["glint", "-c", f"{chain} | {shlex.join(words)}"]
+        if chain is not None:
+            frames = _QUOTED_OR_COMMENT.sub(lambda found: found[1] or "", chain).strip()
+            words = ["glint", "-c", f"{frames} | {shlex.join(words)}"]
         done = subprocess.run(words, stderr=subprocess.PIPE, check=False)
         told = done.stderr.decode(errors="replace")
         if done.returncode:
@@ -454,6 +456,7 @@ class ChainError(RuntimeError):
         self.status = status
 
 
+_QUOTED_OR_COMMENT = re.compile(r"""(\\.|'[^']*'|"(?:\\.|[^"\\])*")|(?<![^\s|])#[^\n]*""", re.DOTALL)
 _QUOTED_OR_BAR = re.compile(r"""(\\.|'[^']*'|"(?:\\.|[^"\\])*")|\|""", re.DOTALL)
 
 

@@ -1,18 +1,19 @@
 # Rate and time left of a script's work, as lib/run/progress.h shows them. To be sourced by sh or bash where the work
 # begins.
 progress_begin_s=$(date +%s)
+progress_width() { stty size <&2 2>/dev/null | awk '{ all = $2 } END { print (all > 0 && all <= 72 ? all - 1 : 72) }'; } # columns
 
 progress() { # DONE EXPECTED UNIT: on stderr, where it is a terminal and the work has lasted for a second
     [ -t 2 ] || return 0
     set -- "$@" $(($(date +%s) - progress_begin_s))
     [ "$1" -gt 0 ] && [ "$4" -ge 1 ] || return 0
-    awk -v done="$1" -v expected="$2" -v unit="$3" -v elapsed="$4" 'BEGIN {
+    awk -v width="$(progress_width)" -v done="$1" -v expected="$2" -v unit="$3" -v elapsed="$4" 'BEGIN {
         share = done < expected ? done / expected : 1
         rate = done / elapsed
         left = int(elapsed / share - elapsed + 0.5)
         line = sprintf("[%-24s] %3d %%, %.*f %s/s, %d:%02d:%02d left", substr("########################", 1, 24 * share),
             100 * share, rate < 10, rate, unit, left / 3600, left / 60 % 60, left % 60)
-        printf "\r%-72s", line }' >&2
+        printf "\r%-*.*s", width, width, line }' >&2
 }
 
 # A part of a longer test (parts.sh) tells its share: GLINT_PROGRESS has the number of the process whose part it is, and
@@ -26,7 +27,7 @@ progress_tell() { # DONE EXPECTED
 }
 
 progress_end() { # takes the line away
-    [ ! -t 2 ] || printf '\r%72s\r' '' >&2
+    [ ! -t 2 ] || printf '\r%*s\r' "$(progress_width)" '' >&2
 }
 
 # Waits for a command in the background and tells how many of the files that it makes are there. Its exit status.

@@ -155,7 +155,10 @@ def short_work_is_silent(_):
 def a_narrow_terminal_cuts_the_line_off(folder):
     python = f"import sys, time; sys.path.insert(0, '{ROOT}/scripts'); from glint.progress import Progress\n" \
              f"for n in Progress('runs').over(range(2)): time.sleep({BLOCKED_S})"
-    for command in (f"glint-extract {folder}/frames.jsonl", f"python3 -c \"{python}\""):
+    shell = f". {ROOT}/scripts/support/progress.sh; sleep {BLOCKED_S}; progress 1 4 runs; progress_end"
+    pace = f"import sys, time, array; sys.path.insert(0, '{ROOT}/scripts'); from glint.sets import pace; pace.PATH = 'begun'\n" \
+           f"open('{folder}/begun', 'wb').write(array.array('d', [time.time() - 9, 4, 0])); pace.Pace('{folder}', 0, 1).end(); pace.clear()"
+    for command in (f"glint-extract {folder}/frames.jsonl", f"python3 -c \"{python}\"", f"python3 -c \"{pace}\"", f"sh -c '{shell}'"):
         for columns in (40, 72, 73, 200):
             text, _ = on_terminal(command, columns=columns)
             width = min(columns - 1, 72)

@@ -5,7 +5,7 @@ import os
 import sys
 import time
 
-from glint.progress import LINE_WIDTH, PAUSE_S, QUIET_S, line_of
+from glint.progress import PAUSE_S, QUIET_S, line_of, line_width
 
 PATH = "work/begun"  # doubles: begin of the run, frames to make, and frames made of each shard
 HEAD = 2
@@ -19,7 +19,7 @@ def begin(layout, left):
 def clear():
     """Clears the line of progress."""
     if sys.stderr.isatty():
-        print(f"\r{'':{LINE_WIDTH}}\r", end="", file=sys.stderr, flush=True)
+        print(f"\r{'':{line_width()}}\r", end="", file=sys.stderr, flush=True)
 
 
 class Pace:
@@ -48,4 +48,5 @@ class Pace:
             begun_s, expected, *by_shard = array.array("d", file.read())
             elapsed_s, count = time.time() - begun_s, sum(by_shard)
             if elapsed_s >= QUIET_S and count > 0:
-                print(f"\r{line_of('frames', count, elapsed_s, count / expected):{LINE_WIDTH}}", end="", file=sys.stderr, flush=True)
+                line, width = line_of("frames", count, elapsed_s, count / expected), line_width()
+                print(f"\r{line:{width}.{width}}", end="", file=sys.stderr, flush=True)
