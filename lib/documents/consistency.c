@@ -123,7 +123,7 @@ bool consistency_holds(const struct consistency *check)
     double ratio = check->left_value / check->right_value;
     if (check->kind == CONSISTENCY_EQUAL)
         return ratio <= 2 && ratio >= 0.5;
-    return ratio <= 1 + 1e-6; /* equal figures may be rounded */
+    return ratio <= 1 + CONSISTENCY_SLACK;
 }
 
 int consistency_check(const struct sensor *sensor, size_t index, struct diag *diag)

@@ -31,7 +31,10 @@ struct consistency {
     const char *member; /* to name in a refusal; NULL if there is none */
 };
 
-enum { CONSISTENCY_MOST = 20 };
+/* Figures are equal where they differ by less than this part, as they may be rounded; others differ
+ * in so many digits. */
+#define CONSISTENCY_SLACK 1e-6
+enum { CONSISTENCY_MOST = 20, CONSISTENCY_DIGITS = 7 };
 
 /* Writes the checks of a sensor with derived members and tables; a check is left out if the
  * document lacks one of its sides. Returns their number, at most CONSISTENCY_MOST. */

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "documents/consistency.h"
+
 struct row {
     const char *member, *unit;
     size_t offset;
@@ -62,7 +64,8 @@ size_t usual_figures_list(const struct sensor *sensor, struct usual_figure *unus
         const struct row *row = &rows[i];
         double value;
         memcpy(&value, (const char *)sensor + row->offset, sizeof value);
-        if (value == 0 || (fabs(value) >= row->least && fabs(value) <= row->most))
+        double size = fabs(value), slack = CONSISTENCY_SLACK * size;
+        if (size == 0 || (size + slack >= row->least && size - slack <= row->most))
             continue;
         unusual[count++] =
             (struct usual_figure){row->member, row->unit, value, row->least, row->most};

@@ -13,6 +13,7 @@
 
 #define LONG_RANGE_M 150 /* radars that look farther are of another class than those of corners */
 #define LEAST_GAIN 1e-6  /* less is rounding where a pattern ends in a zero */
+#define ADVICE "; correct it, or go on if it is meant"
 
 static double with_rounding(double sigma, double step)
 {
@@ -332,11 +333,12 @@ static void add_checks(const struct sensor *sensor, struct text *text)
         const struct consistency *check = &checks[i];
         double per_unit = units[check->unit].per_unit;
         const char *unit = units[check->unit].name;
-        text_format(text, "  %s %s, %.4g%s, %s %s, %.4g%s\n",
-                    consistency_holds(check) ? "holds:" : "doubt:", check->left,
-                    per_unit * check->left_value, unit,
-                    check->kind == CONSISTENCY_EQUAL ? "about" : "at most", check->right,
-                    per_unit * check->right_value, unit);
+        bool holds = consistency_holds(check);
+        int digits = holds ? 4 : CONSISTENCY_DIGITS;
+        text_format(text, "  %s %s, %.*g%s, %s %s, %.*g%s%s\n",
+                    holds ? "holds:" : "doubt:", check->left, digits, per_unit * check->left_value,
+                    unit, check->kind == CONSISTENCY_EQUAL ? "about" : "at most", check->right,
+                    digits, per_unit * check->right_value, unit, holds ? "" : ADVICE);
     }
 }
 
@@ -345,7 +347,7 @@ static void add_unusual(const struct sensor *sensor, struct text *text)
     struct usual_figure unusual[USUAL_FIGURES_MOST];
     size_t count = usual_figures_list(sensor, unusual);
     for (size_t i = 0; i < count; i++)
-        text_format(text, "  doubt: %s, %.4g%s, automotive radars have %.4g to %.4g%s\n",
+        text_format(text, "  doubt: %s, %.7g%s, automotive radars have %.4g to %.4g%s" ADVICE "\n",
                     unusual[i].member, unusual[i].value, unusual[i].unit, unusual[i].least,
                     unusual[i].most, unusual[i].unit);
 }

@@ -1,5 +1,6 @@
 #include "run/suite_choice.h"
 
+#include "documents/consistency.h"
 #include "documents/suite_file.h"
 #include "documents/usual_figures.h"
 #include "effects/effect.h"
@@ -55,7 +56,7 @@ void suite_choice_doubt(struct runner *runner, const struct suite *suite)
             const struct usual_figure *one = &unusual[k];
             if (!is_told(suite, i, one))
                 runner_notice(runner, arena_format(&runner->arena,
-                                                   "%s: sensors[%zu].%s: doubt: %g%s; automotive "
+                                                   "%s: sensors[%zu].%s: doubt: %.7g%s; automotive "
                                                    "radars have %g to %g%s; correct it, or "
                                                    "go on if it is meant",
                                                    suite->given, i, one->member, one->value,
@@ -77,7 +78,7 @@ static const struct class_document *too_fine(const struct frame *frame, double c
 {
     for (size_t i = 0; i < frame->vehicles.count; i++) {
         const struct class_document *document = &frame->vehicles.items[i];
-        if (document->cell_max_m > 0 && cell_m > document->cell_max_m &&
+        if (document->cell_max_m > 0 && cell_m > (1 + CONSISTENCY_SLACK) * document->cell_max_m &&
             reflects(frame, document->class))
             return document;
     }
@@ -94,9 +95,9 @@ bool suite_choice_doubt_cells(struct runner *runner, const struct suite *suite,
             continue;
         runner_notice(runner,
                       arena_format(&runner->arena,
-                                   "%s: sensors[%zu].cell_range_m: doubt: cells of %g m; the "
+                                   "%s: sensors[%zu].cell_range_m: doubt: cells of %.7g m; the "
                                    "reflectors of the class \"%s\" are made for cells of at "
-                                   "most %g m; for larger ones take --vehicles "
+                                   "most %.7g m; for larger ones take --vehicles "
                                    "detailed",
                                    suite->given, i, cell_m, document->class, document->cell_max_m));
         return true;

@@ -162,11 +162,9 @@ module.exports = ({stream, view, withPage, targetOnMap, panelText, clock}) => {
                 for (const one of ['header', 'footer', '#zoom', '#panes', '#legend input']) {
                     assert.ok(await page.locator(one).first().isHidden(), one);
                 }
-                const [map, legend] = [await page.locator('#map').boundingBox(), await page.locator('#legend').boundingBox()];
-                assert.ok(legend.y >= map.y + map.height - 1, 'the legend lies below the map');
-                const panel = await page.locator('#panel').boundingBox();
+                const [map, legend, panel] = await Promise.all(['#map', '#legend', '#panel'].map(id => page.locator(id).boundingBox()));
+                assert.ok(legend.y >= map.y + map.height - 1 && legend.height > 60, 'the unfolded legend lies below the map');
                 assert.ok(panel.x >= map.x + map.width - 1, 'the detail lies beside the map');
-                assert.ok(legend.height > 60, 'the legend is unfolded');
                 await page.emulateMedia({media: 'screen'});
                 await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
                 assert.ok(await page.evaluate(() => isDark()));

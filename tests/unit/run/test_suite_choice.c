@@ -126,18 +126,18 @@ NOISE_TEST(reflectors_that_are_made_for_finer_cells_are_doubted)
     list_add(&frame->vehicles, &bench->arena)->class = "van";
     list_add(&frame->reflectors, &bench->arena)->model = "car";
     assert_false(suite_choice_doubt_cells(&bench->runner, bench->suite, frame));
-    frame->vehicles.items[0].cell_max_m = 0.3;
-    frame->vehicles.items[1].cell_max_m = 0.2; /* but no van reflects */
+    frame->vehicles.items[0].cell_max_m = 0.29999999; /* as good as equal */
+    frame->vehicles.items[1].cell_max_m = 0.2;        /* but no van reflects */
     assert_false(suite_choice_doubt_cells(&bench->runner, bench->suite, frame));
     assert_int_equal(bench->runner.notices.count, 0);
-    frame->vehicles.items[0].cell_max_m = 0.299;
+    frame->vehicles.items[0].cell_max_m = 0.2999996;
     assert_true(suite_choice_doubt_cells(&bench->runner, bench->suite, frame));
     assert_true(suite_choice_doubt_cells(&bench->runner, bench->suite, frame));
     assert_int_equal(bench->runner.notices.count, 1);
     assert_string_equal(
         bench->runner.notices.items[0],
         "srr24-pair-every-frame: sensors[0].cell_range_m: doubt: cells of 0.3 m; "
-        "the reflectors of the class \"car\" are made for cells of at most 0.299 m; "
+        "the reflectors of the class \"car\" are made for cells of at most 0.2999996 m; "
         "for larger ones take --vehicles detailed");
 }
 
