@@ -72,7 +72,7 @@ VERSIONS = lambda value: type(value) in (int, float) and value in (0, VERSION), 
 FRAME = {"version": VERSIONS, "scene": NAME, "seed": SEED, "frame": WHOLE, "time_s": number(-1e10, 1e10), "ego": NAME, "origin_x_m": ORIGIN,
          "origin_y_m": ORIGIN, "objects": [OBJECT], "sensors": {"list": [SENSOR]}, "targets": [TARGET],
          "lost": [LOST]}
-OPTIONAL = {*FRAME, "age_s", "elevation_rad", "mount_z_m", "quality"} - {"version"}
+OPTIONAL = {*FRAME, "age_s", "elevation_rad", "mount_z_m", "quality"}
 
 
 def fault(value, shape, optional=OPTIONAL):
@@ -198,7 +198,7 @@ def _parsed(file, name, needs, check):
             raise ValueError("0 bytes")
         for line in _unpacked(file, head):
             frame = decoded(line) if check else json.loads(line)
-            wrong = fault(frame, FRAME, OPTIONAL - {*needs}) or unjoined(frame) if check else fault(frame, {})
+            wrong = fault(frame, FRAME, OPTIONAL - {"version", *needs}) or unjoined(frame) if check else fault(frame, {})
             if wrong:
                 raise BadFrame(wrong.lstrip(".: "))
             name_lost(frame)

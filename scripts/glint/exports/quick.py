@@ -6,8 +6,8 @@ from operator import itemgetter
 import glint
 
 # Members at the head of a frame; the others are taken out of all records of a kind at once.
-HEAD = {name: glint.FRAME[name] for name in ("scene", "seed", "frame", "time_s", "ego", "origin_x_m", "origin_y_m")}
-ABSENT = {"origin_x_m", "origin_y_m"}
+HEAD = {name: glint.FRAME[name] for name in ("version", "scene", "seed", "frame", "time_s", "ego", "origin_x_m", "origin_y_m")}
+ABSENT = {"version", "origin_x_m", "origin_y_m"}  # tables have no version
 IDS, CLASSES, PLACES = itemgetter("id"), itemgetter("class"), itemgetter("x_m", "y_m")
 MOTIONS, SIZES = itemgetter("yaw_rad", "vx_mps", "vy_mps", "yaw_rate_radps"), itemgetter("length_m", "width_m", "height_m")
 NAMES, MOUNTS, VIEWS = itemgetter("name"), itemgetter("mount_x_m", "mount_y_m", "mount_yaw_rad"), itemgetter("field_of_view_rad")
