@@ -1,4 +1,4 @@
-"""How many detections with a probability of existence are echoes, by scene, as rows of schemas/README.md.
+"""How many detections with a probability of existence are echoes, by scene, as rows of data/accuracy/quality.txt.
 
     python3 tests/tools/accuracy/existence.py [--suites lrr77-full,radarscenes77-full] [--signal]
 

@@ -2,16 +2,16 @@
 
     python3 tests/tools/accuracy/normalised_errors.py [--scenes 20] [--suites srr24-signal,lrr77-full] [--signal | --rows]
 
-Random scenes of dense traffic move for 2 s each at 25 Hz. Each suite detects them by its cells (glint-sensor,
-glint-noise), with --signal a suite with a waveform also by its signal (glint-sensor-signal). --rows prints the table of
-schemas/README.md: means by suite. The error of a target is its
-difference from the echo of its greatest weight; false alarms have none. Misalignment is left out, as the quality does
-not contain it. The groups are targets of one echo and of several, unmarked and marked by `looks_merged`, and all
-unmarked and all marked targets, which a tracker can tell apart. A range rate is compared in its true fold; targets
-that the signal puts into a wrong one are a group of their own and in no other. NEES is e' P^-1 e of range, range rate
-and azimuth, divided by their number. Where variances are right, each mean is 1, and 95 % of the errors are inside
-their 95 % region (1.96 standard deviations, or the ellipsoid of NEES). Each figure has its 95 % interval over scenes.
-Such intervals of 20 scenes cover 94 % where scenes are alike, and 85 % where few scenes have most of the errors.
+Random scenes of dense traffic move for 2 s each at 25 Hz. Each suite detects them by its cells (glint-sensor, glint-noise),
+with --signal a suite with a waveform also by its signal (glint-sensor-signal). --rows prints rows of
+data/accuracy/quality.txt: means by suite. The error of a target is its difference from the echo of its greatest weight; false
+alarms have none. Misalignment is left out, as the quality does not contain it. The groups are targets of one echo and of
+several, unmarked and marked by `looks_merged`, and all unmarked and all marked targets, which a tracker can tell apart. A
+range rate is compared in its true fold; targets that the signal puts into a wrong one are a group of their own and in no
+other. NEES is e' P^-1 e of range, range rate and azimuth, divided by their number. Where variances are right, each mean is 1,
+and 95 % of the errors are inside their 95 % region (1.96 standard deviations, or the ellipsoid of NEES). Each figure has its
+95 % interval over scenes. Such intervals of 20 scenes cover 94 % where scenes are alike, and 85 % where few scenes have most
+of the errors.
 """
 import argparse
 import json
