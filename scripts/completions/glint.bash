@@ -4,18 +4,26 @@ _glint_names() { # KIND: the first words of `glint --list KIND`
     glint --list "$1" 2>/dev/null | cut -d ' ' -f 1
 }
 
+_glint_offer() { # BEFORE WORD: the names on standard input that begin with WORD, as a shell reads them; none is expanded
+    local name
+    COMPREPLY=()
+    while read -r name; do
+        [[ -z $name || $name != "$2"* ]] || COMPREPLY+=("$1$(printf %q "$name")")
+    done
+}
+
 _glint_values() { # OPTION: the names that it takes, or nothing
     case $1 in
         --sensors | --datasheet) _glint_names sensors ;;
-        --effects) echo auto all none; _glint_names effects ;;
-        --sections) echo all none; _glint_names sections ;;
-        --vehicles) echo paper; glint --list vehicles | sed -n 's/.*--vehicles //p' | tr -d , | sort -u ;;
-        --list) echo programs effects sections sensors scenarios vehicles pipelines ;;
+        --effects) printf "%s\n" auto all none; _glint_names effects ;;
+        --sections) printf "%s\n" all none; _glint_names sections ;;
+        --vehicles) echo paper; glint --list vehicles | sed -n 's/.*--vehicles //p' | tr -s ', ' '\n' | sort -u ;;
+        --list) printf "%s\n" programs effects sections sensors scenarios vehicles pipelines ;;
     esac
 }
 
 _glint() {
-    local word=$2 before=$3 option
+    local word=$2 before=$3
     # bash takes = as a word of its own.
     [ "$before" != = ] || before=${COMP_WORDS[COMP_CWORD - 2]}
     [ "$word" != = ] || word=
@@ -24,13 +32,13 @@ _glint() {
     last=${last#-}
     values=$(_glint_values "$before")
     if [ -n "$values" ]; then
-        mapfile -t COMPREPLY < <(compgen -P "${word%"$last"}" -W "$values" -- "$last")
+        _glint_offer "${word%"$last"}" "$last" <<<"$values"
         return
     fi
     case $word in
         -*)
-            option=$("$1" --help 2>/dev/null | grep -oE -e '--[a-z][a-z-]*=?' | sort -u)
-            mapfile -t COMPREPLY < <(compgen -W "$option" -- "$word")
+            # An option that takes a value is offered with its = alone.
+            _glint_offer "" "$word" < <("$1" --help 2>/dev/null | grep -oE -e '--[a-z][a-z-]*=?' | sort -ru | awk -F= '!seen[$1]++')
             [[ ${COMPREPLY[*]-} != *= ]] || compopt -o nospace
             return
             ;;
@@ -40,7 +48,7 @@ _glint() {
         glint-traffic) values=$(_glint_names scenarios) ;;
     esac
     compopt -o default
-    mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
+    _glint_offer "" "$word" <<<"$values"
 }
 
 complete -F _glint glint $(glint --list programs 2>/dev/null | cut -d ' ' -f 1)
