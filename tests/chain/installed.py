@@ -286,6 +286,7 @@ with tempfile.TemporaryDirectory() as place:
 with tempfile.TemporaryDirectory() as place:
     check_headers(place)
     check_completions(place)
+    run("glint-demo --fast", place, expected=64)
     without_pages(check_scripts, place)
     build_stage(place)
     check_stage(place)
