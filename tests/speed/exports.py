@@ -53,7 +53,10 @@ class Layout:
             shutil.rmtree(path, ignore_errors=True)
 
     def list_files(self):
-        """Says which files an export has; the empty ones are those."""
+        """Exports once, and says which files there are; the empty ones are those. Python compiles its modules meanwhile."""
+        subprocess.run(self.command, check=True, stderr=subprocess.DEVNULL)
+        if not os.path.isdir(self.out):
+            return
         found = sorted(os.path.relpath(os.path.join(place, name), self.out)
                        for place, _, names in os.walk(self.out) for name in names)
         with open(self.out + ".names", "w", encoding="utf-8") as file:
@@ -64,8 +67,6 @@ class Layout:
     def measure(self, chain_ms):
         self.remove()
         self.exported.append(cpu_ms(self.command))
-        if os.path.isdir(self.out) and not self.empty_command:
-            self.list_files()
         self.empty.append(cpu_ms(self.empty_command) if self.empty_command else 0)
         self.chains.append(chain_ms)
 
@@ -84,10 +85,14 @@ class Layout:
 def run(glint, folder, repeat):
     frames = os.path.join(folder, "frames.jsonl")
     os.environ["BUILD"] = os.path.dirname(os.path.dirname(os.path.abspath(glint)))
+    os.environ["PYTHONPYCACHEPREFIX"] = os.path.join(folder, "modules")  # compiled once, as where Python may write beside them
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     chain = [glint, "-c", CHAIN.format(SUITE, frames)]
     subprocess.run(chain, check=True)
     found = [Layout(name, [sys.executable, EXPORT, name, "--out", os.path.join(folder, name), frames], folder) for name in layouts()]
     found += [Layout(name, [name, frames, "-o", os.path.join(folder, name)], folder) for name in PROGRAMS if shutil.which(name)]
+    for layout in found:
+        layout.list_files()
     for _ in range(repeat):
         chain_ms = cpu_ms(chain)
         for layout in found:

@@ -22,13 +22,14 @@ def picture(box, x, y, z, yaw, focal):
     ahead, lefts = corners(box, x, y, yaw)
     if max(ahead) <= NEAR_M:
         return None
-    depths = [max(one, NEAR_M) for one in ahead]
+    depths = [one if one > NEAR_M else NEAR_M for one in ahead]
+    near, far = min(depths), max(depths)
     across = [WIDTH / 2 - focal * left / depth for left, depth in zip(lefts, depths)]
-    down = [HEIGHT / 2 - focal * up / depth for up in (z, z + box["height_m"]) for depth in (min(depths), max(depths))]
-    whole_width, whole_height = max(across) - min(across), max(down) - min(down)
-    left, right = (min(max(one, 0), WIDTH) for one in (min(across), max(across)))
-    top, bottom = (min(max(one, 0), HEIGHT) for one in (min(down), max(down)))
-    share = (right - left) * (bottom - top) / (whole_width * whole_height)
+    down = [HEIGHT / 2 - focal * up / depth for up in (z, z + box["height_m"]) for depth in (near, far)]
+    first, last, highest, lowest = min(across), max(across), min(down), max(down)
+    left, right = min(max(first, 0), WIDTH), min(max(last, 0), WIDTH)
+    top, bottom = min(max(highest, 0), HEIGHT), min(max(lowest, 0), HEIGHT)
+    share = (right - left) * (bottom - top) / ((last - first) * (lowest - highest))
     return (left, top, right, bottom, max(1 - share, 0)) if share > 0 else None
 
 
@@ -48,7 +49,7 @@ def world_of(pose):
     """The camera in the world as View-of-Delft's three matrices: its x is right, y down and z ahead."""
     c, s, back, x, y, z = map(number, (pose.c, pose.s, -pose.c, pose.x, pose.y, pose.z))
     matrix = f"[{s},0.0,{c},{x},{back},0.0,{s},{y},0.0,-1.0,0.0,{z},0.0,0.0,0.0,1.0]"
-    return "".join(f'{{"{of}":{matrix}}}\n' for of in ("odomToCamera", "mapToCamera", "UTMToCamera"))
+    return f'{{"odomToCamera":{matrix}}}\n{{"mapToCamera":{matrix}}}\n{{"UTMToCamera":{matrix}}}\n'
 
 
 class Writer(Numbered):

@@ -56,9 +56,10 @@ def points_in(boxes, places):
     """How many of the places lie in each box, of those in which some do."""
     counts = {}
     for box in boxes:
+        box_x, box_y, reach2 = box.x, box.y, box.reach2
         for x, y, z in places:
-            x, y = x - box.x, y - box.y
-            if x * x + y * y <= box.reach2 and abs(box.c * x + box.s * y) <= box.length / 2 and \
+            x, y = x - box_x, y - box_y
+            if x * x + y * y <= reach2 and abs(box.c * x + box.s * y) <= box.length / 2 and \
                     abs(box.c * y - box.s * x) <= box.width / 2 and 0 <= z <= box.height:
                 counts[box.id] = counts.get(box.id, 0) + 1
     return counts

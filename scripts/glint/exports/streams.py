@@ -1,4 +1,5 @@
 """Reads what is exported, with all that formats need: frames of lines, of the tables of glint-tables, or of a set."""
+import contextlib
 import csv
 import functools
 import glob
@@ -6,8 +7,6 @@ import gzip
 import io
 import itertools
 import json
-import math
-import operator
 import os
 import pickle
 import sys
@@ -16,7 +15,8 @@ import zlib
 
 import glint
 from glint import command_line
-from glint.exports.quick import is_whole
+from glint.exports.arrays import NotWhole, frames_of_arrays
+from glint.exports.whole import checked
 from glint.places import DATA, SCHEMAS
 from glint.progress import Progress
 from glint.sets import schema
@@ -28,17 +28,6 @@ LEVELS = {"v0-40": 0, "v40-60": 1, "v60-80": 2, "v80-100": 3}
 COUNTED = "objects", "scans", "detections", "contributors", "sightings", "lost"  # tables of which frames have numbers of rows
 CELLS = {"frame_key", "detection_key", "seed", "time_s", "sensor", "measured_s", "detection", "contributor", *COUNTED}  # no row lacks them
 LOST = "a row was lost, doubled or moved, here or before"
-# What formats need beyond glint.FRAME, and what gives it.
-LENGTH, VALUE = glint.number(1e-3, 1e6), glint.number(-1e9, 1e9)
-QUALITY = ("rcs_dbsm", "range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad", "existence", "range_rate_over_ground_mps", "x_centre_m",
-           "x_rear_axle_m")
-NEEDED = {**dict.fromkeys(("scene", "seed", "frame", "time_s", "ego"), (lambda value: value is not None, "a value")),
-          "objects": [{"class": glint.NAME, "length_m": LENGTH, "width_m": LENGTH, "height_m": LENGTH}],
-          "sensors": {"suite": glint.NAME, "list": [{"field_of_view_rad": glint.number(1e-3, math.tau), "range_max_m": glint.number(0, 1e6), "mount_z_m": glint.number(0, 100)}]},
-          "targets": [{"quality": dict.fromkeys(QUALITY, VALUE), "contributors": [{"path": glint.NAME}]}],
-          "visibility": [{"sensor": glint.NAME, "object": glint.NAME, "visibility": glint.NAME}]}
-GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave out --sections -objects",
-            "targets:": "expected lists, as glint-noise writes them", "_m:": "glint-extract gives objects the sizes of their class"}
 
 
 def rows(folder, name):
@@ -126,24 +115,43 @@ def frames_of_tables(folder):
         of_scans(lost, row, of_sensors)
         sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in of_sensors]
         known = {name: value for name, value in row.items() if name not in COUNTED}
-        frame = glint.Frame(known, seed=str(row["seed"]), objects=bodies, sensors={"suite": row.get("suite"), "list": sensors}, targets=found, visibility=seen)
+        frame = glint.Frame(known, version=glint.VERSION, seed=str(row["seed"]), objects=bodies, sensors={"suite": row.get("suite"), "list": sensors},
+                            targets=found, visibility=seen)
         frame.place = row.place
-        yield frame
+        yield checked(frame)
     for table in tables:
         table.end()
 
 
+def frames_of_lines(path):
+    """Frames by their arrays, and from the first one on that is not whole there by their lines."""
+    number = 0
+    with contextlib.suppress(NotWhole, FileNotFoundError):
+        if not os.path.isfile(path):  # a pipe is read once
+            raise NotWhole
+        for frame in frames_of_arrays(path):
+            yield frame
+            number += 1
+        return
+    yield from map(checked, itertools.islice(glint.frames(path, check=False), number, None))
+
+
+def place_of(shard, are_whole):
+    """The lines of a shard where they are whole, as those are read in a third of the time; else its tables."""
+    lines, tables = glob.glob(glob.escape(shard) + ".jsonl.*"), glob.glob(os.path.join(glob.escape(shard), "frames.csv*"))
+    return shard if tables and not (lines and are_whole) else next(iter(lines), shard + ".jsonl.gz")
+
+
 def streams_of(path):
-    """The streams of an input: split of a set, or None, and frames. Shards of a set are read by their tables, or by their lines if
-    they have none."""
-    manifest, shards = os.path.join(path, "datapackage.json"), {(None, path)}
+    """The streams of an input: split of a set, or None, and frames."""
+    manifest, places = os.path.join(path, "datapackage.json"), [(None, path)]
     if os.path.exists(manifest):
-        shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3]))
-                  for one in document(manifest, "set")["resources"]}
-    for split, place in sorted(shards, key=str):
-        if split is not None and not glob.glob(os.path.join(glob.escape(place), "frames.csv*")):
-            place = next(iter(glob.glob(glob.escape(place) + ".jsonl.*")), place + ".jsonl.gz")
-        yield split, frames_of_tables(place) if os.path.isdir(place) else glint.frames(place, check=False)
+        found = document(manifest, "set")
+        shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3])) for one in found["resources"]}
+        are_whole = found.get("plan", {}).get("lines", "whole") == "whole"
+        places = [(split, place_of(shard, are_whole)) for split, shard in sorted(shards)]
+    for split, place in places:
+        yield split, frames_of_tables(place) if os.path.isdir(place) else frames_of_lines(place)
 
 
 def document(path, kind):
@@ -154,17 +162,8 @@ def document(path, kind):
     return found
 
 
-def refuse_what_is_not_whole(frame):
-    if fault := glint.fault(frame, glint.FRAME) or glint.unjoined(frame):
-        raise Fault(BAD_DATA, f"{frame.place}: {fault.lstrip('.: ')}")
-    if fault := glint.fault(frame, NEEDED, ("visibility", "mount_z_m")):
-        raise Fault(BAD_DATA, "; ".join([f"{frame.place}: {fault[1:]}", *(hint for name, hint in GIVEN_BY.items() if name in fault)]))
-
-
-def complete(frame, of_quality=operator.itemgetter(*QUALITY)):
-    """Refuses a frame that lacks what formats need; gives a height to sensors that have none."""
-    if not is_whole(frame, of_quality):
-        refuse_what_is_not_whole(frame)
+def complete(frame):
+    """Gives a height to sensors that have none; refuses sensors that files would take for one."""
     for one in frame["sensors"]["list"]:
         if "mount_z_m" not in one:
             one |= {"mount_z_m": HEIGHT_M, "height_is_assumed": True}
