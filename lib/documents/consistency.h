@@ -31,8 +31,8 @@ struct consistency {
     const char *member; /* to name in a refusal; NULL if there is none */
 };
 
-/* Figures are equal where they differ by less than this part, as they may be rounded; others differ
- * in so many digits. */
+/* Figures that differ by less than this share count as equal, as they may be rounded. So many
+ * digits tell all others apart. */
 #define CONSISTENCY_SLACK 1e-6
 enum { CONSISTENCY_MOST = 20, CONSISTENCY_DIGITS = 7 };
 

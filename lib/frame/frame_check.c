@@ -44,7 +44,7 @@ static const char *object_listed_twice(const struct reflector_set *set)
 
 static bool was_checked(struct reflector_set *set, struct list_cache *cache)
 {
-    return reflectors_unchanged(set) || (cache != NULL && reflectors_known(set, cache));
+    return reflectors_unchanged(set) || (cache != NULL && reflectors_recall(set, cache));
 }
 
 static int check_sets(const struct frame *frame, struct diag *diag)

@@ -213,7 +213,7 @@ void reflectors_keep(const struct reflector_set *set, struct list_cache *cache)
     first->document = document;
 }
 
-bool reflectors_known(struct reflector_set *set, struct list_cache *cache)
+bool reflectors_recall(struct reflector_set *set, struct list_cache *cache)
 {
     const struct list_cache_entry *first = first_kept(set, cache);
     if (first == NULL || first->document == NULL)

@@ -109,8 +109,8 @@ bool reflectors_unchanged(const struct reflector_set *set);
  * later lines. Does nothing unless the cache has all its lists. */
 void reflectors_keep(const struct reflector_set *set, struct list_cache *cache);
 
-/* True if such a set was kept, which is the document of this one from now on. */
-bool reflectors_known(struct reflector_set *set, struct list_cache *cache);
+/* Gives a set the document and the shape that were kept of its lists. False if there are none. */
+bool reflectors_recall(struct reflector_set *set, struct list_cache *cache);
 
 /* A name of two reflectors of the set, or NULL. The posts of a row "a" have the names a_0, a_1 and
  * so on, which no point or plane may have. */

@@ -324,8 +324,8 @@ struct output *output_open(const char *path, struct diag *diag)
 {
     struct output *output = memory_get(sizeof *output);
     *output = (struct output){.fd = -1, .name = copy(path)};
-    signal(SIGXFSZ,
-           SIG_IGN); /* a file at its greatest size fails to be written, as on a full disk */
+    /* A file at its greatest size is an error of the write, as on a full disk, and no signal. */
+    signal(SIGXFSZ, SIG_IGN);
     char *target = path_target(path);
     enum packing packing = packing_of_name(target);
     int result = packing_check(packing, diag) == 0 ? open_path(output, target, diag) : -1;

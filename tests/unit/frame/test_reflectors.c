@@ -365,15 +365,15 @@ TEST(a_set_that_was_kept_is_known_in_later_lines_by_all_its_lists)
 {
     struct list_cache cache = {0};
     struct reflector_set set = read_set("q", &cache);
-    assert_false(reflectors_known(&set, &cache));
+    assert_false(reflectors_recall(&set, &cache));
     reflectors_keep(&set, &cache);
     set = read_set("q", &cache);
-    assert_true(reflectors_known(&set, &cache));
+    assert_true(reflectors_recall(&set, &cache));
     assert_true(reflectors_unchanged(&set));
     assert_ptr_equal(reflectors_shape(&set, check_arena()), set.shape);
     assert_close(set.shape->share, 2, 0);
     struct reflector_set other = read_set("p", &cache);
-    assert_false(reflectors_known(&other, &cache));
+    assert_false(reflectors_recall(&other, &cache));
     assert_string_equal(reflectors_name_twice(&other, check_arena()), "p");
     arena_free(&cache.arena);
 }
@@ -384,8 +384,8 @@ TEST(a_set_with_a_list_that_may_change_is_not_kept)
     struct reflector_set set = read_set("q", &cache);
     list_add(&set.mirrors, check_arena())->reflection = 1;
     reflectors_keep(&set, &cache);
-    assert_false(reflectors_known(&set, &cache));
+    assert_false(reflectors_recall(&set, &cache));
     set = read_set("q", &cache);
-    assert_false(reflectors_known(&set, &cache));
+    assert_false(reflectors_recall(&set, &cache));
     arena_free(&cache.arena);
 }
