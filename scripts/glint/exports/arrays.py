@@ -38,7 +38,7 @@ class NotWhole(ValueError):
 
 
 class Table:
-    """The rows of a table as dictionaries of the columns that a shape names; `begin` is how all these names begin in the table."""
+    """The rows of a table as dictionaries of the columns that a shape names; `begin` stands before each of these names in the table."""
 
     def __init__(self, folder, name, names, shape, begin=""):
         self.file, self.names = open(os.path.join(folder, name + ".npy"), "rb"), names
@@ -70,7 +70,7 @@ class Table:
 
 
 def tables_of(path):
-    """The tables of a file of frames, which lie in no folder any more."""
+    """The tables of a file of frames, as open files; their folder is removed."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([os.path.join(BIN, "glint-tables"), "--npy", folder, path], stderr=subprocess.DEVNULL, check=False)
         if done.returncode != 0:
