@@ -12,8 +12,8 @@ const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
                                           NULL};
 
 /* The least variance is (10 um)^2, so that squares of normalised distances are finite. */
-#define COVARIANCE(member, low, help)                                                              \
-    OPTIONAL_REAL(struct track, member, low, 1e14, help "; the matrix is positive definite"),      \
+#define VARIANCE(member, help)                                                                     \
+    OPTIONAL_REAL(struct track, member, 1e-10, 1e14, help "; the matrix is positive definite"),    \
         .group = TRACK_COVARIANCE
 
 static const struct field track_fields[] = {
@@ -26,9 +26,10 @@ static const struct field track_fields[] = {
                    "centre of the object's box, in the frame's coordinates")},
     {FIELD_REAL_IN(struct track, vx_mps, -1e4, 1e4, "velocity over ground")},
     {FIELD_REAL_IN(struct track, vy_mps, -1e4, 1e4, "velocity over ground")},
-    {COVARIANCE(variance_x_m2, 1e-10, "variance of x_m")},
-    {COVARIANCE(covariance_xy_m2, -1e14, "covariance of x_m and y_m (absent: 0)")},
-    {COVARIANCE(variance_y_m2, 1e-10, "variance of y_m")},
+    {VARIANCE(variance_x_m2, "variance of x_m")},
+    {OPTIONAL_REAL(struct track, covariance_xy_m2, -1e14, 1e14,
+                   "covariance of x_m and y_m (absent: 0); the matrix is positive definite")},
+    {VARIANCE(variance_y_m2, "variance of y_m")},
     {FIELD_RAW_OF(struct track, extra, "any value, for your own use; not read")},
     {0},
 };
@@ -56,7 +57,7 @@ const struct record track_list_record = {
 
 _Static_assert(offsetof(struct track, id) == 0, "frame_order_names compares it");
 
-/* Correlation of x_m and y_m, in [-1, 1] for a covariance; NaN if a variance is 0. */
+/* Correlation of x_m and y_m, in [-1, 1] for a covariance. */
 static double correlation(const struct track *track)
 {
     return track->covariance_xy_m2 / sqrt(track->variance_x_m2) / sqrt(track->variance_y_m2);
@@ -72,11 +73,12 @@ static double normalised_square(const struct track *track, const struct object *
 
 static int check_covariance(const struct track *track, size_t number, struct diag *diag)
 {
-    if ((track->present & TRACK_COVARIANCE) == 0 || fabs(correlation(track)) < 1)
+    bool has_variances = (track->present & TRACK_COVARIANCE) != 0;
+    if (!has_variances && track->covariance_xy_m2 != 0)
+        return diag_fail(diag, DIAG_DATA,
+                         "tracks[%zu]: variance_x_m2: missing; covariance_xy_m2 needs it", number);
+    if (!has_variances || fabs(correlation(track)) < 1)
         return 0;
-    if (track->variance_x_m2 == 0 || track->variance_y_m2 == 0)
-        return diag_fail(diag, DIAG_DATA, "tracks[%zu]: %s: missing; a covariance needs it", number,
-                         track->variance_x_m2 == 0 ? "variance_x_m2" : "variance_y_m2");
     return diag_fail(diag, DIAG_DATA,
                      "tracks[%zu]: variance_x_m2 %g, covariance_xy_m2 %g and variance_y_m2 %g are "
                      "not positive definite",

@@ -396,6 +396,14 @@ static bool inherits(const struct record *record, const struct field *field, con
     return field == record->inherited && FIELD_LOAD(const char *, field, base) != NULL;
 }
 
+/* True if a member that a line does not have is required: by itself, or by others of its group. */
+static bool is_missing(const struct record *record, const struct field *field, const void *base)
+{
+    if (field->group != 0)
+        return (field_groups(record, base) & field->group) != 0;
+    return !field->optional && !inherits(record, field, base);
+}
+
 /* Reads an object into a struct that is zeroed, but for a name that it may inherit. */
 static int read_record(struct reader *reader, const struct record *record, void *base)
 {
@@ -406,12 +414,12 @@ static int read_record(struct reader *reader, const struct record *record, void 
         return -1;
     const bool *known = seen;
     for (const struct field *field = record->fields; field->name != NULL; field++, known++) {
-        if (*known || (field->optional && !field_absent_differs(field)))
+        if (*known)
             continue;
-        if (field->optional)
-            field_set_absent(field, base);
-        else if (field->group == 0 && !inherits(record, field, base))
+        if (is_missing(record, field, base))
             return field_refuse(field, "missing", scan->diag);
+        if (field->optional && field_absent_differs(field))
+            field_set_absent(field, base);
     }
     return 0;
 }

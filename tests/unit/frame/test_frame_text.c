@@ -332,6 +332,8 @@ TEST(faults_are_named_with_their_path_value_and_expectation)
         {"\"class\":\"car\",", "", "objects[0].class: missing; expected a name"},
         {"\"x_m\":-0.0,", "", "objects[0].x_m: missing; expected a number in [-1e7, 1e7] m"},
         {"\"ego\":\"e\",", "", "ego: missing; expected a name"},
+        {"\"cell_elevation_rad\":0,", "",
+         "targets[0].cell_elevation_rad: missing; expected a number in [-1.5708, 1.5708] rad"},
         {"\"list\":[{\"name\":\"f\",", "\"list\":[{",
          "sensors.list[0].name: missing; expected a name"},
         {"\"x_m\":-0.0,", "\"x_m\":-0.0,\"z_m\":1,",
