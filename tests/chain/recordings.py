@@ -487,6 +487,15 @@ def peaks_are_the_strongest_within_a_cell():
     check(kept == [20, 9], f"peaks of coarse cells: {kept}")
 
 
+def road_users_without_a_detection_have_the_threshold():
+    """30 dB at 10 m and 12 dB at 100 m, where every other scan has none, fall by 20.5 dB a decade with a threshold of 7 dB.
+    What is behind the radar does not count."""
+    boxes = [readers.Box(str(x_m), "car", x_m, 0.0, 0.0, 0.0, 0.0, *SIZES["car"]) for x_m in (10.0, 100.0, -50.0)]
+    seen = [readers.Detection(x_m, 0.0, 0.0, level_db) for x_m, level_db in ((10.0, 30.0), (100.0, 12.0))]
+    found = dense.slope(readers.Radar(0.0, 0.0, 0.0, 77e9), [readers.Scan(0.1 * i, seen[:1 + i % 2], boxes) for i in range(4)], 7.0)
+    check(abs(found - 20.5) < 1e-9, f"levels of road users fall by {found:.2f} dB a decade; expected 20.5")
+
+
 def the_real_recording_shows_what_its_page_says():
     folder = os.path.join(os.environ.get("GLINT_TEST_DATA", ""), "aimotive-front")
     if not os.path.isdir(folder):
@@ -546,6 +555,7 @@ def main():
     intervals_of_20_blocks_hold_the_expected_ratio()
     places_turn_with_their_box()
     the_densest_window_is_that_of_all_windows()
+    road_users_without_a_detection_have_the_threshold()
     peaks_are_the_strongest_within_a_cell()
     noise_of_azimuths_is_parted_from_its_floor()
     cells_are_found_beside_wrong_pairs()

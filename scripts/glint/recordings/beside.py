@@ -94,7 +94,7 @@ cells      {told("cell_range_m", f"{sensor['cell_range_m']:.2f} m")}, {told("cel
 noise      {told("range_sigma_m", f"{sensor['range_sigma_m']:.2f} m")}, \
 {told("range_rate_sigma_mps", f"{sensor['range_rate_sigma_mps']:.3f} m/s")}, {told("azimuth_sigma_rad", f"{math.degrees(azimuth_rad):.2f} degrees at 20 dB")}\
 {" (no less is possible in so wide a view)" * (fit.azimuth_noise < 1.001 * fitted.least_noise_rad(law))}
-{f"inside     {dense.figures(recording.radar, recording.scans)}" + chr(10) if fit.scale is not score.COARSE else ""}\
+{f"inside     {dense.figures(recording.radar, recording.scans, sensor['threshold_db'])}" + chr(10) if fit.scale is not score.COARSE else ""}\
 levels     keep the {fit.sensor['level_keeps']}: scores of blocks left out: {", ".join(f"{word} {own:.1f}" for word, own in lost.items()) or "none"}
 roadside   {", ".join(f"{100 * one['per_m2'] * one['width_m']:.1f} of {one['rcs_dbsm']:.0f} dBsm at {one['from_y_m']} m{' (at its cap)' * roadside.at_cap(one)}"
                       for one in fit.roadside) or "nothing"}, in 100 m

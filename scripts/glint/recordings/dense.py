@@ -28,7 +28,7 @@ def of_road_users(radar, scans):
     return [[geometry.gated(radar, box, scan.detections, geometry.BARE) for box in scan.boxes] for scan in scans]
 
 
-def figures(radar, scans):
+def figures(radar, scans, threshold_db):
     """Sentences on the detections inside the boxes that are in view; a near box counts with three or more."""
     looks = [[geometry.look(radar, box) for box in scan.boxes] for scan in scans]
     seen = [(look.range_m < NEAR_M, own) for lists, of in zip(of_road_users(radar, scans), looks)
@@ -44,7 +44,7 @@ def figures(radar, scans):
     return f"""{statistics.fmean(map(len, near)):.1f} detections nearer than {NEAR_M} m, {statistics.fmean(map(len, far)):.1f} farther
            near: {statistics.fmean(ranges):.1f} ranges and {statistics.fmean(azimuths):.1f} whole degrees; levels lie within \
 {statistics.fmean(max(own) - min(own) for own in levels):.1f} dB, elevations spread by {statistics.fmean(spreads):.1f} degrees
-           the strongest fall by {slope(radar, scans):.1f} dB a decade of range"""
+           the strongest fall by {slope(radar, scans, threshold_db):.1f} dB a decade of range"""
 
 
 def step(values):
@@ -66,10 +66,10 @@ def scale(sensor):
     return Scale(4 * sensor["cell_range_m"], 2 * sensor["cell_range_rate_mps"], math.radians(1), 3, LISTS)
 
 
-def slope(radar, scans):
-    """By how many dB a decade of range the levels of road users' strongest detections fall."""
-    levels = strongest((geometry.look(radar, box).range_m, own) for scan, seen in zip(scans, of_road_users(radar, scans))
-                       for box, own in zip(scan.boxes, seen))
+def slope(radar, scans, threshold_db):
+    """By how many dB a decade of range road users ahead become weaker, by their strongest detection, or the threshold without one."""
+    levels = [(look.range_m, max((one.snr_db for one in own), default=threshold_db)) for scan, seen in zip(scans, of_road_users(radar, scans))
+              for box, own in zip(scan.boxes, seen) if abs((look := geometry.look(radar, box)).azimuth_rad) < math.pi / 2]
     return -statistics.linear_regression([math.log10(range_m) for range_m, _ in levels], [level for _, level in levels]).slope
 
 
