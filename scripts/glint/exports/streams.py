@@ -213,7 +213,7 @@ def frames_of(streams):
     for split, frame in scene_by_scene(complete_frames(streams)):
         now = identity(frame), frame["frame"], frame["time_s"]
         if now[0] in seen if now[0] != before[0] else now[1] <= before[1] or now[2] <= before[2]:
-            raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0][0]} at {now[2]} s; expected each scene once, with all of its "
+            raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0][0]} at {now[2]:.15g} s; expected each scene once, with all of its "
                                   "frames in their order")
         place = seen.setdefault(now[0], frame.place)
         if place and any(scans_of(frame)):
