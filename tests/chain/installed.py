@@ -213,12 +213,12 @@ def pages():
 
 
 def check_names():
-    """Links lead somewhere. Programs, pipelines, documents, schemas and headers that pages name are there, and scripts have a help
-    that names them as they are called."""
+    """Links lead somewhere; ../../releases is the host's page of releases. Programs, pipelines, documents, schemas and headers that
+    pages name are there, and scripts have a help that names them as they are called."""
     text_of_all = ""
     for folder, text, is_history in pages():
         for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", text):
-            assert os.path.exists(os.path.join(folder, target)), f"{folder}: a link leads to {target}, which is not installed"
+            assert target == "../../releases" or os.path.exists(os.path.join(folder, target)), f"{folder}: a link leads to {target}, which is not installed"
         for name in re.findall(r"(?<![\w./-])scripts/[\w-]+(?![\w./-])", text):
             assert is_history or os.path.exists(os.path.join(DOCUMENTS, name)), f"{folder}: {name} is not installed"
         for target, after in re.findall(r"`make ([a-z]+)[^`]*`(.{0,20})", text, re.DOTALL):
