@@ -42,16 +42,13 @@ static const char *object_listed_twice(const struct reflector_set *set)
     return NULL;
 }
 
-static bool was_checked(struct reflector_set *set, struct list_cache *cache)
-{
-    return reflectors_unchanged(set) || (cache != NULL && reflectors_recall(set, cache));
-}
-
 static int check_sets(const struct frame *frame, struct diag *diag)
 {
+    struct list_cache *cache = frame->list_cache;
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         struct reflector_set *set = &frame->reflectors.items[i];
-        bool checked = was_checked(set, frame->list_cache);
+        bool checked =
+            reflectors_unchanged(set) || (cache != NULL && reflectors_recall(set, cache));
         const char *twice = checked ? NULL : reflectors_name_twice(set, frame->arena);
         if (twice == NULL)
             twice = object_listed_twice(set);
@@ -63,8 +60,8 @@ static int check_sets(const struct frame *frame, struct diag *diag)
                              "reflectors[%zu].mirrors[%zu]: expected either a material or a "
                              "reflection",
                              i, unclear);
-        if (!checked && frame->list_cache != NULL)
-            reflectors_keep(set, frame->list_cache);
+        if (!checked && cache != NULL)
+            reflectors_keep(set, cache);
     }
     return 0;
 }

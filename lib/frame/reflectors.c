@@ -164,12 +164,15 @@ const struct record reflector_model_record = {
 
 #define SAME_LIST(one, other) ((one).items == (other).items && (one).count == (other).count)
 
+static bool same_lists(const struct reflector_set *one, const struct reflector_set *other)
+{
+    return SAME_LIST(one->points, other->points) && SAME_LIST(one->planes, other->planes) &&
+           SAME_LIST(one->rows, other->rows) && SAME_LIST(one->mirrors, other->mirrors);
+}
+
 bool reflectors_unchanged(const struct reflector_set *set)
 {
-    const struct reflector_set *document = set->document;
-    return document != NULL && SAME_LIST(set->points, document->points) &&
-           SAME_LIST(set->planes, document->planes) && SAME_LIST(set->rows, document->rows) &&
-           SAME_LIST(set->mirrors, document->mirrors);
+    return set->document != NULL && same_lists(set, set->document);
 }
 
 /* The first list of the set with items, from this field on; the field without a name if none has.
@@ -205,10 +208,8 @@ void reflectors_keep(const struct reflector_set *set, struct list_cache *cache)
     if (first == NULL || first->document != NULL || !all_kept(set, cache))
         return;
     struct reflector_set *document = arena_get(&cache->arena, sizeof *document);
-    document->points = set->points;
-    document->planes = set->planes;
-    document->rows = set->rows;
-    document->mirrors = set->mirrors;
+    *document = (struct reflector_set){
+        .points = set->points, .planes = set->planes, .rows = set->rows, .mirrors = set->mirrors};
     document->shape = reflectors_shape(document, &cache->arena);
     first->document = document;
 }
@@ -216,11 +217,12 @@ void reflectors_keep(const struct reflector_set *set, struct list_cache *cache)
 bool reflectors_recall(struct reflector_set *set, struct list_cache *cache)
 {
     const struct list_cache_entry *first = first_kept(set, cache);
-    if (first == NULL || first->document == NULL)
+    const struct reflector_set *kept = first == NULL ? NULL : first->document;
+    if (kept == NULL || !same_lists(set, kept))
         return false;
-    set->document = first->document;
-    set->shape = set->document->shape;
-    return reflectors_unchanged(set);
+    set->document = kept;
+    set->shape = kept->shape;
+    return true;
 }
 
 /* The name of a reflector by its number: points come first, then planes, then rows. */
