@@ -34,6 +34,7 @@ struct consistency {
 /* Figures that differ by less than this share count as equal, as they may be rounded. So many
  * digits tell all others apart. */
 #define CONSISTENCY_SLACK 1e-6
+#define DOUBT_ADVICE "; correct it, or go on if it is meant" /* ends a doubt of a figure */
 enum { CONSISTENCY_MOST = 20, CONSISTENCY_DIGITS = 7 };
 
 /* Writes the checks of a sensor with derived members and tables; a check is left out if the

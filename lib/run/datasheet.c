@@ -13,7 +13,6 @@
 
 #define LONG_RANGE_M 150 /* radars that look farther are of another class than those of corners */
 #define LEAST_GAIN 1e-6  /* less is rounding where a pattern ends in a zero */
-#define ADVICE "; correct it, or go on if it is meant"
 
 static double with_rounding(double sigma, double step)
 {
@@ -338,7 +337,7 @@ static void add_checks(const struct sensor *sensor, struct text *text)
         text_format(text, "  %s %s, %.*g%s, %s %s, %.*g%s%s\n",
                     holds ? "holds:" : "doubt:", check->left, digits, per_unit * check->left_value,
                     unit, check->kind == CONSISTENCY_EQUAL ? "about" : "at most", check->right,
-                    digits, per_unit * check->right_value, unit, holds ? "" : ADVICE);
+                    digits, per_unit * check->right_value, unit, holds ? "" : DOUBT_ADVICE);
     }
 }
 
@@ -347,9 +346,10 @@ static void add_unusual(const struct sensor *sensor, struct text *text)
     struct usual_figure unusual[USUAL_FIGURES_MOST];
     size_t count = usual_figures_list(sensor, unusual);
     for (size_t i = 0; i < count; i++)
-        text_format(text, "  doubt: %s, %.7g%s, automotive radars have %.4g to %.4g%s" ADVICE "\n",
-                    unusual[i].member, unusual[i].value, unusual[i].unit, unusual[i].least,
-                    unusual[i].most, unusual[i].unit);
+        text_format(text,
+                    "  doubt: %s, %.*g%s, automotive radars have %.4g to %.4g%s" DOUBT_ADVICE "\n",
+                    unusual[i].member, CONSISTENCY_DIGITS, unusual[i].value, unusual[i].unit,
+                    unusual[i].least, unusual[i].most, unusual[i].unit);
 }
 
 static struct text sheet_of(const struct sensor *sensor)

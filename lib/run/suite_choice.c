@@ -56,11 +56,11 @@ void suite_choice_doubt(struct runner *runner, const struct suite *suite)
             const struct usual_figure *one = &unusual[k];
             if (!is_told(suite, i, one))
                 runner_notice(runner, arena_format(&runner->arena,
-                                                   "%s: sensors[%zu].%s: doubt: %.7g%s; automotive "
-                                                   "radars have %g to %g%s; correct it, or "
-                                                   "go on if it is meant",
-                                                   suite->given, i, one->member, one->value,
-                                                   one->unit, one->least, one->most, one->unit));
+                                                   "%s: sensors[%zu].%s: doubt: %.*g%s; automotive "
+                                                   "radars have %g to %g%s" DOUBT_ADVICE,
+                                                   suite->given, i, one->member, CONSISTENCY_DIGITS,
+                                                   one->value, one->unit, one->least, one->most,
+                                                   one->unit));
         }
     }
 }
