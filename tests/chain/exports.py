@@ -530,6 +530,49 @@ def every_option_of_a_source_is_exported(folder):
     os.chdir(ROOT)
 
 
+def parts_side_by_side_give_the_bytes_of_one(folder):
+    """Whatever the number of jobs: names, times, titles and rows of a part follow those of the inputs before it. So does what stderr
+    says. A scan keeps its number where OpenPCDet leaves out others."""
+    objects = [body("ego", vx=1), body("other", x=12), body("apart", x=-30, kind="bus")]
+    several = [frame_of(objects, [target()] * (number % 3), number, scene=name) for number in range(4) for name in ("a", "b")]
+    inputs = {"egos": several, "alone": [frame_of(objects[:1], [target()], i, scene="alone") for i in range(5, 8)], "empty": [
+        frame_of(objects, [], i, [{"measured": False}], scene="idle") for i in range(2)], "seed": [frame_of(objects, [target()], i, seed="2", scene="a")
+                                                                                        for i in range(2)], "again": [frame_of(objects, [target()], scene="b", seed="3")]}
+    for name, frames in inputs.items():
+        save(folder, name + ".jsonl", frames)
+    shell("glint-tables tables egos.jsonl", folder)
+    plan = {"name": "set", "origin": "For tests.", "sources": [{"random": "medium", "seconds": 0.5, "scenes": [0, 6], "rate_hz": 10}], "frames_per_shard": 5,
+            "chain": "glint-extract | glint-ideal --sensors {suite} --sections quality | glint-sensor | glint-noise", "suites": ["corner77-four"]}
+    save(folder, "plan.json", [plan])
+    shell(f"{SCRIPTS}/dataset plan.json --out set && make -s -C set", folder)
+    names = "set", *(name + ".jsonl" for name in ("alone", "empty", "seed", "again"))
+    for form, first, jobs in zip(ALL, ("egos.jsonl", "tables", "egos.jsonl", "tables", "egos.jsonl"), (2, 3, 20, 2, 3)):
+        said = [export(folder, form, "-j", str(count), "--out", f"{form}-{count}", first, *names) for count in (1, jobs)]
+        assert said[0] == said[1] and "1 of 12 scenes have no scan and are left out; the first is idle" in said[0], said
+        same(f"{folder}/{form}-1", f"{folder}/{form}-{jobs}")
+    openpcdet, kitti = ({(row["scene"], row["seed"], row["frame"], row["sensor"]): re.search(r"\d+", row["path"].rpartition("/")[2])[0]
+                         for row in read_table(f"{folder}/{form}-1", "scans")} for form in ("openpcdet", "kitti"))
+    assert 0 < len(openpcdet) < len(kitti) and openpcdet.items() <= kitti.items(), openpcdet
+
+
+def a_part_that_fails_ends_all(folder):
+    """With the message of the first input that is wrong; a scene that goes on in the next input is no fault."""
+    frames = [frame_of([body("ego"), body("other", x=12)], [target()], i) for i in range(4)]
+    other = [frame | {"scene": "other"} for frame in frames]
+    for name, found in (("first", frames[:2]), ("second", frames[2:]), ("whole", frames), ("other", other), ("wrong", [other[0] | {"ego": "nobody"}])):
+        save(folder, name + ".jsonl", found)
+    for form in ALL:
+        export(folder, form, "--out", form, "whole.jsonl", "other.jsonl")
+        export(folder, form, "-j3", "--out", form + "-parts", "first.jsonl", "second.jsonl", "other.jsonl")
+        same(f"{folder}/{form}", f"{folder}/{form}-parts")
+        for words, wrong in ((("whole.jsonl", "wrong.jsonl", "other.jsonl", "wrong.jsonl"), "export: wrong.jsonl:1: "),
+                             (("whole.jsonl", "other.jsonl", "whole.jsonl"), "export: whole.jsonl:1: frame 0 of by-hand at 0 s; expected each scene once")):
+            assert export(folder, form, "-j2", "--out", "none", *words, status=65).startswith(wrong)
+        assert "none.jsonl: No such file" in export(folder, form, "-j2", "--out", "none", "whole.jsonl", "none.jsonl", status=66)
+        assert not glob.glob(folder + "/none*")
+    assert "export: -j 0; expected FORMAT --out DIR" in export(folder, "vod", "-j0", "--out", "none", "whole.jsonl", status=64)
+
+
 def scenes_may_be_played_at_once(folder):
     """Frames of two scenes in turn, as those of two egos, give the bytes of one scene after the other; also without a last frame."""
     objects = [body("ego", vx=1), body("other", x=12)]
@@ -878,7 +921,7 @@ def main():
     chosen = sys.argv[2:]
     for test in (an_approaching_car, an_elevation_is_a_height, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
                  every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
-                 every_option_of_a_source_is_exported, scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
+                 every_option_of_a_source_is_exported, parts_side_by_side_give_the_bytes_of_one, a_part_that_fails_ends_all, scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
                  a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
                  lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_nobody_measured_is_said, what_formats_cannot_hold_is_refused,
                  any_member_may_be_wrong, what_arrays_give_is_whole, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,

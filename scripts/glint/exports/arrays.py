@@ -28,8 +28,8 @@ DETECTION = {name: test for name, test in glint.TARGET.items() if name not in ("
 QUALITY = TARGET["quality"] | {"range_rate_interval_mps": ANY, "ambiguity_number": ANY}
 PART = glint.TARGET["contributors"][0] | TARGET["contributors"][0] | {"mirror": ANY, "number": ANY}
 SIGHTING = NEEDED["visibility"][0]
-TABLES = (("frames", HEAD), ("objects", BODY), ("scans", SCAN), ("detections", DETECTION), ("detections", QUALITY, "quality_"),
-          ("contributors", PART), ("sightings", SIGHTING))
+TABLES = {"frames": HEAD, "objects": BODY, "scans": SCAN, "detections": DETECTION, "quality": QUALITY, "contributors": PART, "sightings": SIGHTING}
+PART_OF = {"quality": "detections"}  # its columns begin with quality_ there
 OPTIONAL = {"origin_x_m", "origin_y_m", "mount_z_m", "elevation_rad", "range_rate_interval_mps", "mirror", "number", "visibility"}
 
 
@@ -38,10 +38,11 @@ class NotWhole(ValueError):
 
 
 class Table:
-    """The rows of a table as dictionaries of the columns that a shape names; `begin` stands before each of these names in the table."""
+    """The rows of a table as dictionaries of the columns that a shape names."""
 
-    def __init__(self, folder, name, names, shape, begin=""):
-        self.file, self.names = open(os.path.join(folder, name + ".npy"), "rb"), names
+    def __init__(self, folder, name, names, shape):
+        begin = name + "_" if name in PART_OF else ""
+        self.file, self.names = open(os.path.join(folder, PART_OF.get(name, name) + ".npy"), "rb"), names
         head = self.file.read(struct.unpack("<8xH", self.file.read(10))[0]).decode()
         columns = [(name, CODES[kind]) for name, kind in re.findall(r"\('(\w*)', '(.\w+)'\)", head)]
         wanted = {begin + name: name for name in shape}
@@ -50,19 +51,21 @@ class Table:
 
     def take(self, count):
         """The next rows, without the optional members that they lack."""
-        read, partly = {}, []
+        read, lacking = {}, {}
         for (name, code, test), values in zip(self.columns, zip(*self.row.iter_unpack(self.file.read(count * self.row.size)))):
+            distinct = values
             if code == "Q":
+                distinct = [*map(self.names.__getitem__, {*values})]
                 values = [*map(self.names.__getitem__, values)]
-            there = [*filter(IS_THERE[code], values)] if name in OPTIONAL else values
+            there = [*filter(IS_THERE[code], distinct)] if name in OPTIONAL else distinct
             if there:
                 if not (test(min(there)) and test(max(there)) and (code != "d" or math.isfinite(sum(there)))):
                     raise NotWhole
                 read[name] = values
-            if there and len(there) < len(values):
-                partly.append((name, IS_THERE[code]))
+                if len(there) < len(distinct):
+                    lacking[name] = IS_THERE[code]
         rows = [dict(zip(read, row)) for row in zip(*read.values())]
-        for name, is_there in partly:
+        for name, is_there in lacking.items():
             for row in rows:
                 if not is_there(row[name]):
                     del row[name]
@@ -77,37 +80,52 @@ def tables_of(path):
             raise NotWhole
         with open(os.path.join(folder, "names.json"), encoding="utf-8") as file:
             names = json.load(file)
-        return [Table(folder, name, names, *shape) for name, *shape in TABLES]
+        return {name: Table(folder, name, names, shape) for name, shape in TABLES.items()}
 
 
-def join(head, bodies, scans, targets, parts, sightings):
-    """Takes what belongs to a frame, and puts it where its line has it."""
+def join(head, bodies, targets, parts, sightings):
+    """Takes what else belongs to a frame, and puts it where its line has it."""
     head["objects"], head["visibility"] = ([*itertools.islice(rows, head[name])] for name, rows in (("objects", bodies), ("sightings", sightings)))
-    listed, found = [*itertools.islice(scans, head["scans"])], [*itertools.islice(targets, head["detections"])]
-    if head["ego"] not in [one["id"] for one in head["objects"]] or sum(one["detections"] for one in listed) != len(found):
+    found = [*itertools.islice(targets, head["detections"])]
+    if head["ego"] not in [one["id"] for one in head["objects"]] or sum(one["detections"] for one in head["sensors"]["list"]) != len(found):
         raise NotWhole
-    for one in listed:
-        one |= {"name": one["sensor"], "age_s": round(head["time_s"] - one["measured_s"], 9)}
     for one in found:
         one["contributors"] = [*itertools.islice(parts, one["contributors"])]
-    head["sensors"], head["targets"] = {"suite": head["suite"], "list": listed}, found
-    return head
+    head["targets"] = found
+
+
+def heads_of(path, tables):
+    """Frames with their sensors alone, many at once; tables: of the file `path`."""
+    heads, scans = tables["frames"], tables["scans"]
+    numbers = itertools.count(1)
+    while found := [glint.Frame(head) for head in heads.take(FRAMES_AT_ONCE)]:
+        rows = iter(scans.take(sum(head["scans"] for head in found)))
+        for head in found:
+            head.place = f"{path}:{next(numbers)}"
+            listed = [*itertools.islice(rows, head["scans"])]
+            for one in listed:
+                one |= {"name": one["sensor"], "age_s": round(head["time_s"] - one["measured_s"], 9)}
+            head["sensors"] = {"suite": head["suite"], "list": listed}
+        yield found
+
+
+def heads_of_arrays(path):
+    """Frames as their lines would give them, but with their sensors alone."""
+    return itertools.chain.from_iterable(heads_of(path, tables_of(path)))
 
 
 def frames_of_arrays(path):
     """Frames as their lines would give them, but for what no format needs."""
-    heads, bodies, scans, targets, qualities, parts, sightings = tables_of(path)
-    numbers = itertools.count(1)
-    while found := heads.take(FRAMES_AT_ONCE):
+    tables = tables_of(path)
+    for found in heads_of(path, tables):
         total = {name: sum(head[name] for head in found) for name in COUNTS}
-        detected = targets.take(total["detections"])
-        for one, quality in zip(detected, qualities.take(len(detected))):
+        targets = tables["detections"].take(total["detections"])
+        for one, quality in zip(targets, tables["quality"].take(len(targets))):
             if "range_rate_interval_mps" not in quality:
                 del quality["ambiguity_number"]
             one["quality"] = quality
-        rows = [iter(of) for of in (bodies.take(total["objects"]), scans.take(total["scans"]), detected, parts.take(total["contributors"]),
-                                    sightings.take(total["sightings"]))]
+        bodies, parts, sightings = (iter(tables[name].take(total[name])) for name in ("objects", "contributors", "sightings"))
+        targets = iter(targets)
         for head in found:
-            frame = glint.Frame(join(head, *rows))
-            frame.place = f"{path}:{next(numbers)}"
-            yield frame
+            join(head, bodies, targets, parts, sightings)
+            yield head

@@ -53,8 +53,8 @@ def world_of(pose):
 
 
 class Writer(Numbered):
-    def __init__(self, layout, output):
-        super().__init__(layout, output)
+    def __init__(self, layout, output, start):
+        super().__init__(layout, output, start)
         self.inside, self.columns = "/radar" * ("beside" in layout), layout.get("columns", 7)
         self.turned_rad, self.digits = layout.get("turned_rad", (0, 0)), 9 if "turned_rad" in layout else 6
 
@@ -85,13 +85,14 @@ class Writer(Numbered):
         return least + (most - least) * (i * GOLDEN % 1)
 
     def close(self):
-        super().close()
         if self.layout.get("columns") == 7:
             self.output.note("points have 7 columns, of which time is 0: stock loaders of KITTI take 4, and get them by --columns 4")
-        for root in self.counts:
-            root = os.path.join(self.output.folder, root)
-            os.symlink("training", os.path.join(root, "testing"))  # where readers look for the split test
-            if "beside" in self.layout:  # boxes, poses and the camera belong to the lidar
-                os.makedirs(os.path.join(root, "..", self.layout["beside"], "training"))
+        return super().close()
+
+    @classmethod
+    def finish(cls, layout, folder, parts):
+        for root in super().finish(layout, folder, parts):
+            os.symlink("training", folder.place(f"{root}/testing"))  # where readers look for the split test
+            if "beside" in layout:  # boxes, poses and the camera belong to the lidar
                 for name in ("ImageSets", "training/label_2", "training/pose", "training/calib"):
-                    os.symlink("../" * name.count("/") + "../radar/" + name, os.path.join(root, "..", self.layout["beside"], name))
+                    os.symlink("../" * name.count("/") + "../radar/" + name, folder.place(f"{os.path.dirname(root)}/{layout['beside']}/{name}"))

@@ -1,6 +1,7 @@
 """What layouts share that have a folder for each radar, with its scans by number."""
 import math
 import struct
+from collections import Counter
 
 import glint
 from glint.exports.streams import identity, scans_of, word
@@ -51,30 +52,51 @@ class Numbered:
     and `files`, which writes what else a scan has."""
     inside = ""  # a folder in the radar's
 
-    def __init__(self, layout, output):
-        self.layout, self.output, self.sets, self.counts = layout, output, {}, {}
+    @staticmethod
+    def starts(surveys):
+        """For each part, how many scans of each radar come before it."""
+        numbers = Counter()
+        for scenes in surveys:
+            yield Counter(numbers)
+            numbers.update(scenes.scans)
+
+    def __init__(self, layout, output, start):
+        self.layout, self.output, self.numbers, self.sets, self.roots = layout, output, start, {}, {}
 
     def add(self, split, frame):
         for sensor, targets in scans_of(frame):
             self.scan(split, frame, sensor, targets)
 
     def scan(self, split, frame, sensor, targets):
-        root, pose = word(sensor["name"]).lower() + self.inside, Pose(frame, sensor)
+        radar, digits, pose = word(sensor["name"]).lower(), self.layout["digits"], Pose(frame, sensor)
+        number, root = self.numbers[radar], radar + self.inside
+        if number >= 10 ** digits:
+            raise Fault(BAD_DATA, f"{frame.place}: scan {number} of {sensor['name']}; expected numbers of {digits} digits")
+        self.numbers[radar], self.roots[root] = number + 1, None
         labels = self.labels(frame, sensor, pose)
-        if not self.takes(root, labels):
+        if not self.takes(labels):
             return
-        count, digits = self.counts.get(root, 0), self.layout["digits"]
-        if count >= 10 ** digits:
-            raise Fault(BAD_DATA, f"{frame.place}: scan {count} of {sensor['name']}; expected numbers of {digits} digits")
-        self.counts[root], name = count + 1, f"{count:0{digits}}"
+        name = f"{number:0{digits}}"
         self.sets.setdefault(f"{root}/ImageSets/{split}.txt", []).append(name + "\n")
         self.files(root, name, frame, sensor, targets, pose, "".join(text for text, _ in labels))
         self.output.boxes.writerows((f"{root}/{name}:{i + 1}", *identity(frame), box["id"], box["class"]) for i, (_, box) in enumerate(labels))
 
-    def takes(self, root, labels):
+    def takes(self, labels):
         """Whether the layout has a place for a scan with these labels."""
         return True
 
     def close(self):
-        for path, names in self.sets.items():
-            self.output.write(path, "".join(names))
+        """What `finish` needs of this part."""
+        return self.sets, self.roots
+
+    @classmethod
+    def finish(cls, layout, folder, parts):
+        """Writes which numbers are in which split, when all parts are there; the folders of the radars."""
+        names, roots = {}, {}
+        for sets, of_part in parts:
+            roots |= of_part
+            for path, numbers in sets.items():
+                names.setdefault(path, []).extend(numbers)
+        for path, numbers in names.items():
+            folder.write(path, "".join(numbers))
+        return roots

@@ -73,6 +73,19 @@ def to_world(frame, carrier, sensor, places):
     return [(x0 + c * x - s * y, y0 + s * x + c * y, z0 + z) for x, y, z in places]
 
 
+def titles_of(scene, seed):
+    """The names that a scene may have: the second one if another seed has the first already."""
+    return scene, f"{scene}/{seed}"
+
+
+def path_of(layout, table):
+    return f"{layout['version']}/{table}.json"
+
+
+def lidar_file(layout):
+    return f"samples/{layout['lidar']['channel']}/none{layout['lidar']['suffix']}"
+
+
 def axle_of(scene, carrier):
     """How far ahead of the middle of the ego its rear axle is: known from targets, else as in a usual car."""
     return scene["axle"] or -5 / 18 * carrier["length_m"]
@@ -81,20 +94,25 @@ def axle_of(scene, carrier):
 class Writer:
     """Writes frames: the files of a frame at once, the rows of a scene at its end, when all links are known."""
 
-    def __init__(self, layout, output):
+    @staticmethod
+    def starts(surveys):
+        """For each part, when the last scan before it is, and which titles earlier scenes have of those that its own may have."""
+        newest_us, titles = BEGIN_US - GAP_US, set()
+        for scenes in surveys:
+            yield newest_us, titles.intersection(name for scene in scenes.spans_us for name in titles_of(*scene))
+            for scene, (first_us, last_us) in scenes.spans_us.items():
+                titles.add(next((name for name in titles_of(*scene) if name not in titles), None))
+                newest_us += GAP_US + last_us - first_us
+
+    def __init__(self, layout, output, start):
         self.layout, self.output, self.radars = layout, output, RadarFiles(layout["point"], layout["fields"].split())
-        self.scene, self.titles, self.splits = None, set(), {}
-        self.shared = {}  # tokens of rows that are written once
-        self.newest_us = {}  # time of the last scan of each channel
-        self.lidar = layout["lidar"] | {"path": f"samples/{layout['lidar']['channel']}/none{layout['lidar']['suffix']}"}
-        for name, text in {self.lidar["path"]: "", **layout.get("files", {})}.items():
-            output.write(name, base64.b64decode(text))
-        self.tables = {name: output.file(f"{layout['version']}/{name}.json") for name in layout["tables"]}
-        self.egos = csv.writer(output.file("glint-egos.csv"), lineterminator="\n")
-        self.egos.writerow(("token", "scene", "seed", "object", "class", "length_m", "width_m", "height_m", "rear_axle_x_m"))
-        self.before = dict.fromkeys(self.tables, "[\n")
-        for name, rows in layout["tables"].items():
-            self.rows(name, [line(row)[:-1] for row in rows])
+        self.newest_us, self.titles = start
+        self.scene, self.splits = None, {}
+        self.shared = {}  # rows that are written once, by table and token
+        self.newest_of = {}  # time of the last scan of each channel
+        self.tables = {name: output.rows(path_of(layout, name)) for name in layout["tables"]}
+        self.egos = csv.writer(output.rows("glint-egos.csv"), lineterminator="\n")
+        self.before = dict.fromkeys(self.tables, "")
 
     def rows(self, table, texts):
         """Rows, each a text of JSON."""
@@ -108,9 +126,7 @@ class Writer:
 
     def once(self, table, own, text):
         """A row that scenes share; its token."""
-        if own not in self.shared:
-            self.shared[own] = None
-            self.rows(table, [text])
+        self.shared[table, own] = text
         return own
 
     def add(self, split, frame):
@@ -118,7 +134,7 @@ class Writer:
             self.end_scene()
         scans = [(sensor, targets, frame["time_s"] - sensor.get("age_s", 0)) for sensor, targets in scans_of(frame)]
         if not self.scene and scans:
-            begin_us = max(self.newest_us.values(), default=BEGIN_US - GAP_US) + GAP_US - round(1e6 * min(at_s for _, _, at_s in scans))
+            begin_us = self.newest_us + GAP_US - round(1e6 * min(at_s for _, _, at_s in scans))
             self.scene = {"identity": identity(frame), "name": self.title(frame), "token": token(*identity(frame)), "begin_us": begin_us,
                           "frames": [], "axle": None}
             self.splits.setdefault("glint_" + split, []).append(self.scene["name"])  # as devkits keep names like val for their own scenes
@@ -130,16 +146,18 @@ class Writer:
 
     def title(self, frame):
         """The scene's name, by which splits know it: with its seed if another seed has the name already."""
-        name = "/".join(identity(frame)) if frame["scene"] in self.titles else frame["scene"]
-        if name in self.titles:
-            raise Fault(BAD_DATA, f"{frame.place}: {name} would be the name of two scenes; expected other names, by --scene of their source")
+        name = next((name for name in titles_of(*identity(frame)) if name not in self.titles), None)
+        if name is None:
+            raise Fault(BAD_DATA, f"{frame.place}: {'/'.join(identity(frame))} would be the name of two scenes; expected other names, by --scene of "
+                                  "their source")
         self.titles.add(name)
         return name
 
     def scan(self, frame, sensor, targets, at_s, moments):
         """Writes the file of a scan; what its rows need."""
         at, channel = self.scene["begin_us"] + round(1e6 * at_s), "RADAR_" + word(sensor["name"])
-        before, self.newest_us[channel] = self.newest_us.get(channel, 0), at
+        before, self.newest_of[channel] = self.newest_of.get(channel, 0), at
+        self.newest_us = max(self.newest_us, at)
         if len(targets) > MOST_POINTS or not before < at < END_US:
             raise Fault(BAD_DATA, f"{frame.place}: {at_s} s: {len(targets)} targets of {sensor['name']} at {at} us; expected at most {MOST_POINTS}, "
                                   f"1 us or more after the scan before, and before {END_US}")
@@ -203,10 +221,11 @@ class Writer:
 
     def empty_lidar(self, samples):
         """Rows of a lidar that sees nothing: devkits take the time and the pose of a sample from it."""
-        mount, tokens = self.calibrated(self.lidar["channel"], "lidar", "[0.0,0.0,0.0]", turn(0)), [token(name, self.lidar["channel"]) for _, _, _, name in samples]
+        channel = self.layout["lidar"]["channel"]
+        mount, tokens = self.calibrated(channel, "lidar", "[0.0,0.0,0.0]", turn(0)), [token(name, channel) for _, _, _, name in samples]
         self.linked("sample_data", tokens, [
             f'{{"token":"{own}","sample_token":"{name}","ego_pose_token":"{token(scan.path)}","timestamp":{scan.at},"calibrated_sensor_token":"{mount}",'
-            f'"fileformat":"pcd","is_key_frame":true,"height":0,"width":0,"filename":"{self.lidar["path"]}"}}'
+            f'"fileformat":"pcd","is_key_frame":true,"height":0,"width":0,"filename":"{lidar_file(self.layout)}"}}'
             for own, (_, _, scan, name) in zip(tokens, samples)])
 
     def motion(self, scene, scans):
@@ -269,7 +288,22 @@ class Writer:
         self.linked("sample_annotation", tokens, rows)
 
     def close(self):
+        """What `finish` needs of this part."""
         self.end_scene()
-        for name, file in self.tables.items():
-            file.write("]\n" if self.before[name] == "," else "[]\n")
-        self.output.write(f"{self.layout['version']}/splits.json", line(self.splits))
+        return self.shared, self.splits
+
+    @staticmethod
+    def finish(layout, folder, parts):
+        """Writes what scenes share, when all parts are there."""
+        shared, splits = {}, {}
+        for rows, of_part in parts:
+            shared |= rows
+            for split, scenes in of_part.items():
+                splits.setdefault(split, []).extend(scenes)
+        for name, text in {lidar_file(layout): "", **layout.get("files", {})}.items():
+            folder.write(name, base64.b64decode(text))
+        for name, constant in layout["tables"].items():
+            rows = [line(row)[:-1] for row in constant] + [text for (table, _), text in shared.items() if table == name]
+            folder.join(path_of(layout, name), len(parts), "[\n", "\n,".join(rows) + "\n" * bool(rows), ",", "]\n")
+        folder.join("glint-egos.csv", len(parts), "token,scene,seed,object,class,length_m,width_m,height_m,rear_axle_x_m\n")
+        folder.write(path_of(layout, "splits"), line(splits))

@@ -5,6 +5,7 @@ import math
 from glint.exports.numbered import Numbered, corners, packed, text_of
 from glint.exports.streams import boxes
 
+EMPTY = "{} of {} scans have no box and are left out: OpenPCDet takes no empty file of labels"
 FIELDS = "x y z rcs v_r v_r_compensated"
 
 
@@ -27,14 +28,9 @@ def in_view(sensor, box, x, y, heading):
 
 
 class Writer(Numbered):
-    def __init__(self, layout, output):
-        super().__init__(layout, output)
-        self.roots, self.empty = set(), 0
-
-    def takes(self, root, labels):
+    def takes(self, labels):
         """Its loader takes no file of labels that is empty."""
-        self.roots.add(root)
-        self.empty += not labels
+        self.output.count(EMPTY, not labels, 1)
         return labels
 
     def labels(self, frame, sensor, pose):
@@ -51,11 +47,7 @@ class Writer(Numbered):
         self.output.scan(f"{root}/points/{name}.npy", npy(targets), frame, sensor, targets)
         self.output.write(f"{root}/labels/{name}.txt", labels)
 
-    def close(self):
-        for root in self.roots:  # readers want both
-            for split in ("train", "val"):
-                self.sets.setdefault(f"{root}/ImageSets/{split}.txt", [])
-        if self.empty:
-            self.output.note(f"{self.empty} of {self.empty + sum(self.counts.values())} scans have no box and are left out: OpenPCDet takes no empty "
-                             "file of labels")
-        super().close()
+    @classmethod
+    def finish(cls, layout, folder, parts):
+        both = ({f"{root}/ImageSets/{split}.txt": [] for root in roots for split in ("train", "val")} for _, roots in parts)  # readers want both
+        super().finish(layout, folder, [(nothing | sets, roots) for nothing, (sets, roots) in zip(both, parts)])

@@ -12,18 +12,19 @@ import pickle
 import sys
 import tempfile
 import zlib
+from collections import Counter, namedtuple
 
 import glint
 from glint import command_line
-from glint.exports.arrays import NotWhole, frames_of_arrays
+from glint.exports.arrays import NotWhole, frames_of_arrays, heads_of_arrays
 from glint.exports.whole import checked
 from glint.places import DATA, SCHEMAS
-from glint.progress import Progress
 from glint.sets import schema
 from glint.sets.plan import BAD_DATA, NO_INPUT, Fault, read_json
 from glint.sets.tables import opened
 
 HEIGHT_M = 0.5  # of a sensor that has none: usual for radars
+Stream = namedtuple("Stream", "split place")  # place: of a file of lines, or of a folder of tables
 LEVELS = {"v0-40": 0, "v40-60": 1, "v60-80": 2, "v80-100": 3}
 COUNTED = "objects", "scans", "detections", "contributors", "sightings", "lost"  # tables of which frames have numbers of rows
 CELLS = {"frame_key", "detection_key", "seed", "time_s", "sensor", "measured_s", "detection", "contributor", *COUNTED}  # no row lacks them
@@ -97,6 +98,22 @@ def of_scans(table, frame, scans, once=()):
     return found
 
 
+def frame_of(row, scans, **members):
+    """A frame of a row and of the rows of its scans."""
+    sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in scans]
+    known = {name: value for name, value in row.items() if name not in COUNTED}
+    frame = glint.Frame(known, version=glint.VERSION, seed=str(row["seed"]), sensors={"suite": row.get("suite"), "list": sensors}, **members)
+    frame.place = row.place
+    return frame
+
+
+def heads_of_tables(folder):
+    """Frames with their sensors alone."""
+    frames, scans = Table(folder, "frames", "frame_key"), Table(folder, "scans", "scan_key")
+    for row in frames.rows:
+        yield frame_of(row, scans.take(row, frame_key=frames.checked(row, {})["frame_key"]))
+
+
 def frames_of_tables(folder):
     tables = frames, objects, scans, targets, parts, sightings, lost = [Table(folder, *words) for words in (
         ("frames", "frame_key"), ("objects", "object_key"), ("scans", "scan_key"), ("detections", "detection_key"),
@@ -113,23 +130,18 @@ def frames_of_tables(folder):
                 raise Fault(BAD_DATA, f"{row.place}: {name} {row[name]}; expected {count}, the rows of that table")
         seen = of_scans(sightings, row, of_sensors, once=("sensor", "object"))
         of_scans(lost, row, of_sensors)
-        sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in of_sensors]
-        known = {name: value for name, value in row.items() if name not in COUNTED}
-        frame = glint.Frame(known, version=glint.VERSION, seed=str(row["seed"]), objects=bodies, sensors={"suite": row.get("suite"), "list": sensors},
-                            targets=found, visibility=seen)
-        frame.place = row.place
-        yield checked(frame)
+        yield checked(frame_of(row, of_sensors, objects=bodies, targets=found, visibility=seen))
     for table in tables:
         table.end()
 
 
-def frames_of_lines(path):
+def frames_of_lines(path, of_arrays=frames_of_arrays):
     """Frames by their arrays, and from the first one on that is not whole there by their lines."""
     number = 0
     with contextlib.suppress(NotWhole, FileNotFoundError):
         if not os.path.isfile(path):  # a pipe is read once
             raise NotWhole
-        for frame in frames_of_arrays(path):
+        for frame in of_arrays(path):
             yield frame
             number += 1
         return
@@ -142,16 +154,27 @@ def place_of(shard, are_whole):
     return shard if tables and not (lines and are_whole) else next(iter(lines), shard + ".jsonl.gz")
 
 
-def streams_of(path):
-    """The streams of an input: split of a set, or None, and frames."""
-    manifest, places = os.path.join(path, "datapackage.json"), [(None, path)]
-    if os.path.exists(manifest):
-        found = document(manifest, "set")
-        shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3])) for one in found["resources"]}
-        are_whole = found.get("plan", {}).get("lines", "whole") == "whole"
-        places = [(split, place_of(shard, are_whole)) for split, shard in sorted(shards)]
-    for split, place in places:
-        yield split, frames_of_tables(place) if os.path.isdir(place) else frames_of_lines(place)
+def streams_of(path, split):
+    """The streams of an input: a set has splits of its own."""
+    manifest = os.path.join(path, "datapackage.json")
+    if not os.path.exists(manifest):
+        return [Stream(split, path)]
+    found = document(manifest, "set")
+    shards = {(one["path"].split("/")[0], os.path.join(path, *one["path"].split(".")[0].split("/")[:3])) for one in found["resources"]}
+    are_whole = found.get("plan", {}).get("lines", "whole") == "whole"
+    return [Stream(split, place_of(shard, are_whole)) for split, shard in sorted(shards)]
+
+
+def frames_in(place, heads):
+    """The frames of a stream; heads: they need no more than their sensors."""
+    if os.path.isdir(place):
+        return heads_of_tables(place) if heads else frames_of_tables(place)
+    return frames_of_lines(place, heads_of_arrays if heads else frames_of_arrays)
+
+
+def is_read_again(stream):
+    """Whether a stream can be read twice; a pipe can not."""
+    return os.path.isfile(stream.place) or os.path.isdir(stream.place)
 
 
 def document(path, kind):
@@ -200,32 +223,61 @@ def scene_by_scene(found):
             yield pickle.load(file)
 
 
-def complete_frames(streams):
-    for split, frames in Progress("streams").over(streams):
-        for frame in frames:
+def complete_frames(streams, heads):
+    for split, place in streams:
+        for frame in frames_in(place, heads):
             complete(frame)
             yield {"validation": "val"}.get(split, split), frame
 
 
-def frames_of(streams):
-    """The frames of streams with their splits, scene by scene, those of a scene in their order. Says on stderr which scenes have no scan."""
-    seen, before = {}, (None, 0, 0)  # of each scene: its first frame's place, or None as soon as a sensor has measured
-    for split, frame in scene_by_scene(complete_frames(streams)):
-        now = identity(frame), frame["frame"], frame["time_s"]
-        if now[0] in seen if now[0] != before[0] else now[1] <= before[1] or now[2] <= before[2]:
-            raise Fault(BAD_DATA, f"{frame.place}: frame {now[1]} of {now[0][0]} at {now[2]:.15g} s; expected each scene once, with all of its "
-                                  "frames in their order")
-        place = seen.setdefault(now[0], frame.place)
-        if place and any(scans_of(frame)):
-            seen[now[0]] = None
-        before = now
+class Scenes:
+    """What is known of the scenes of a part, once their frames have been read."""
+
+    def __init__(self):
+        self.places = {}  # of the first frame of each scene
+        self.spans_us = {}  # of each scene with scans: the time of its first scan, and of its last
+        self.scans = Counter()  # of each radar
+        self.now, self.number, self.time_s = None, 0, 0  # of the last frame
+
+    def add(self, frame):
+        """Takes a frame; refuses one that is not the next of its scene, and a scene that is there already."""
+        last, self.now = self.now, identity(frame)
+        is_next = self.number < frame["frame"] and self.time_s < frame["time_s"] if last == self.now else self.now not in self.places
+        if not is_next:
+            raise Fault(BAD_DATA, f"{frame.place}: frame {frame['frame']} of {frame['scene']} at {frame['time_s']:.15g} s; expected each scene "
+                                  "once, with all of its frames in their order")
+        self.number, self.time_s = frame["frame"], frame["time_s"]
+        self.places.setdefault(self.now, frame.place)
+        sensors = [one for one in frame["sensors"]["list"] if one.get("measured", True)]
+        if sensors:
+            self.scans.update([word(one["name"]).lower() for one in sensors])
+            times_us = [round(1e6 * (frame["time_s"] - one.get("age_s", 0))) for one in sensors]
+            first_us, last_us = self.spans_us.get(self.now, (min(times_us), max(times_us)))
+            self.spans_us[self.now] = first_us, max(last_us, *times_us)
+
+    @staticmethod
+    def of_several(parts):
+        """Whether a scene has frames in several parts."""
+        return sum(len(one.places) for one in parts) > len(set().union(*(one.places for one in parts)))
+
+    @staticmethod
+    def tell_of_empty(parts):
+        """Says on stderr which scenes have no scan; refuses an export without any."""
+        count = sum(len(one.places) for one in parts)
+        empty = [(name, seed, place) for one in parts for (name, seed), place in one.places.items() if (name, seed) not in one.spans_us]
+        if len(empty) == count:
+            raise Fault(BAD_DATA, "the inputs have no frame in which a sensor has measured")
+        if empty:
+            print("{}: {} of {} scenes have no scan and are left out; the first is {} with seed {}, at {}".format(
+                command_line.name(), len(empty), count, *empty[0]), file=sys.stderr)
+
+
+def frames_of(streams, scenes, heads=False):
+    """The frames of streams with their splits, scene by scene, those of a scene in their order. `scenes` gets to know each.
+    heads: frames may have their sensors alone."""
+    for split, frame in scene_by_scene(complete_frames(streams, heads)):
+        scenes.add(frame)
         yield split, frame
-    without = [(name, seed, place) for (name, seed), place in seen.items() if place]
-    if len(without) == len(seen):
-        raise Fault(BAD_DATA, "the inputs have no frame in which a sensor has measured")
-    if without:
-        print("{}: {} of {} scenes have no scan and are left out; the first is {} with seed {}, at {}".format(
-            command_line.name(), len(without), len(seen), *without[0]), file=sys.stderr)
 
 
 def scans_of(frame):
