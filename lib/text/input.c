@@ -20,6 +20,7 @@ struct input {
     bool sniffed;
     enum packing packing;
     struct unpacker *unpacker; /* NULL for plain bytes */
+    bool full;                 /* the unpacker had no room left, and may have more bytes */
     struct text line;          /* bytes that were read; bytes from line_at on are not used yet */
     size_t line_at;
     size_t head_length;
@@ -161,7 +162,7 @@ static long read_packed(struct input *input, char *bytes, size_t size, struct di
     while (made == 0) {
         if (packing_unpack_damage(input->unpacker) != NULL)
             return refuse_damage(input, diag);
-        int more = fill(input, diag);
+        int more = input->full && packing_unpack_is_inside(input->unpacker) ? 1 : fill(input, diag);
         if (more < 0)
             return -1;
         if (more == 0 && !packing_unpack_is_inside(input->unpacker))
@@ -170,6 +171,7 @@ static long read_packed(struct input *input, char *bytes, size_t size, struct di
         size_t given = input->raw_end - input->raw_at;
         made = packing_unpack_take(input->unpacker, &from, &given, bytes, size);
         input->raw_at = input->raw_end - given;
+        input->full = made == size;
         if (more == 0 && made == 0 && packing_unpack_is_inside(input->unpacker))
             return diag_fail(diag, DIAG_DATA, "the %s data ends early",
                              packing_name(input->packing));

@@ -43,12 +43,12 @@ static const char *unpack(void *with, struct packing_step *step, bool *inside)
     if (!*inside)
         inflateReset(stream);
     set(stream, step);
-    int done = inflate(stream, Z_NO_FLUSH);
+    int done = inflate(stream, Z_NO_FLUSH); /* Z_BUF_ERROR: it needs more bytes */
     if (done == Z_MEM_ERROR)
         memory_get((size_t)-1);
     move_on(step, stream);
     *inside = done != Z_STREAM_END;
-    if (done == Z_OK || done == Z_STREAM_END)
+    if (done == Z_OK || done == Z_STREAM_END || done == Z_BUF_ERROR)
         return NULL;
     return stream->msg != NULL ? stream->msg : "no message";
 }

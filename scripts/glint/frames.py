@@ -178,7 +178,9 @@ def _unpacked_zstd(file):
         raise ValueError("packed by zstd, and there is no program zstd") from None
     with process:
         threading.Thread(target=_feed, args=(file, process.stdin), daemon=True).start()
-        yield from process.stdout
+        for line in process.stdout:
+            if line.endswith(b"\n") or process.wait() == 0:
+                yield line
         if process.wait() != 0:
             raise ValueError(process.stderr.read().decode(errors="replace").strip())
 

@@ -107,10 +107,8 @@ static bool parse(struct xml_rows *xml)
     else if (!done)
         diag_fail(&xml->fault, DIAG_DATA, "line %zu: %s%s", xml_rows_line(xml),
                   XML_ErrorString(error), xml->advice != NULL ? xml->advice : "");
-    if (got < 0) {
-        xml->fault.code = damage.code;
-        diag_prefix(&xml->fault, "%s: ", damage.text);
-    }
+    if (got < 0)
+        xml->fault = damage;
     xml->bytes += got;
     xml->open = xml->bytes - XML_GetCurrentByteIndex(xml->parser);
     if (done && got > 0 && xml->open > TOKEN)

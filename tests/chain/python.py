@@ -173,6 +173,19 @@ def bytes_that_glint_refuses_the_tracker_refuses(folder):
         assert status == 0 or one_line(path, status, message), (name, status, message)
 
 
+def a_packed_file_that_is_cut_is_called_cut_and_not_bad_json(folder):
+    lines = shell(f"glint-traffic cut-in | {EXACT}", folder).encode()
+    for packer, message in (("gzip", "ended before the end"), ("zstd", "premature end")):
+        if not shutil.which(packer):
+            print(f"skipped  a packed file that is cut: {packer} is not installed")
+            continue
+        packed = subprocess.run([packer, "-qc"], input=lines, stdout=subprocess.PIPE, check=True).stdout
+        with open(os.path.join(folder, "cut"), "wb") as file:
+            file.write(packed[:len(packed) // 2])
+        status, text = in_a_fork("tracker", [file.name])
+        assert status == 65 and message in text, (status, text)
+
+
 def faults_outside_the_input_have_a_line_and_a_status(folder):
     with open(os.path.join(folder, "good.jsonl"), "w") as file:
         file.write(shell(f"glint-traffic cut-in | {EXACT}", folder))
@@ -404,7 +417,7 @@ def main():
                  frames_are_read_from_files_of_both_kinds, frames_are_read_without_a_check, a_stage_that_changes_nothing_changes_no_value_of_the_list,
                  columns_have_the_numbers_of_quality, lost_echoes_have_their_objects_and_paths,
                  an_elevation_is_a_height_and_shortens_the_way_ahead, detections_are_placed_from_where_the_ego_was,
-                 what_glint_refuses_the_tracker_refuses, bytes_that_glint_refuses_the_tracker_refuses,
+                 what_glint_refuses_the_tracker_refuses, bytes_that_glint_refuses_the_tracker_refuses, a_packed_file_that_is_cut_is_called_cut_and_not_bad_json,
                  faults_outside_the_input_have_a_line_and_a_status, scenes_of_two_seeds_share_no_tracks,
                  frames_py_works_alone_as_a_copy_called_glint_py, workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected,
                  false_alarms_make_few_tracks, images_in_walls_are_not_written)

@@ -417,6 +417,49 @@ TEST(a_read_pauses_before_it_waits_and_only_then)
     check_answers(true);
 }
 
+/* The bytes that end a frame of zstd, written when its reader would wait for them. */
+struct late_end {
+    int fd;
+    const char *bytes;
+};
+
+enum { LATE = 4 };
+
+static void write_end(void *with)
+{
+    struct late_end *late = with;
+    assert_int_equal(write(late->fd, late->bytes, LATE), LATE);
+    assert_int_equal(close(late->fd), 0);
+    late->bytes = NULL;
+}
+
+TEST(bytes_of_zstd_are_given_out_before_the_end_of_their_frame)
+{
+    enum { LENGTH = 100000, ROOM = 65536 };
+    struct text *bytes = check_text(), *packed = check_text(), *text = check_text();
+    struct diag diag = {0};
+    size_t first;
+    int ends[2];
+    char name[32];
+    memset(text_room(bytes, LENGTH), 'a', LENGTH);
+    bytes->length = LENGTH;
+    two_frames(bytes, packed, &first);
+    assert_int_equal(pipe(ends), 0);
+    struct late_end late = {ends[1], packed->bytes + first - LATE};
+    assert_int_equal(write(ends[1], packed->bytes, first - LATE), (ssize_t)(first - LATE));
+    snprintf(name, sizeof name, "/dev/fd/%d", ends[0]);
+    struct input *input = input_open(name, &diag);
+    close(ends[0]);
+    input_before_waiting(input, (struct input_pause){write_end, &late});
+    while (text->length < LENGTH && diag.code == DIAG_OK)
+        text->length += (size_t)input_read(input, text_room(text, ROOM), ROOM, &diag);
+    assert_int_equal(text->length, LENGTH);
+    assert_non_null(late.bytes);
+    assert_done(input_all, input, SIZE_MAX, text);
+    assert_null(late.bytes);
+    input_close(input);
+}
+
 static void count_pause(void *with)
 {
     ++*(size_t *)with;
