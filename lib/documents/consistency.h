@@ -1,5 +1,6 @@
 /* Checks that the figures of a sensor agree.
  *
+ * Members need or exclude each other: a table of the antenna belongs to one of its patterns.
  * Physics relates figures of a radar: the cell in range rate takes a dwell, which must fit into the
  * cycle; the echo from the greatest range has a beat frequency, which the receiver must pass. A
  * check compares two figures. An impossible pair refuses the suite; glint --datasheet prints other
@@ -36,6 +37,10 @@ struct consistency {
 #define CONSISTENCY_SLACK 1e-6
 #define DOUBT_ADVICE "; correct it, or go on if it is meant" /* ends a doubt of a figure */
 enum { CONSISTENCY_MOST = 20, CONSISTENCY_DIGITS = 7 };
+
+/* Refuses members that contradict each other or lack another one (DIAG_CONFIG); reads no derived
+ * member. */
+int consistency_members(const struct sensor *sensor, struct diag *diag);
 
 /* Writes the checks of a sensor with derived members and tables; a check is left out if the
  * document lacks one of its sides. Returns their number, at most CONSISTENCY_MOST. */

@@ -144,6 +144,3 @@ double suite_azimuth_floor_rad(const struct sensor *sensor, double azimuth_rad);
  * radars do not raise: elevation_sigma_rad at the threshold, in proportion to 1/amplitude, with the
  * floor in quadrature; at most that of an elevation anywhere in the view (MODEL 7.6). */
 double suite_elevation_sigma_rad(const struct sensor *sensor, double amplitude);
-
-/* Refuses members that contradict each other (DIAG_CONFIG). */
-int suite_check(const struct sensor *sensor, struct diag *diag);

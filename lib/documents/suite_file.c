@@ -216,7 +216,7 @@ static int complete_suite(struct suite *suite, const char *path, const char *bes
         if (intern_word(&names, sensor->name, arena) < i)
             return diag_fail(diag, DIAG_CONFIG, "%s: sensors[%zu].name: \"%s\" stands twice", path,
                              i, sensor->name);
-        if (suite_check(sensor, diag) != 0)
+        if (consistency_members(sensor, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         suite_derive(sensor);
         if (add_tables(beside, sensor, arena, diag) != 0)
