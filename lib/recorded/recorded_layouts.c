@@ -1,7 +1,12 @@
 #include "recorded/recorded_layouts.h"
 
+#include <ctype.h>
+#include <stdio.h>
+
+#include "base/intern.h"
 #include "base/units.h"
 #include "base/vec2.h"
+#include "text/csv_table.h"
 
 #define COLUMN(name, kind, need, member, low, high, scale, shift)                                  \
     {                                                                                              \
@@ -241,7 +246,7 @@ static const struct recorded_word interaction_words[] = {
 
 /* Slower than 1 m/s a vehicle in a jam may move anywhere within the noise of its place, which is
  * that of an image (slow_mps of highD and NGSIM). */
-const struct recorded_layout recorded_layouts[] = {
+static const struct recorded_layout layouts[] = {
     {.format = SUMO_FORMAT,
      .kinds = {{sumo_vehicles, "DEFAULT_VEHTYPE", 0.5},
                {sumo_persons, "DEFAULT_PEDTYPE", 0.5},
@@ -269,3 +274,206 @@ const struct recorded_layout recorded_layouts[] = {
                 .words = interaction_words},
      .kinds = {{interaction_columns, NULL, 0}}},
 };
+
+/* ---- the layout of a table ---- */
+
+enum { NAME_ROOM = 80 };
+
+/* The names of a table's columns. */
+struct header {
+    const struct csv_table *names;
+    struct intern places;       /* of the columns, by their names */
+    struct intern folded;       /* names in lower case */
+    LIST_OF(int) folded_places; /* the first column of each, by the number of the name */
+    struct arena *arena;
+};
+
+static void fold(const char *name, char *room)
+{
+    size_t length = 0;
+    for (; name[length] != '\0' && length + 1 < NAME_ROOM; length++)
+        room[length] = (char)tolower((unsigned char)name[length]);
+    room[length] = '\0';
+}
+
+/* Names the places of all columns. */
+static void name_places(struct header *header)
+{
+    char room[NAME_ROOM];
+    for (size_t i = 0; i < header->names->columns; i++) {
+        const char *name = header->names->header[i];
+        intern_word(&header->places, name, header->arena);
+        fold(name, room);
+        if (intern_word(&header->folded, room, header->arena) == header->folded_places.count)
+            *list_add(&header->folded_places, header->arena) = (int)i;
+    }
+}
+
+/* The place of a column, else of one whose letters differ in case alone. */
+static int place_of(const struct header *header, const char *name)
+{
+    char room[NAME_ROOM];
+    uint32_t place;
+    if (intern_find(&header->places, name, strlen(name), &place))
+        return (int)place;
+    fold(name, room);
+    bool known = intern_find(&header->folded, room, strlen(room), &place);
+    return known ? header->folded_places.items[place] : RECORDED_ABSENT;
+}
+
+/* The name of a column; in a wide table that of a road user. */
+static const char *name_of(const struct recorded_column *column, const char *user, char *room)
+{
+    if (user == NULL || column->kind == RECORDED_TIME)
+        return column->name;
+    snprintf(room, NAME_ROOM, "%s %s", user, column->name);
+    return room;
+}
+
+static bool same_value(const struct recorded_column *a, const struct recorded_column *b)
+{
+    return a->kind == b->kind && a->offset == b->offset;
+}
+
+/* Finds the columns of a kind, of each value the first spelling. */
+static struct recorded_part part_of(const struct header *header, const struct recorded_kind *kind,
+                                    const char *user)
+{
+    const struct recorded_column *columns = kind->columns;
+    struct recorded_part part = {.kind = kind, .user = user, .id = RECORDED_ABSENT};
+    char room[NAME_ROOM];
+    bool found = false;
+    for (size_t i = 0; columns[i].name != NULL; i++) {
+        found = found && same_value(&columns[i - 1], &columns[i]);
+        part.at[i] = found ? RECORDED_ABSENT : place_of(header, name_of(&columns[i], user, room));
+        found = found || part.at[i] != RECORDED_ABSENT;
+        if (part.id == RECORDED_ABSENT && same_value(columns, &columns[i]))
+            part.id = part.at[i];
+    }
+    return part;
+}
+
+/* Values that stand together are needed once one of them is there. */
+static bool is_needed(const struct recorded_part *part, const struct recorded_column *column)
+{
+    const struct recorded_column *columns = part->kind->columns;
+    bool together = false;
+    for (size_t i = 0; columns[i].name != NULL; i++)
+        together =
+            together || (columns[i].need == RECORDED_TOGETHER && part->at[i] != RECORDED_ABSENT);
+    return column->need == RECORDED_NEEDED || (column->need == RECORDED_TOGETHER && together);
+}
+
+/* Adds the names of columns of which one is lacking. */
+static void add_names(const struct recorded_part *part, size_t from, size_t end, struct text *names)
+{
+    char room[NAME_ROOM];
+    for (size_t i = from; i < end; i++) {
+        const char *between = names->length > 0 ? ", " : "";
+        text_format(names, "%s\"%s\"", i > from ? " or " : between,
+                    name_of(&part->kind->columns[i], part->user, room));
+    }
+}
+
+/* Counts the needed values, and adds the names of lacking columns to the text, if there is one. */
+static void count_values(struct recorded_fit *fit, const struct recorded_part *part,
+                         struct text *names)
+{
+    const struct recorded_column *columns = part->kind->columns;
+    for (size_t i = 0, end; columns[i].name != NULL; i = end) {
+        bool found = false;
+        for (end = i; columns[end].name != NULL && same_value(&columns[i], &columns[end]); end++)
+            found = found || part->at[end] != RECORDED_ABSENT;
+        if (!is_needed(part, &columns[i]))
+            continue;
+        fit->found += found;
+        fit->lacking += !found;
+        if (names != NULL && !found)
+            add_names(part, i, end, names);
+    }
+}
+
+/* Adds every road user that a column names, whatever its number is; without any, "#1". */
+static void add_users(struct header *header, struct recorded_fit *fit)
+{
+    struct intern users = {0};
+    for (size_t i = 0; i < header->names->columns; i++) {
+        const char *name = header->names->header[i];
+        size_t length = strcspn(name, " ");
+        if (*name == '#' && length > 1 && strspn(name + 1, "0123456789") == length - 1)
+            intern_number(&users, name, length, header->arena);
+    }
+    if (users.list.count == 0)
+        intern_word(&users, "#1", header->arena);
+    for (uint32_t i = 0; i < users.list.count; i++)
+        *list_add(&fit->parts, header->arena) =
+            part_of(header, fit->layout->kinds, intern_text(&users, i));
+}
+
+/* Adds the kinds that have a column of ids; without any, the first. */
+static void add_kinds(struct header *header, struct recorded_fit *fit)
+{
+    const struct recorded_kind *kinds = fit->layout->kinds;
+    for (size_t i = 0; i < RECORDED_KINDS && kinds[i].columns != NULL; i++) {
+        struct recorded_part part = part_of(header, &kinds[i], NULL);
+        if (part.id != RECORDED_ABSENT)
+            *list_add(&fit->parts, header->arena) = part;
+    }
+    if (fit->parts.count == 0)
+        *list_add(&fit->parts, header->arena) = part_of(header, kinds, NULL);
+}
+
+static struct recorded_fit fit_of(struct header *header, const struct recorded_layout *layout)
+{
+    struct recorded_fit fit = {.layout = layout};
+    if (layout->wide)
+        add_users(header, &fit);
+    else
+        add_kinds(header, &fit);
+    for (size_t i = 0; i < fit.parts.count; i++)
+        count_values(&fit, &fit.parts.items[i], NULL);
+    return fit;
+}
+
+/* Names the nearest layout with what it lacks, and the header. */
+static int refuse_header(const struct csv_table *table, const struct recorded_fit *fit,
+                         struct diag *diag)
+{
+    enum { MOST = 600 };
+    struct recorded_fit counted = {0};
+    struct text lacking = {0}, header = {0};
+    for (size_t i = 0; i < fit->parts.count; i++)
+        count_values(&counted, &fit->parts.items[i], &lacking);
+    for (size_t i = 0; i < table->columns; i++)
+        text_format(&header, "%s%s", i > 0 ? ", " : "", table->header[i]);
+    int names = (int)(lacking.length < MOST ? lacking.length : MOST);
+    int length = (int)(header.length < MOST ? header.length : MOST);
+    if (counted.found == 0)
+        diag_fail(diag, DIAG_DATA, "no column is one that a layout needs; the header is: %.*s",
+                  length, header.bytes);
+    else
+        diag_fail(diag, DIAG_DATA,
+                  "column%s %.*s %s missing for %s, the nearest layout; the header is: %.*s",
+                  counted.lacking > 1 ? "s" : "", names, lacking.bytes,
+                  counted.lacking > 1 ? "are" : "is", fit->layout->format.name, length,
+                  header.bytes);
+    text_free(&lacking);
+    text_free(&header);
+    return -1;
+}
+
+int recorded_layouts_find(const struct csv_table *names, struct recorded_fit *fit,
+                          struct arena *arena, struct diag *diag)
+{
+    struct header header = {.names = names, .arena = arena};
+    name_places(&header);
+    *fit = fit_of(&header, layouts);
+    for (size_t i = 1; i < sizeof layouts / sizeof *layouts; i++) {
+        struct recorded_fit other = fit_of(&header, &layouts[i]);
+        size_t own = other.found * (fit->found + fit->lacking);
+        size_t least = fit->found * (other.found + other.lacking);
+        if (own > least || (own == least && other.found > fit->found))
+            *fit = other;
+    }
+    return fit->lacking == 0 ? 0 : refuse_header(names, fit, diag);
+}

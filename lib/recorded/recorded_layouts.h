@@ -51,7 +51,7 @@ struct recorded_cells {
     double aside[2];
 };
 
-enum { RECORDED_KINDS = 3, RECORDED_COLUMNS = 24, RECORDED_LAYOUTS = 7 };
+enum { RECORDED_KINDS = 3, RECORDED_COLUMNS = 24, RECORDED_ABSENT = -1 };
 
 struct recorded_layout {
     struct recorded_format format;              /* place, next and close are those of all tables */
@@ -67,7 +67,28 @@ struct recorded_layout {
     void (*complete)(struct recorded_cells *cells); /* computes the other values, or NULL */
 };
 
-extern const struct recorded_layout recorded_layouts[RECORDED_LAYOUTS];
+/* A kind of road user that a table has; in a wide table one road user. */
+struct recorded_part {
+    const struct recorded_kind *kind;
+    const char *user;         /* "#1" or "#2" or ... in a wide table, else NULL */
+    int id;                   /* the place of its id; RECORDED_ABSENT */
+    int at[RECORDED_COLUMNS]; /* the places of its columns; RECORDED_ABSENT: not read */
+};
+
+/* A layout, the parts that a table has of it, and the number of needed values that these parts have
+ * and lack. */
+struct recorded_fit {
+    const struct recorded_layout *layout;
+    LIST_OF(struct recorded_part) parts;
+    size_t found, lacking;
+};
+
+/* Finds the layout of whose needed values a table with this header has the largest share, and of
+ * equal shares the most. Refuses (DIAG_DATA) a header that lacks any: the message names the nearest
+ * layout with what it lacks, and the header. */
+struct csv_table;
+int recorded_layouts_find(const struct csv_table *names, struct recorded_fit *fit,
+                          struct arena *arena, struct diag *diag);
 
 /* The columns of NGSIM's files that have no header. */
 extern const char *const recorded_layouts_ngsim_names[];

@@ -1,5 +1,4 @@
 /* Rows of a CSV table of recorded traffic. */
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -14,24 +13,6 @@
 static const struct csv_table_form form = {
     .names = recorded_layouts_ngsim_names, .preamble = "esmini ", .header = "Index "};
 
-enum { ABSENT = -1, NAME_ROOM = 80 };
-
-/* A kind of road user that the table has; in a wide table one road user. */
-struct part {
-    const struct recorded_kind *kind;
-    const char *user;         /* "#1" or "#2" or ... in a wide table, else NULL */
-    int id;                   /* the place of its id; ABSENT */
-    int at[RECORDED_COLUMNS]; /* the places of its columns; ABSENT: not read */
-};
-
-/* A layout, the parts that the table has of it, and the number of needed values that these parts
- * have and lack. */
-struct fit {
-    const struct recorded_layout *layout;
-    LIST_OF(struct part) parts;
-    size_t found, lacking;
-};
-
 /* A row of the file of tracks. */
 struct track {
     const char *class;
@@ -42,11 +23,7 @@ struct table {
     struct recorded_format format;
     struct csv_table_rows *lines;
     struct input *input;
-    struct fit fit;
-    const struct csv_table *names;
-    struct intern places;         /* of the columns, by their names */
-    struct intern folded;         /* names in lower case */
-    LIST_OF(int) folded_places;   /* the first column of each, by the number of the name */
+    struct recorded_fit fit;
     const struct csv_table *rows; /* of the last line, or NULL */
     size_t row;                   /* of those, which is read */
     size_t part;                  /* of the row, which is next */
@@ -56,194 +33,6 @@ struct table {
     struct intern tracks;
     LIST_OF(struct track) track_list; /* by the number of the id */
 };
-
-static void fold(const char *name, char *room)
-{
-    size_t length = 0;
-    for (; name[length] != '\0' && length + 1 < NAME_ROOM; length++)
-        room[length] = (char)tolower((unsigned char)name[length]);
-    room[length] = '\0';
-}
-
-/* Names the places of all columns. */
-static void name_places(struct table *table)
-{
-    char room[NAME_ROOM];
-    for (size_t i = 0; i < table->names->columns; i++) {
-        const char *name = table->names->header[i];
-        intern_word(&table->places, name, table->arena);
-        fold(name, room);
-        if (intern_word(&table->folded, room, table->arena) == table->folded_places.count)
-            *list_add(&table->folded_places, table->arena) = (int)i;
-    }
-}
-
-/* The place of a column, else of one whose letters differ in case alone. */
-static int place_of(const struct table *table, const char *name)
-{
-    char room[NAME_ROOM];
-    uint32_t place;
-    if (intern_find(&table->places, name, strlen(name), &place))
-        return (int)place;
-    fold(name, room);
-    bool known = intern_find(&table->folded, room, strlen(room), &place);
-    return known ? table->folded_places.items[place] : ABSENT;
-}
-
-/* ---- the layout ---- */
-
-/* The name of a column; in a wide table that of a road user. */
-static const char *name_of(const struct recorded_column *column, const char *user, char *room)
-{
-    if (user == NULL || column->kind == RECORDED_TIME)
-        return column->name;
-    snprintf(room, NAME_ROOM, "%s %s", user, column->name);
-    return room;
-}
-
-static bool same_value(const struct recorded_column *a, const struct recorded_column *b)
-{
-    return a->kind == b->kind && a->offset == b->offset;
-}
-
-/* Finds the columns of a kind, of each value the first spelling. */
-static struct part part_of(const struct table *table, const struct recorded_kind *kind,
-                           const char *user)
-{
-    const struct recorded_column *columns = kind->columns;
-    struct part part = {.kind = kind, .user = user, .id = ABSENT};
-    char room[NAME_ROOM];
-    bool found = false;
-    for (size_t i = 0; columns[i].name != NULL; i++) {
-        found = found && same_value(&columns[i - 1], &columns[i]);
-        part.at[i] = found ? ABSENT : place_of(table, name_of(&columns[i], user, room));
-        found = found || part.at[i] != ABSENT;
-        if (part.id == ABSENT && same_value(columns, &columns[i]))
-            part.id = part.at[i];
-    }
-    return part;
-}
-
-/* Values that stand together are needed once one of them is there. */
-static bool is_needed(const struct part *part, const struct recorded_column *column)
-{
-    const struct recorded_column *columns = part->kind->columns;
-    bool together = false;
-    for (size_t i = 0; columns[i].name != NULL; i++)
-        together = together || (columns[i].need == RECORDED_TOGETHER && part->at[i] != ABSENT);
-    return column->need == RECORDED_NEEDED || (column->need == RECORDED_TOGETHER && together);
-}
-
-/* Adds the names of columns of which one is lacking. */
-static void add_names(const struct part *part, size_t from, size_t end, struct text *names)
-{
-    char room[NAME_ROOM];
-    for (size_t i = from; i < end; i++) {
-        const char *between = names->length > 0 ? ", " : "";
-        text_format(names, "%s\"%s\"", i > from ? " or " : between,
-                    name_of(&part->kind->columns[i], part->user, room));
-    }
-}
-
-/* Counts the needed values, and adds the names of lacking columns to the text, if there is one. */
-static void count_values(struct fit *fit, const struct part *part, struct text *names)
-{
-    const struct recorded_column *columns = part->kind->columns;
-    for (size_t i = 0, end; columns[i].name != NULL; i = end) {
-        bool found = false;
-        for (end = i; columns[end].name != NULL && same_value(&columns[i], &columns[end]); end++)
-            found = found || part->at[end] != ABSENT;
-        if (!is_needed(part, &columns[i]))
-            continue;
-        fit->found += found;
-        fit->lacking += !found;
-        if (names != NULL && !found)
-            add_names(part, i, end, names);
-    }
-}
-
-/* Adds every road user that a column names, whatever its number is; without any, "#1". */
-static void add_users(struct table *table, struct fit *fit)
-{
-    struct intern users = {0};
-    for (size_t i = 0; i < table->names->columns; i++) {
-        const char *name = table->names->header[i];
-        size_t length = strcspn(name, " ");
-        if (*name == '#' && length > 1 && strspn(name + 1, "0123456789") == length - 1)
-            intern_number(&users, name, length, table->arena);
-    }
-    if (users.list.count == 0)
-        intern_word(&users, "#1", table->arena);
-    for (uint32_t i = 0; i < users.list.count; i++)
-        *list_add(&fit->parts, table->arena) =
-            part_of(table, fit->layout->kinds, intern_text(&users, i));
-}
-
-/* Adds the kinds that have a column of ids; without any, the first. */
-static void add_kinds(struct table *table, struct fit *fit)
-{
-    const struct recorded_kind *kinds = fit->layout->kinds;
-    for (size_t i = 0; i < RECORDED_KINDS && kinds[i].columns != NULL; i++) {
-        struct part part = part_of(table, &kinds[i], NULL);
-        if (part.id != ABSENT)
-            *list_add(&fit->parts, table->arena) = part;
-    }
-    if (fit->parts.count == 0)
-        *list_add(&fit->parts, table->arena) = part_of(table, kinds, NULL);
-}
-
-static struct fit fit_of(struct table *table, const struct recorded_layout *layout)
-{
-    struct fit fit = {.layout = layout};
-    if (layout->wide)
-        add_users(table, &fit);
-    else
-        add_kinds(table, &fit);
-    for (size_t i = 0; i < fit.parts.count; i++)
-        count_values(&fit, &fit.parts.items[i], NULL);
-    return fit;
-}
-
-/* Names the nearest layout with what it lacks, and the header. */
-static int refuse_header(const struct table *table, struct diag *diag)
-{
-    enum { MOST = 600 };
-    struct fit counted = {0};
-    struct text lacking = {0}, header = {0};
-    for (size_t i = 0; i < table->fit.parts.count; i++)
-        count_values(&counted, &table->fit.parts.items[i], &lacking);
-    for (size_t i = 0; i < table->names->columns; i++)
-        text_format(&header, "%s%s", i > 0 ? ", " : "", table->names->header[i]);
-    int names = (int)(lacking.length < MOST ? lacking.length : MOST);
-    int length = (int)(header.length < MOST ? header.length : MOST);
-    if (counted.found == 0)
-        diag_fail(diag, DIAG_DATA, "no column is one that a layout needs; the header is: %.*s",
-                  length, header.bytes);
-    else
-        diag_fail(diag, DIAG_DATA,
-                  "column%s %.*s %s missing for %s, the nearest layout; the header is: %.*s",
-                  counted.lacking > 1 ? "s" : "", names, lacking.bytes,
-                  counted.lacking > 1 ? "are" : "is", table->fit.layout->format.name, length,
-                  header.bytes);
-    text_free(&lacking);
-    text_free(&header);
-    return -1;
-}
-
-/* Finds the layout of whose needed values the table has the largest share, and of equal shares the
- * most; refuses the table if it lacks any. */
-static int find_layout(struct table *table, struct diag *diag)
-{
-    struct fit *best = &table->fit;
-    for (size_t i = 0; i < RECORDED_LAYOUTS; i++) {
-        struct fit fit = fit_of(table, &recorded_layouts[i]);
-        size_t own = fit.found * (best->found + best->lacking);
-        size_t least = best->found * (fit.found + fit.lacking);
-        if (i == 0 || own > least || (own == least && fit.found > best->found))
-            *best = fit;
-    }
-    return best->lacking == 0 ? 0 : refuse_header(table, diag);
-}
 
 /* ---- files beside a table ---- */
 
@@ -356,9 +145,8 @@ static int read_header(struct table *table, const char *path, struct diag *diag)
     table->lines = csv_table_open(table->input, &form, diag);
     if (table->lines == NULL)
         return -1;
-    table->names = csv_table_names(table->lines);
-    name_places(table);
-    if (find_layout(table, diag) != 0)
+    const struct csv_table *names = csv_table_names(table->lines);
+    if (recorded_layouts_find(names, &table->fit, table->arena, diag) != 0)
         return -1;
     return table->fit.layout->beside.id == NULL ||
                    (read_beside(table, path, "recordingMeta", take_recording, diag) == 0 &&
@@ -412,12 +200,13 @@ static int read_cell(struct table *table, const struct recorded_column *column, 
 
 static bool is_empty(const struct table *table, int place)
 {
-    return place == ABSENT || *csv_table_cell(table->rows, table->row, (size_t)place) == '\0';
+    return place == RECORDED_ABSENT ||
+           *csv_table_cell(table->rows, table->row, (size_t)place) == '\0';
 }
 
 /* Takes class and direction of travel from the file of tracks. */
-static int find_track(const struct table *table, const struct part *part, struct recorded_row *row,
-                      struct diag *diag)
+static int find_track(const struct table *table, const struct recorded_part *part,
+                      struct recorded_row *row, struct diag *diag)
 {
     uint32_t number;
     if (!intern_find(&table->tracks, row->id, strlen(row->id), &number))
@@ -427,8 +216,8 @@ static int find_track(const struct table *table, const struct part *part, struct
     return 0;
 }
 
-static int read_part(struct table *table, const struct part *part, struct recorded_row *row,
-                     struct diag *diag)
+static int read_part(struct table *table, const struct recorded_part *part,
+                     struct recorded_row *row, struct diag *diag)
 {
     const struct recorded_column *columns = part->kind->columns;
     struct recorded_cells cells = {.row = recorded_row_unsaid};
@@ -439,7 +228,7 @@ static int read_part(struct table *table, const struct part *part, struct record
     for (size_t i = 0; columns[i].name != NULL; i++) {
         int at = part->at[i];
         bool may_be_empty = columns[i].need != RECORDED_NEEDED && columns[i].kind != RECORDED_ALIKE;
-        bool skipped = at == ABSENT || (may_be_empty && is_empty(table, at));
+        bool skipped = at == RECORDED_ABSENT || (may_be_empty && is_empty(table, at));
         if (!skipped && read_cell(table, &columns[i], (size_t)at, &cells, diag) != 0)
             return -1;
     }
@@ -466,7 +255,7 @@ static int next_row(void *state, struct recorded_row *row, struct diag *diag)
         }
         if (own->rows == NULL)
             return diag->code == DIAG_OK ? RECORDED_END : -1;
-        const struct part *part = &own->fit.parts.items[own->part++];
+        const struct recorded_part *part = &own->fit.parts.items[own->part++];
         bool wide = own->fit.layout->wide, more = own->part < own->fit.parts.count;
         if (is_empty(own, part->id) && (wide || more))
             continue;
