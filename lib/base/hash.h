@@ -1,8 +1,6 @@
 /* Hashes of bytes, and tables of numbers by content. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "base/arena.h"
 #include "base/text.h"
 

@@ -1,9 +1,7 @@
 #include "base/suggestion.h"
 
 #include <ctype.h>
-#include <stdbool.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/text.h"
 

@@ -13,8 +13,6 @@
  * doubles: a line within some 1e-15 m of a top may be blocked or free. */
 #pragma once
 
-#include <stddef.h>
-
 #include "base/vec2.h"
 
 /* True if the closed segments p-q and a-b share a point. Segments of length zero are points. */

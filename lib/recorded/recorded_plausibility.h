@@ -21,8 +21,6 @@
  * stated. */
 #pragma once
 
-#include <stdint.h>
-
 #include "base/vec2.h"
 #include "recorded/recorded_row.h"
 

@@ -1,7 +1,5 @@
 #include "recorded/resampling.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "geometry/motion.h"

@@ -1,6 +1,5 @@
 #include "run/datasheet.h"
 
-#include <math.h>
 #include <stdio.h>
 
 #include "base/elementary.h"

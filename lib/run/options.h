@@ -2,8 +2,6 @@
  * that all programs share. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "base/arena.h"
 #include "base/diag.h"
 #include "base/text.h"

@@ -1,7 +1,5 @@
 #include "run/pipeline.h"
 
-#include <stdbool.h>
-
 #include "base/text.h"
 
 struct parser {

@@ -6,8 +6,6 @@
  * of packed files alike. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "base/diag.h"
 #include "base/text.h"
 

@@ -12,8 +12,6 @@
  * standard output, /dev/fd/N, /proc/self/fd/N. Every write and the final close are checked. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "base/diag.h"
 #include "base/text.h"
 

@@ -6,8 +6,6 @@
  * the bytes depend only on the content and on the version of the library. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "base/diag.h"
 #include "base/text.h"
 

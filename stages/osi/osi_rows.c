@@ -1,7 +1,6 @@
 #include "osi_rows.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 
 #include "base/text.h"

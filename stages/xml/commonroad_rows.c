@@ -1,8 +1,6 @@
 #include "commonroad_rows.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/elementary.h"
 #include "base/intern.h"
