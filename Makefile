@@ -281,7 +281,6 @@ build-release/made build-static/made: build-%/made: $(release_sources)
 schemas: all
 	$(Q)$(BUILD)/bin/glint-schema schemas
 	$(Q)tests/tools/tables-sql schemas/tables.json >schemas/tables.sql
-	$(Q)python3 scripts/glint/sets/schema.py >schemas/dataset.json
 
 # The table of sections, from the pages of the model.
 MODEL.md: FORCE
