@@ -174,7 +174,7 @@ def stream_lines(glint, frames):
     commands = scenes.commands("platoon", 20, 1, frames, "default")
     fused = [subprocess.Popen([glint, "-c", " | ".join(commands)], stdout=subprocess.PIPE)]
     for mode, processes in (("fused", fused), ("piped", None)):
-        found = follow(mode, processes or pipe([command.split() for command in commands]), frames)
+        found = follow(processes or pipe([command.split() for command in commands]), frames)
         for tenth in range(1, len(found)):
             cpu_ns = (found[tenth][0] - found[tenth - 1][0]) / (frames / TENTHS)
             yield {"stream": frames, "mode": mode, "tenth": tenth, "cpu_ns_per_frame": round(cpu_ns),
