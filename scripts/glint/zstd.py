@@ -1,11 +1,13 @@
-"""Packs and unpacks by libzstd, which every Debian has: `zstd -q --single-thread` would make the same bytes."""
+"""Packs and unpacks by libzstd, which every Debian has. At level 1 `zstd -q --single-thread --zstd=wlog=18,hlog=13` would make
+the same bytes, and glint's own files that end in .zst have them; at the others `zstd -q --single-thread` with the level."""
 import contextlib
 import ctypes
 import functools
 import io
 
 ROOM = 1 << 17  # the most bytes that the library writes at a time
-LEVEL, CHECKSUM = 100, 201  # parameters of the library
+LEVEL, WINDOW, TABLE, CHECKSUM = 100, 101, 102, 201  # parameters of the library
+SMALL = {WINDOW: 18, TABLE: 13}  # of level 1: powers of two of bytes and places, as in lib/text/packing_zstd.c
 GO_ON, END = 0, 2
 
 
@@ -53,7 +55,8 @@ class Packer:
 
     def __init__(self, level):
         self.stream = Stream(library().ZSTD_createCCtx, library().ZSTD_freeCCtx)
-        for parameter, value in ((LEVEL, level), (CHECKSUM, 1)):
+        settings = {LEVEL: level, CHECKSUM: 1} | (SMALL if level == 1 else {})
+        for parameter, value in settings.items():
             library().ZSTD_CCtx_setParameter(self.stream.state, parameter, value)
 
     def compress(self, data):
