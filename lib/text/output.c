@@ -283,16 +283,12 @@ static int cannot_create(const char *name, struct diag *diag)
                           : "");
 }
 
-static const char *shown_name(const struct output *output)
-{
-    return strcmp(output->name, "-") == 0 ? "stdout" : output->name;
-}
-
 static int cannot_write(struct output *output, struct diag *diag)
 {
+    bool standard = strcmp(output->name, "-") == 0;
     output->failed = true;
-    return diag_fail(diag, diag_code_by_errno(DIAG_IO), "%s: %s", shown_name(output),
-                     strerror(errno));
+    return diag_fail(diag, diag_code_by_errno(DIAG_IO), "%s: %s",
+                     standard ? "stdout" : output->name, strerror(errno));
 }
 
 /* Standard output itself, or a copy of another descriptor. Refuses one that is not open for

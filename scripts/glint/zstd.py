@@ -1,13 +1,11 @@
-"""Packs and unpacks by libzstd, which every Debian has. At level 1 `zstd -q --single-thread --zstd=wlog=18,hlog=13` would make
-the same bytes, and glint's own files that end in .zst have them; at the others `zstd -q --single-thread` with the level."""
+"""Packs and unpacks by libzstd: with the bytes of `zstd --single-thread`, at level 1 of `--zstd=wlog=18,hlog=13`."""
 import contextlib
 import ctypes
 import functools
 import io
 
 ROOM = 1 << 17  # the most bytes that the library writes at a time
-LEVEL, WINDOW, TABLE, CHECKSUM = 100, 101, 102, 201  # parameters of the library
-SMALL = {WINDOW: 18, TABLE: 13}  # of level 1: powers of two of bytes and places, as in lib/text/packing_zstd.c
+LEVEL, WINDOW, TABLE, CHECKSUM = 100, 101, 102, 201  # parameters of the library; lib/text/packing_zstd.c has the same values
 GO_ON, END = 0, 2
 
 
@@ -55,8 +53,7 @@ class Packer:
 
     def __init__(self, level):
         self.stream = Stream(library().ZSTD_createCCtx, library().ZSTD_freeCCtx)
-        settings = {LEVEL: level, CHECKSUM: 1} | (SMALL if level == 1 else {})
-        for parameter, value in settings.items():
+        for parameter, value in ((LEVEL, level), (CHECKSUM, 1), *[(WINDOW, 18), (TABLE, 13)] * (level == 1)):
             library().ZSTD_CCtx_setParameter(self.stream.state, parameter, value)
 
     def compress(self, data):

@@ -25,6 +25,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 sys.dont_write_bytecode = True
+from glint import zstd  # noqa: E402
 from glint.progress import Progress  # noqa: E402
 from sizes import quick  # noqa: E402
 
@@ -274,7 +275,8 @@ def counts_add_up_at_the_edges(folder):
 
 
 def what_is_kept_is_the_same_however_it_is_packed(folder):
-    """Compares sets of tables with whole lines, with lines without objects, and alone; all packed by gzip and by zstd."""
+    """Compares sets of tables with whole lines, with lines without objects, and alone; all packed by gzip and by zstd,
+    which makes the same bytes in C, in Python and as a program."""
     def by_path(place):
         return {one["path"]: one["content_hash"] for one in manifest(place)["resources"]}
 
@@ -295,6 +297,12 @@ def what_is_kept_is_the_same_however_it_is_packed(folder):
     assert {path.replace(".gz", ".zst"): content for path, content in by_path(whole).items()} == by_path(by_zstd)
     assert {one["path"].split(".")[0]: one["rows"] for one in manifest(whole)["resources"]} == {
         one["path"].split(".")[0]: one["rows"] for one in manifest(by_zstd)["resources"]}
+    for path in glob.glob(f"{by_zstd}/all/**/*.csv.zst", recursive=True):
+        with open(path, "rb") as file, zstd.opened(path) as table:
+            made_by_c, content, packer = file.read(), table.read(), zstd.Packer(1)
+        program = ["zstd", "-q", "--single-thread", "-1", "--zstd=wlog=18,hlog=13"]
+        assert packer.compress(content) + packer.flush() == made_by_c, path
+        assert subprocess.run(program, input=content, stdout=subprocess.PIPE, check=True).stdout == made_by_c, path
     for place in (whole, bare, by_zstd):
         done = run([CHECK_SET, place, "--all"])
         assert done.returncode == 0, done.stdout
