@@ -47,7 +47,7 @@ def counted(words, lines, folder, plan_folder):
     begin, end = os.pipe()
     words = [word.replace(COPY, f"/dev/fd/{end}") for word in words]
     # On a terminal glint would draw a line of progress of its own for each shard.
-    with tempfile.TemporaryFile() as said, open(begin, "rb", buffering=0) as frames, \
+    with tempfile.TemporaryFile() as said, open(begin, "rb") as frames, \
             subprocess.Popen(words, cwd=plan_folder, env=environment(folder), stdin=subprocess.DEVNULL,
                              stdout=subprocess.PIPE, stderr=said, pass_fds=[end], text=True) as process:
         os.close(end)

@@ -10,7 +10,7 @@ from glint.places import SCHEMAS
 from glint.sets.durable import digest_of_file, sync_folder
 from glint.sets.plan import IO, Fault, read_json
 
-PORTION = 1 << 18
+PORTION = 1 << 19
 # As in schemas/README.md. With one thread the same rows make the same bytes.
 COPY = "COPY (FROM {name}('.')) TO '{name}.parquet' (FORMAT parquet, COMPRESSION zstd, ROW_GROUP_SIZE 1000000);"
 
