@@ -1,9 +1,10 @@
 """scripts/bench --sets: what making a set costs beside the chain alone, and the memory of its processes.
 
 A frame's cost is that of a large set less that of a small one, for each frame that the large one has more; the chain's is
-measured likewise, as glint -c writes its lines into a file. Their ratio is of one round: each round makes all sets once.
-The fixed cost is that of a set of four shards of one frame each, laid out and made. Time is CPU time of all processes; no
-instructions are counted, as the digests use some of the processor's that callgrind does not know.
+measured likewise, as two processes at once write half of its lines each, like those of make -j2. Their ratio is of one
+round: each round makes all sets once. The fixed cost is that of a set of four shards of one frame each, laid out and
+made. Time is CPU time of all processes; no instructions are counted, as the digests use some of the processor's that
+callgrind does not know.
 
 Memory is the most that each process had, sampled while make runs, for shards of 1,000 to 100,000 frames with tables.
 """
@@ -61,8 +62,9 @@ def made_s(folder, scenes, kind):
 
 
 def chain_s(glint, folder, scenes):
-    source = f"glint-traffic-random --density medium --seconds {SECONDS} --scenes 0:{scenes} --rate-hz {RATE_HZ}"
-    return cpu_s([glint, "-c", f"{source} | {CHAIN.format(suite=SUITE)} -o {folder}/lines.jsonl"])
+    source, half = f"glint-traffic-random --density medium --seconds {SECONDS} --rate-hz {RATE_HZ} --scenes", scenes // 2
+    text = f"{glint} -c '{source} %d:%d | {CHAIN.format(suite=SUITE)} -o {folder}/%d.jsonl'"
+    return cpu_s(["bash", "-c", f"{text % (0, half, 0)} & {text % (half, scenes, 1)} && wait $!"])
 
 
 def fixed_s(folder):
