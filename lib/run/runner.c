@@ -300,13 +300,14 @@ static int take_frame(struct runner *runner, struct frame *frame)
     if (runner->common.seed_given || frame->version != FRAME_VERSION)
         frame_alter(frame, PART_HEADER);
     frame->version = FRAME_VERSION;
-    if (check_parts(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0 ||
-        apply_sections(runner, frame) != 0)
+    if (check_parts(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0)
         return -1;
-    return runner->common.complete
-               ? frame_sequence_follow(&runner->sequence, frame, runner_place(runner),
-                                       &runner->arena, &runner->diag)
-               : 0;
+    if (apply_sections(runner, frame) != 0)
+        return -1;
+    if (!runner->common.complete)
+        return 0;
+    return frame_sequence_follow(&runner->sequence, frame, runner_place(runner), &runner->arena,
+                                 &runner->diag);
 }
 
 static int check_complete(struct runner *runner)
@@ -339,10 +340,9 @@ int runner_frame_ascending(struct runner *runner, struct frame **frame)
     int more = runner_frame(runner, frame);
     if (more <= 0 || runner->common.complete)
         return more;
-    return frame_sequence_ascend(&runner->sequence, *frame, runner_place(runner), &runner->arena,
-                                 &runner->diag) == 0
-               ? 1
-               : -1;
+    int result = frame_sequence_ascend(&runner->sequence, *frame, runner_place(runner),
+                                       &runner->arena, &runner->diag);
+    return result == 0 ? 1 : -1;
 }
 
 struct runner *runner_trial(struct runner *runner, const struct stage *stage, const void *options,

@@ -382,8 +382,9 @@ static int read_members(struct reader *reader, const struct record *record, void
             return field_twice(field, scan->diag);
         seen[number] = true;
         next = field + 1;
-        if ((keeps_line ? read_with_text(reader, record, field, base)
-                        : read_member(reader, field, base)) != 0)
+        int result = keeps_line ? read_with_text(reader, record, field, base)
+                                : read_member(reader, field, base);
+        if (result != 0)
             return -1;
         if (field->group != 0)
             field_mark_present(record, field, base);

@@ -113,8 +113,9 @@ static int check_embedded(const struct record *record, const struct field *field
     for (size_t i = 0; i < items->count; i += step) {
         const char *item = items->first + i * items->size;
         struct items embedded = {item + field->offset, items->size, step, 0};
-        if ((field->group != 0 && !field_present(record, field, item)) ||
-            check_records(field->record, &embedded, ~0U, diag) == 0)
+        if (field->group != 0 && !field_present(record, field, item))
+            continue;
+        if (check_records(field->record, &embedded, ~0U, diag) == 0)
             continue;
         items->at = i + embedded.at;
         return diag_prefix(diag, "%s.", field->name);
