@@ -85,7 +85,7 @@ def compare(glint, folder, repeat):
         for kind, values in ratios.items():
             values.append((made_s(folder, LARGE, kind) - made_s(folder, SMALL, kind)) / chain)
     say(f"{repeat} rounds, medians of CPU time and their ranges\n"
-        f"the chain alone, its lines in a file, a frame       us      {told(chains, 0)}\n"
+        f"the chain alone, its lines in files, a frame        us      {told(chains, 0)}\n"
         f"a set of four shards, whatever is in them           s       {told(fixed, 2)}")
     for kind, values in ratios.items():
         say(f"a frame of a set: {kind:33} chains  {told(values, 2)}")
