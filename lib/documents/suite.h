@@ -6,7 +6,6 @@
 #pragma once
 
 #include "documents/waveform.h"
-#include "frame/effects.h"
 #include "propagation/carrier.h"
 #include "radar/antenna.h"
 #include "radar/array.h"

@@ -7,7 +7,6 @@
 #include "base/units.h"
 #include "frame/frame_order.h"
 #include "geometry/kinematics.h"
-#include "geometry/mirror.h"
 #include "geometry/obstruction.h"
 #include "geometry/predicates.h"
 #include "propagation/reflection.h"

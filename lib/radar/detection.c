@@ -1,7 +1,6 @@
 #include "radar/detection.h"
 
 #include <assert.h>
-#include <stdbool.h>
 
 #include "base/elementary.h"
 #include "base/root.h"

@@ -1,7 +1,6 @@
 #include "recorded/recorded_memory.h"
 
 #include <math.h>
-#include <stddef.h>
 
 #include "base/sort.h"
 

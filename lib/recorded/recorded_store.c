@@ -1,7 +1,5 @@
 #include "recorded/recorded_store.h"
 
-#include <math.h>
-
 #include "base/sort.h"
 #include "base/units.h"
 #include "geometry/motion.h"

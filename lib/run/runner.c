@@ -8,7 +8,6 @@
 #include "documents/vehicle_set.h"
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
-#include "run/suite_choice.h"
 #include "score/reference_stream.h"
 #include "text/data_folder.h"
 #include "text/packing.h"

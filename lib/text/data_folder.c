@@ -1,7 +1,6 @@
 #include "text/data_folder.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "text/path.h"
 

@@ -1,6 +1,5 @@
 #include "text/terminal.h"
 
-#include <stdbool.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 

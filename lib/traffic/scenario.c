@@ -2,7 +2,6 @@
 
 #include "base/elementary.h"
 #include "base/intern.h"
-#include "base/units.h"
 #include "documents/vehicle.h"
 #include "frame/frame_check.h"
 #include "text/document.h"

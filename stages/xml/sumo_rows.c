@@ -1,7 +1,6 @@
 #include "sumo_rows.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "base/units.h"
 #include "xml_rows.h"

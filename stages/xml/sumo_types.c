@@ -1,7 +1,5 @@
 #include "sumo_types.h"
 
-#include <string.h>
-
 #include "xml_rows.h"
 
 /* A file whose vTypes are being read. */
