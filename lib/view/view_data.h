@@ -3,13 +3,8 @@
  * take the place of a tree: 10,000 frames of 30 objects are some 30 MB and open at once.
  *
  * Rows of one table own rows of another, by count and in order: each frame owns objects and scans,
- * each scan owns targets, fates and details, each target owns contributors. The losses of a scan
- * are grouped by object. A fate is an object and the number of its pattern, the list of its lost
- * reflectors with their reasons; most objects have the same pattern for many frames. Details are
- * what changes from frame to frame: who blocked an echo, how many dB it lacked, and where it was. A
- * loss without a detail was at its spot: most reflectors stay where they are in their object's
- * axes, so that one place serves all frames of the scene. Coordinates are relative to the place of
- * the scene's ego in its first frame.
+ * each scan owns targets, fates and details (view_losses.h), each target owns contributors.
+ * Coordinates are relative to the place of the scene's ego in its first frame.
  *
  * Truths are the targets of the other stream, each with the number of the listed target that
  * glint-score pairs it with; a scan that one of the streams did not make has none. Missed objects
@@ -17,20 +12,9 @@
  * so. */
 #pragma once
 
-#include "base/intern.h"
-#include "frame/frame.h"
 #include "score/reference_stream.h"
 #include "view/view_frame.h"
-
-#define COLUMN(name, key, kind) COLUMN_##name,
-enum view_column {
-#include "view/view_columns.def"
-    COLUMN_COUNT
-};
-
-struct view_columns {
-    LIST_OF(uint32_t) list[COLUMN_COUNT]; /* real numbers as their bits in single precision */
-};
+#include "view/view_losses.h"
 
 /* A line or band that stays on the ground. The page draws each kind as page/ground.js says. */
 struct view_ground {
@@ -53,12 +37,11 @@ struct view_scene {
 struct view_data {
     struct arena *arena;
     struct view_models models;
-    struct intern names, scene_keys, patterns, effect_sets, spot_keys;
-    LIST_OF(struct vec2) spots; /* of reflectors, in their object's axes, by number of the key */
-    struct intern own_reasons;  /* of losses, numbered behind those of enum loss */
+    struct intern scene_keys, effect_sets;
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
     struct view_columns columns;
+    struct view_losses losses;
     struct reference_stream *truth, *tracks; /* the other streams; NULL: not asked for */
     struct track_memory memory;
 };

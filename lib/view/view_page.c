@@ -112,79 +112,12 @@ static const struct field head_fields[] = {
 static const struct record head_record = {
     .name = "head", .size = sizeof(struct head), .fields = head_fields};
 
-static const struct {
-    const char *key;
-    char kind;
-} table[] = {
-#define COLUMN(name, key, kind) {key, kind},
-#include "view/view_columns.def"
-};
-
-/* Bytes for each number of a column. */
-static size_t column_width(const struct view_columns *columns, enum view_column column)
-{
-    uint32_t most = 0;
-    if (table[column].kind == 'f')
-        return 4;
-    for (size_t i = 0; i < columns->list[column].count; i++) {
-        uint32_t number = columns->list[column].items[i];
-        most = number > most ? number : most;
-    }
-    if (most < 1 << 8)
-        return 1;
-    return most < 1 << 16 ? 2 : 4;
-}
-
-void view_page_places(const struct view_columns *columns, struct view_column_place *places)
-{
-    static const char *const whole[] = {[1] = "u1", [2] = "u2", [4] = "u4"};
-    size_t begin = 0;
-    for (enum view_column column = 0; column < COLUMN_COUNT; column++) {
-        size_t count = columns->list[column].count;
-        size_t width = column_width(columns, column);
-        places[column] = (struct view_column_place){table[column].key,
-                                                    table[column].kind == 'f' ? "f4" : whole[width],
-                                                    (int64_t)count, (int64_t)begin};
-        begin += (count * width + 11) / 12 * 16;
-    }
-}
-
-/* Writes a number little-endian, the order of every machine that runs a browser. */
-static void put_number(unsigned char *byte, uint32_t number, size_t width)
-{
-    for (size_t i = 0; i < width; i++)
-        byte[i] = (unsigned char)(number >> 8 * i);
-}
-
-/* Fills each column up to a multiple of 12 bytes: whole groups of base64, and aligned for any
- * number. */
-void view_page_write_columns(const struct view_columns *columns, struct text *text)
-{
-    enum { CHUNK = 12 * 1024 };
-    unsigned char bytes[CHUNK];
-    for (enum view_column column = 0; column < COLUMN_COUNT; column++) {
-        size_t width = column_width(columns, column);
-        size_t used = 0;
-        for (size_t i = 0; i < columns->list[column].count; i++) {
-            put_number(bytes + used, columns->list[column].items[i], width);
-            used += width;
-            if (used == CHUNK) {
-                text_add_base64(text, bytes, used);
-                used = 0;
-            }
-        }
-        size_t padded = (used + 11) / 12 * 12;
-        memset(bytes + used, 0, padded - used);
-        text_add_base64(text, bytes, padded);
-    }
-}
-
 /* Adds the lists whose items the columns refer to by number. */
 static void add_numbered(const struct view_data *data, struct head *head)
 {
     struct arena *arena = data->arena;
-    for (size_t i = 0; i < data->names.list.count; i++)
-        *list_add(&head->names, arena) = data->names.list.items[i].text;
+    for (size_t i = 0; i < data->columns.names.list.count; i++)
+        *list_add(&head->names, arena) = data->columns.names.list.items[i].text;
     for (enum path path = 0; frame_paths[path] != NULL; path++) {
         *list_add(&head->paths, arena) = frame_paths[path];
         *list_add(&head->kinds, arena) = view_marks_kind(path);
@@ -200,9 +133,9 @@ static void add_numbered(const struct view_data *data, struct head *head)
     for (enum loss loss = 0; frame_losses[loss] != NULL; loss++)
         *list_add(&head->reasons, arena) =
             (struct reason){frame_losses[loss], view_frame_loss_is_notable(loss)};
-    for (size_t i = 0; i < data->own_reasons.list.count; i++)
+    for (size_t i = 0; i < data->losses.own_reasons.list.count; i++)
         *list_add(&head->reasons, arena) =
-            (struct reason){data->own_reasons.list.items[i].text, true};
+            (struct reason){data->losses.own_reasons.list.items[i].text, true};
     for (size_t i = 0; i < data->effect_sets.list.count; i++)
         memcpy(list_add(&head->effect_sets, arena), data->effect_sets.list.items[i].text,
                sizeof(uint64_t));
@@ -218,7 +151,7 @@ void view_page_write_head(const struct view_data *data, int64_t open_frame, stru
         .columns = {places, COLUMN_COUNT, 0},
     };
     struct text plain = {0};
-    view_page_places(&data->columns, places);
+    view_columns_places(&data->columns, places);
     add_numbered(data, &head);
     record_write(&head_record, &head, NULL, &plain);
     for (size_t i = 0; i < plain.length; i++)
@@ -244,6 +177,6 @@ void view_page_write(const struct view_data *data, int64_t open_frame, struct te
     add_page(text, &from, "@head@\n");
     view_page_write_head(data, open_frame, text);
     add_page(text, &from, "@columns@\n");
-    view_page_write_columns(&data->columns, text);
+    view_columns_write(&data->columns, text);
     text_add_word(text, from);
 }

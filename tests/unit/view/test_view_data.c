@@ -64,7 +64,7 @@ static void finish(struct packed *packed)
 {
     json_error_t error;
     view_page_write_head(&packed->data, -1, &packed->head);
-    view_page_write_columns(&packed->data.columns, &packed->columns);
+    view_columns_write(&packed->data.columns, &packed->columns);
     packed->json = json_loadb(packed->head.bytes, packed->head.length, 0, &error);
     if (packed->json == NULL)
         fail_msg("the head is not JSON: %s", error.text);
@@ -403,7 +403,7 @@ TEST(columns_of_the_quality_are_those_of_its_table)
 {
     const struct view_columns columns = {0};
     struct view_column_place places[COLUMN_COUNT];
-    view_page_places(&columns, places);
+    view_columns_places(&columns, places);
     const char *prefix = "quality_";
     enum view_column column = COLUMN_QUALITY_SNR_DB;
     for (const struct field *field = quality_record.fields; field->name != NULL;
