@@ -29,12 +29,8 @@ function panBy(dx, dy) {
 
 // Places of the ego and its sensors.
 function ownPlaces() {
-    const {begin, end} = scansOf(state.frame);
     const places = state.ego ? outlineOf(state.ego) : [];
-    for (let scan = begin; scan < end; scan++) {
-        places.push(scanPlace(scan, 0, 0));
-    }
-    return places;
+    return places.concat(numbersIn(scansOf(state.frame)).map(scan => scanPlace(scan, 0, 0)));
 }
 
 // Places that must be in view when the page fits the map: the sensors, the chosen object and its

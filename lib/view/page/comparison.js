@@ -46,9 +46,7 @@ function isCompared(frame) {
 
 // The scans of a frame whose sensors are switched on, if the other stream has the frame.
 function scansBeside(frame) {
-    const {begin, end} = scansOf(frame);
-    const scans = isCompared(frame) ? Array.from({length: end - begin}, (_, i) => begin + i) : [];
-    return scans.filter(isSensorShown);
+    return isCompared(frame) ? numbersIn(scansOf(frame)).filter(isSensorShown) : [];
 }
 
 function pairsOfFrame(frame) {

@@ -103,6 +103,11 @@ function rowAt(frames, time) {
     return low;
 }
 
+// The numbers from begin on, without end.
+function numbersIn({begin, end}) {
+    return Array.from({length: end - begin}, (_, i) => begin + i);
+}
+
 function objectsOf(frame) {
     const begin = starts('frame_objects');
     return {begin: begin[frame], end: begin[frame + 1]};
@@ -154,13 +159,7 @@ function sensorStyle(scan) {
 }
 
 function scanOfSensor(frame, name) {
-    const {begin, end} = scansOf(frame);
-    for (let scan = begin; scan < end; scan++) {
-        if (sensorOf(scan).name === name) {
-            return scan;
-        }
-    }
-    return -1;
+    return numbersIn(scansOf(frame)).find(scan => sensorOf(scan).name === name) ?? -1;
 }
 
 // A target belongs to the object of its leader, which opened the cell.
@@ -246,14 +245,10 @@ function targetsFrom(scan, object) {
 
 // The scan that a target belongs to, in its frame.
 function scanOfTarget(frame, target) {
-    const {begin, end} = scansOf(frame);
-    for (let scan = begin; scan < end; scan++) {
-        const targets = targetsOf(scan);
-        if (target >= targets.begin && target < targets.end) {
-            return scan;
-        }
-    }
-    return -1;
+    return numbersIn(scansOf(frame)).find(scan => {
+        const {begin, end} = targetsOf(scan);
+        return target >= begin && target < end;
+    }) ?? -1;
 }
 
 // An elevation of a target in words; '' if its sensor measures none.

@@ -21,8 +21,7 @@ function drawFates() {
     if (row < 0) {
         return;
     }
-    const {begin, end} = scansOf(state.frame);
-    for (let scan = begin; scan < end; scan++) {
+    for (const scan of numbersIn(scansOf(state.frame))) {
         for (const {target} of shownTargetsFrom(scan, state.object)) {
             drawContributors(scan, target, false);
         }

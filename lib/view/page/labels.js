@@ -120,25 +120,18 @@ function isWorthLabel(row, box) {
 // The rows of a frame's objects as they are labelled: the chosen one and the ego, then those with
 // targets, then others.
 function rowsToLabel(ego) {
-    const {begin, end} = objectsOf(state.frame);
     const listed = new Set();
     eachTarget(state.frame, (scan, target) => listed.add(objectOfTarget(target)));
     const rank = row => {
         const id = column('object_id')[row];
         return id === state.object ? 0 : id === ego ? 1 : listed.has(id) ? 2 : 3;
     };
-    return Array.from({length: end - begin}, (_, i) => begin + i).sort((a, b) => rank(a) - rank(b) || a - b);
+    return numbersIn(objectsOf(state.frame)).sort((a, b) => rank(a) - rank(b) || a - b);
 }
 
 function hasTarget(id) {
-    const {begin, end} = scansOf(state.frame);
-    const first = starts('scan_targets');
-    for (let target = first[begin]; target < first[end]; target++) {
-        if (objectOfTarget(target) === id) {
-            return true;
-        }
-    }
-    return false;
+    const isOwn = target => objectOfTarget(target) === id;
+    return numbersIn(scansOf(state.frame)).some(scan => numbersIn(targetsOf(scan)).some(isOwn));
 }
 
 function drawLabels() {

@@ -29,111 +29,8 @@ function paintSymbol(small, style, colour, size, kind) {
     drawTargetSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, kind);
 }
 
-// A number with so many digits; a dash for none.
-function round(value, digits) {
-    return value === null ? '–' : value.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1');
-}
-
-// A share in per cent with these decimals, or with as many more as it takes to differ from none and all.
-function percent(share, digits = 0) {
-    for (let more = digits; more <= 3; more++) {
-        const told = round(100 * share, more);
-        if (Number(told) % 100 !== 0) {
-            return `${told} %`;
-        }
-    }
-    return share > 0 && share < 0.5 ? 'under 0.001 %' : `${round(100 * share, digits)} %`;
-}
-
-function plural(count, word) {
-    return `${count} ${word}${count === 1 ? '' : 's'}`;
-}
-
-function words(name) {
-    return name.replace(/_/g, ' ');
-}
-
-const otherPaths = {
-    wheel: 'a point of a turning wheel',
-    limb: 'an arm or a leg',
-    clutter: 'the ground or roadside',
-    false_alarm: 'nothing but noise',
-};
-
-// The path of an echo in words: "direct", or a ghost's legs from the radar and back.
-function pathWords(path, mirror, number) {
-    const name = head.paths[path];
-    const stops = {wall: mirror > 0 ? names[mirror - 1] : 'a wall', object: 'it'};
-    const way = isGhostPath(path)
-        ? `ghost: radar → ${name.split('_').map(stop => stops[stop]).join(' → ')} → radar`
-        : otherPaths[name] || words(name);
-    return number > 0 ? `${way}, no. ${number}` : way;
-}
-
-const ghostWays = {wall_object: 'out by', object_wall: 'back by', wall_object_wall: 'out and back by'};
-
-// The reflector of an echo and its path in few words: "corner_rl by wheel 2", "ghost of corner_rl out by
-// wall". Direct paths are named only in streams where bodies also have other paths.
-function echoWords(reflector, {path, mirror, number}) {
-    const name = head.paths[path];
-    const wall = mirror > 0 ? names[mirror - 1] : 'a wall';
-    const note = isGhostPath(path) ? ` ${ghostWays[name]} ${wall}`
-        : name === 'wheel' || name === 'limb' ? ` by ${name} ${number}`
-            : name === 'direct' && bodyPaths > 1 ? ' direct' : '';
-    return (isGhostPath(path) ? 'ghost of ' : '') + names[reflector] + note;
-}
-
-function contributorWords(i) {
-    return echoWords(column('contributor_reflector')[i], echoOfContributor(i));
-}
-
-function contributorPath(i) {
-    return pathWords(column('contributor_path')[i], column('contributor_mirror')[i],
-        column('contributor_number')[i]);
-}
-
 function targetSymbol(scan, target) {
     return pooledSymbol(sensorStyle(scan), colourOf(scan, target), 18, kindOf(target));
-}
-
-function shortReason(loss) {
-    switch (loss.reason.name) {
-    case 'below_threshold': return `${round(loss.shortfall, 1)} dB too weak`;
-    case 'below_final_threshold': return `${round(loss.shortfall, 1)} dB too weak after noise`;
-    case 'blocked': return `blocked by ${loss.by}`;
-    case 'list_limit': return 'the list was full';
-    case 'no_angle': return 'no angle';
-    case 'no_amplitude': return 'in a null of the antenna';
-    default: return words(loss.reason.name);
-    }
-}
-
-function longReason(loss) {
-    switch (loss.reason.name) {
-    case 'facing_away': return 'It faces away: the sensor is outside its range of visibility.';
-    case 'no_specular_point': return 'It is a flat side, and mirrors the radar past the sensor.';
-    case 'out_of_range': return 'It is nearer or farther than the sensor measures.';
-    case 'out_of_view': return 'It is outside the sensor’s field of view.';
-    case 'blocked': return `${loss.by} stands in the way.`;
-    case 'no_amplitude': return 'Nothing comes back: the antenna has a null there.';
-    case 'below_threshold':
-        return `All echoes in its cell together are ${round(loss.shortfall, 2)} dB below the detection threshold.`;
-    case 'below_final_threshold':
-        return `After superposition and noise its cell is ${round(loss.shortfall, 2)} dB below the threshold.`;
-    case 'no_angle': return 'Both channels of its cell are exactly zero, so there is no angle.';
-    case 'list_limit': return 'The sensor reports no more targets than it did already.';
-    case 'switched_off': return 'The effect that would have made its echo is not selected.';
-    default: return capital(ownReason(loss)) + '.';
-    }
-}
-
-// A stage's own reason without the stage, for places that name it.
-function ownReason({reason, stage}) {
-    return words(reason.name.replace(`${stage}: `, ''));
-}
-
-function effectNote(effect) {
-    return effect ? ` (${words(effect)})` : '';
 }
 
 function button(className, onClick) {
@@ -202,13 +99,6 @@ function silentBlock(losses) {
     return lines;
 }
 
-function silentWords(reason) {
-    return reason === 'no_specular_point' ? 'mirroring past the sensor' : words(reason);
-}
-
-// Share in view, in the levels of nuScenes, by number (lib/frame/sightings.h).
-const levels = ['0 to 40 %', '40 to 60 %', '60 to 80 %', '80 to 100 %'];
-
 // The visibility of the chosen object, as --sections visibility gives it: a line, or none.
 function sightingLines(scan) {
     const begin = starts('scan_sightings');
@@ -219,17 +109,6 @@ function sightingLines(scan) {
         }
     }
     return [];
-}
-
-function sightingWords(i) {
-    const value = name => column('sighting_' + name)[i];
-    const inView = value('in_view');
-    const seen = `${value('in_range')} of ${plural(value('reflectors'), 'reflection centre')} in range, ${inView} in view`;
-    const hidden = inView > 0
-        ? `, ${percent(value('blocked_share'))} of these blocked (visibility ${levels[value('visibility')]})` : '';
-    const merged = value('merged') > 0 ? `, ${value('merged')} merged with something else` : '';
-    const ghosts = value('ghosts') > 0 ? `, ${plural(value('ghosts'), 'ghost')}` : '';
-    return `${seen}${hidden}. ${plural(value('detections'), 'detection')}${merged}${ghosts}.`;
 }
 
 function summary(scan, targets, notable, silent) {
@@ -285,14 +164,10 @@ function hasSensors() {
 }
 
 function showObject() {
-    const row = objectRow(state.frame, state.object);
-    const parts = [make('h2', objectTitle(state.object))];
-    parts.push(...objectNotes().map(note => make('p', note, 'soft')));
-    const {begin, end} = scansOf(state.frame);
-    for (let scan = begin; scan < end && state.object !== head.scenes[state.scene].ego; scan++) {
-        parts.push(...objectBlocks(scan));
-    }
-    panel.replaceChildren(...parts);
+    const isEgo = state.object === head.scenes[state.scene].ego;
+    const scans = isEgo ? [] : numbersIn(scansOf(state.frame));
+    panel.replaceChildren(make('h2', objectTitle(state.object)),
+        ...objectNotes().map(note => make('p', note, 'soft')), ...scans.flatMap(objectBlocks));
 }
 
 function objectBlocks(scan) {
@@ -316,167 +191,10 @@ function tableRow(cells, tag) {
     return row;
 }
 
-function valuesTable(scan, target) {
-    const table = make('table', null, 'values');
-    const value = name => column(name)[target];
-    const sum = value('target_cell_sum');
-    const ground = rateOf(scan, target, true);
-    const elevations = ['elevation_reported_rad', 'elevation_cell_rad'].map(name => elevationOf(target, name, 2));
-    const unknown = isRateFolded(scan, target) ? 'folded: not known' : 'not known';
-    table.append(
-        tableRow(['', 'reported', 'without noise'], 'th'),
-        tableRow(['range', `${round(value('target_range_m'), 3)} m`,
-            `${round(value('target_cell_range_m'), 3)} m`]),
-        tableRow(['azimuth off boresight', `${round(value('target_azimuth_rad') * degrees, 2)}°`,
-            `${round(value('target_cell_azimuth_rad') * degrees, 2)}°`]),
-        ...elevations[0] ? [tableRow(['elevation', ...elevations])] : [],
-        tableRow(['range rate', `${round(value('target_range_rate_mps'), 3)} m/s`,
-            `${round(value('target_cell_range_rate_mps'), 3)} m/s`]),
-        tableRow(['… over ground', ground === null ? unknown : `${round(ground, 3)} m/s`, '']),
-        tableRow(['amplitude', `${round(value('target_amplitude_db'), 2)} dB`,
-            sum > 0 ? `${round(20 * Math.log10(sum), 2)} dB` : '']));
-    return table;
-}
-
-// A target's quality as rows of a table; none if the stream has no quality.
-function qualityRows(target) {
-    const begin = starts('target_quality');
-    const row = begin[target];
-    if (begin[target + 1] === row) {
-        return [];
-    }
-    const value = name => column('quality_' + name)[row];
-    const number = (name, digits, unit, scale = 1) => Number.isNaN(value(name)) ? 'not known'
-        : `${round(scale * value(name), digits)}${unit}`;
-    const place = (x, y) => Number.isNaN(value(x)) ? 'not known'
-        : `${round(value(x), 2)}, ${round(value(y), 2)} m`;
-    const merged = value('merged_objects') ? 'several objects'
-        : value('merged_reflectors') ? 'several reflection centres' : 'no';
-    const folds = Number.isNaN(value('ambiguity_number')) ? []
-        : [['label: true rate is off by', `${value('ambiguity_number')} times ${number('range_rate_interval_mps', 2, ' m/s')}`]];
-    return [
-        ['signal over noise', number('snr_db', 1, ' dB')],
-        ['cross section', number('rcs_dbsm', 1, ' dBsm')],
-        ['deviation of range', number('range_sd_m', 3, ' m')],
-        ['… of azimuth', number('azimuth_sd_rad', 2, '°', degrees)],
-        ...Number.isNaN(value('elevation_sd_rad')) ? [] : [['… of elevation', number('elevation_sd_rad', 2, '°', degrees)]],
-        ['… of range rate', number('range_rate_sd_mps', 3, ' m/s')],
-        ['exists with', Number.isNaN(value('existence')) ? 'not known' : percent(value('existence'), 1)],
-        ['rate less the sensor’s own', number('range_rate_over_ground_mps', 3, ' m/s')],
-        ...folds,
-        ['channels show several echoes', Number.isNaN(value('looks_merged')) ? 'not known' : value('looks_merged') ? 'yes' : 'no'],
-        ['label: merged', merged],
-        ['from the sensor', place('x_sensor_m', 'y_sensor_m')],
-        ['from the ego’s centre', place('x_centre_m', 'y_centre_m')],
-        ['from the rear axle', place('x_rear_axle_m', 'y_rear_axle_m')],
-        ['in the world', place('x_world_m', 'y_world_m')],
-    ];
-}
-
-function qualityBlock(target) {
-    const rows = qualityRows(target);
-    const table = make('table', null, 'values');
-    table.id = 'quality';
-    table.append(...rows.map(row => tableRow(row)));
-    return block('Quality', rows.length === 0 ? [] : [table]);
-}
-
-function weightBar(weight, colour) {
-    const bar = make('div', null, 'bar');
-    const filled = make('div');
-    filled.style.width = 100 * weight + '%';
-    filled.style.background = colour;
-    bar.append(filled);
-    return bar;
-}
-
-// What tells a contributor from other echoes of its reflector.
-function echoOfContributor(i) {
-    const value = name => column('contributor_' + name)[i];
-    return {path: value('path'), mirror: value('mirror'), number: value('number')};
-}
-
-function contributorRow(scan, target, i) {
-    const value = name => column('contributor_' + name)[i];
-    const object = value('object');
-    const reflector = names[value('reflector')];
-    const text = make('span');
-    text.append(make('b', reflector), ` of ${names[object]}, ${contributorPath(i)}`,
-        weightBar(value('weight'), colourOf(scan, target)),
-        make('span', `${round(value('range_m'), 3)} m, ${round(value('azimuth_rad') * degrees, 2)}°, ` +
-            `${round(value('range_rate_mps'), 3)} m/s, ERCS ${Number(value('ercs').toPrecision(3))}`, 'soft'));
-    return rowButton('●', [text], percent(value('weight'), 1),
-        () => chooseReflector(reflector, object, echoOfContributor(i)));
-}
-
 function backButton() {
     const back = button('', () => chooseTarget(-1));
     back.textContent = '‹ all of this object';
     return back;
-}
-
-const kindTitles = {ghost: ', a ghost', clutter: ', clutter', false_alarm: ', a false alarm', body: ''};
-
-function showTarget() {
-    const scan = scanOfTarget(state.frame, state.target);
-    const {begin, end} = contributorsOf(state.target);
-    const number = state.target - targetsOf(scan).begin + 1;
-    const title = make('h2');
-    title.append(targetSymbol(scan, state.target),
-        ` Target ${number} of ${sensorOf(scan).name}${kindTitles[kindOf(state.target)]}`);
-    const order = Array.from({length: end - begin}, (_, i) => begin + i);
-    const weights = column('contributor_weight');
-    order.sort((a, b) => weights[b] - weights[a]);
-    const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
-    panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
-        ...targetNotes(scan), ...block(`Made of ${plural(order.length, 'reflection centre')}`, rows),
-        ...moreLine(order.length - rows.length), ...apartBlock(scan, state.target),
-        make('p', cellWords(cellOf(scan)), 'soft'), ...qualityBlock(state.target));
-}
-
-// The resolution cell that is drawn around a chosen target.
-function cellWords(cell) {
-    if (!cell) {
-        return 'The stream does not tell the size of the radar’s cell.';
-    }
-    return `The radar’s cell: ${metres(cell.range_m)} m (dashed arcs on the map) by ` +
-        `${metres(cell.range_rate_mps)} m/s (a box in range over rate, if enlarged enough). Echoes within half ` +
-        'of it of a stronger one, in both, become one target with it, unless an array tells their angles apart.';
-}
-
-function targetNotes(scan) {
-    const notes = [];
-    const effects = effectsOf(state.target).map(effect => words(head.effects[effect]));
-    if (effects.length > 0) {
-        notes.push(make('p', `Effects that changed it: ${effects.join(', ')}.`, 'soft'));
-    }
-    notes.push(...foldedNotes(scan).map(note => make('p', note)));
-    if (isInterfered(state.target)) {
-        notes.push(make('p', 'Other radars raised the noise here: interference.', 'soft'));
-    }
-    if (column('target_sign_undecided')[state.target]) {
-        notes.push(make('p', 'Left or right is undecided: the phase did not tell.', 'soft'));
-    }
-    const age = column('scan_age_s')[scan];
-    if (age > 1e-6) {
-        notes.push(make('p', `Measured ${round(1000 * age, 1)} ms before the frame's time.`, 'soft'));
-    }
-    return notes;
-}
-
-// Notes on folded values: as reported, and the true ones.
-function foldedNotes(scan) {
-    const notes = [];
-    const note = (what, name, unit, digits) => notes.push(`Its ${what} is folded: reported ` +
-        `${round(column('target_' + name)[state.target], digits)} ${unit}, in truth ` +
-        `${round(exactValue(name, state.target), digits)} ${unit}, which the radar cannot tell apart.`);
-    if (isRateFolded(scan, state.target)) {
-        note('range rate', 'range_rate_mps', 'm/s', 2);
-    }
-    if (isRangeFolded(scan, state.target)) {
-        note('range', 'range_m', 'm', 2);
-    }
-    return notes;
 }
 
 // Does the panel tell of an echo? Of many that are alike, only of the one that was clicked.
@@ -513,8 +231,7 @@ function reflectorFates(scan) {
 
 function showReflector() {
     const parts = [backButton(), make('h2', `${state.reflector} of ${objectTitle(state.object)}`)];
-    const {begin, end} = scansOf(state.frame);
-    for (let scan = begin; scan < end; scan++) {
+    for (const scan of numbersIn(scansOf(state.frame))) {
         const fates = reflectorFates(scan);
         const silent = !column('scan_measured')[scan] ? 'The sensor did not measure in this frame.'
             : column('frame_account')[state.frame] ? 'The frame has no echo of it, neither in a target nor lost.'
@@ -567,8 +284,7 @@ function showFrame() {
         parts.push(make('p', 'No frame of this stream has a target: has it been through all stages?', 'soft'));
     }
     parts.push(...causeBlock());
-    const {begin, end} = scansOf(state.frame);
-    for (let scan = begin; scan < end; scan++) {
+    for (const scan of numbersIn(scansOf(state.frame))) {
         const targets = targetsOf(scan);
         const count = targets.end - targets.begin;
         parts.push(sensorTitle(scan, summary(scan, {length: count}, [], [])));
