@@ -1,9 +1,9 @@
 #include "check.h"
 
-#include "base/arena.h"
 #include "base/units.h"
 #include "documents/consistency.h"
 #include "documents/suite_file.h"
+#include "frame/effects.h"
 #include "run/datasheet.h"
 
 /* A steady sensor of the paper's antenna without noise. */
