@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 from collections import namedtuple
 
+from glint import command_line
 from glint.places import GLINT
 from glint.progress import Progress
 from glint.recordings import chains, dense, fitted, geometry, marginals, readers, roadside, score, statics
@@ -236,7 +237,7 @@ def compare(folder, suite_folder=None):
     try:
         os.makedirs(suite_folder or ".", exist_ok=True)
     except OSError as error:
-        readers.refuse(error, os.EX_CANTCREAT)
+        command_line.fail(os.EX_CANTCREAT, error)
     recording = readers.read(folder)
     first, rest = halves(recording)
     with tempfile.TemporaryDirectory() as place:

@@ -8,10 +8,11 @@ import subprocess
 import tempfile
 from collections import namedtuple
 
+from glint import command_line
 from glint.frames import VERSION
 from glint.places import DATA, GLINT
 from glint.recordings import dense
-from glint.recordings.readers import Box, Detection, refuse
+from glint.recordings.readers import Box, Detection
 
 # With so many lists, one more of their law lies between their least and their largest statistic 38 times in 40.
 SEEDS = 39
@@ -66,7 +67,7 @@ def run(chain, suite, fit, part, seeds=SEEDS, first=1):
                               stderr=subprocess.PIPE, text=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode:
-        refuse(f"{text}: exit status {done.returncode}: {done.stderr}", done.returncode)
+        command_line.fail(done.returncode, f"{text}: exit status {done.returncode}: {done.stderr}")
     spent_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     lists = [[detection(target, fit.curve) for target in json.loads(line)["targets"] if dense.is_of_mode(target, i % scans in part.coarse)]
              for i, line in enumerate(done.stdout.splitlines())]

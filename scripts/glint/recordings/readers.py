@@ -11,7 +11,6 @@ import os
 import re
 import statistics
 import struct
-import sys
 from collections import namedtuple
 
 from glint import command_line
@@ -41,11 +40,6 @@ FOLLOWED_M = 4  # from scan to scan, of a box without an id: less than from one 
 BEYOND_M = 25  # the farthest box: how far detections of a dense list are kept
 
 
-def refuse(text, code=os.EX_DATAERR):
-    print(f"{command_line.name()}: {text}", file=sys.stderr)
-    sys.exit(code)
-
-
 def read(folder):
     """The recording of a folder in one of three layouts; ends the program if it cannot be read."""
     for pattern, reader in (("recording.json", own), ("**/extrinsic_matrices.json", aimotive),
@@ -58,17 +52,17 @@ def read(folder):
                 recording = reader(folder, found)
                 check(recording.radar, recording.scans[:MOST])
             except StopIteration:
-                refuse(f"{found}: expected a radar, and lists or calibration beside it")
+                command_line.fail(os.EX_DATAERR, f"{found}: expected a radar, and lists or calibration beside it")
             except KeyError as error:
-                refuse(f"{found}: {error.args[0]!r} is missing, a member or the number of a file beside it")
+                command_line.fail(os.EX_DATAERR, f"{found}: {error.args[0]!r} is missing, a member or the number of a file beside it")
             except (AttributeError, IndexError, TypeError, ValueError, OSError, OverflowError, RecursionError, struct.error) as error:
-                refuse(f"{found}: {'' if isinstance(error, ValueError) else type(error).__name__ + ': '}{error}")
+                command_line.fail(os.EX_DATAERR, f"{found}: {'' if isinstance(error, ValueError) else type(error).__name__ + ': '}{error}")
             scans = [scan._replace(boxes=[box for box in scan.boxes if box.kind in KINDS]) for scan in recording.scans[:MOST]]
             return recording._replace(scans=statics.retimed(recording.radar, scans), notes=recording.notes + lacks(scans) + [
                 f"boxes of the class {kind} are left out" for kind in sorted(
                     {box.kind for scan in recording.scans for box in scan.boxes} - KINDS)] + (
                 [f"scans after the first {MOST} are left out"] if len(recording.scans) > MOST else []))
-    refuse(f"{folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)", os.EX_NOINPUT)
+    command_line.fail(os.EX_NOINPUT, f"{folder}: expected recording.json, extrinsic_matrices.json (aiMotive) or velodyne/ (KITTI)")
 
 
 def check(radar, scans):
