@@ -6,11 +6,6 @@ BASE = "highway-20x1"
 GROWING = ["highway", "in-view", "unhidden"]
 SCENES = [f"{kind}-{count}x1" for kind in GROWING for count in (20, 1000)]
 
-# A line is known by those of KEYS that it has; its value is the first of MEASURED that it has.
-KEYS = ["scene", "labels", "mode", "part", "floor", "function", "effects", "start", "shards",
-        "stream", "tenth", "round_trip"]
-MEASURED = ["instructions_per_frame", "ns_per_frame", "cpu_ns_per_frame", "ns", "MB/s"]
-
 
 class Output:
     """Lines of an output, found by what they measure."""
@@ -109,22 +104,3 @@ def check(text):
     blank += [row("", about, re.sub(r"{.*?}", "", figure)) for about, figure, _ in LINES]
     wanted, found = form("\n".join(blank)), form(text)
     return any(found[start:start + len(wanted)] == wanted for start in range(len(found)))
-
-
-def key_of(line):
-    return tuple(line.get(key) for key in KEYS)
-
-
-def measured(line):
-    return next((line[name] for name in MEASURED if name in line), None)
-
-
-def compare(line, earlier):
-    """The line, with its ratios to the earlier one."""
-    before = earlier.get(key_of(line))
-    if before is not None and measured(before):
-        line["to_earlier"] = round(measured(line) / measured(before), 4)
-        if "plain_chains" in line and "plain_chains" in before:
-            line["to_earlier_in_plain_chains"] = round(
-                line["plain_chains"] / before["plain_chains"], 4)
-    return line

@@ -14,7 +14,6 @@ class Bench:
 
     def __init__(self, folder):
         self.folder = folder
-        self.glint = GLINT
         for kind in ("vehicles", "sensors", "scenarios", "antennas"):
             shutil.copytree(os.path.join(DATA, kind), os.path.join(folder, kind))
         self.write_probe()
@@ -47,7 +46,7 @@ class Bench:
         if frames is not None:
             with open(os.path.join(self.folder, "frames.jsonl"), "w", encoding="utf-8") as out:
                 out.writelines(json.dumps(frame) + "\n" for frame in frames)
-        done = subprocess.run([self.glint, "-c", pipeline], cwd=self.folder, check=True,
+        done = subprocess.run([GLINT, "-c", pipeline], cwd=self.folder, check=True,
                               env={**os.environ, "GLINT_DATA": self.folder},
                               stdout=subprocess.PIPE)
         return [glint.name_lost(json.loads(line)) for line in done.stdout.splitlines()]
@@ -95,9 +94,8 @@ class View:
         self.sensors = {s["name"]: s for s in frame["sensors"]["list"]}
 
     def world(self, x_m, y_m):
-        east, north = x_m - self.ego["x_m"], y_m - self.ego["y_m"]
-        cosine, sine = math.cos(self.ego["yaw_rad"]), math.sin(self.ego["yaw_rad"])
-        return (east * cosine + north * sine - self.bumper_m, north * cosine - east * sine)
+        ahead, left = glint.turned(x_m - self.ego["x_m"], y_m - self.ego["y_m"], -self.ego["yaw_rad"])
+        return ahead - self.bumper_m, left
 
     def carrier(self, name):
         """The ego when the sensor measured."""
@@ -128,7 +126,6 @@ class View:
 
 def outline(item):
     """The corners of an object's box in the world, the first again at the end."""
-    cosine, sine = math.cos(item["yaw_rad"]), math.sin(item["yaw_rad"])
     for along, across in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1)):
-        x_m, y_m = along * item["length_m"] / 2, across * item["width_m"] / 2
-        yield (item["x_m"] + x_m * cosine - y_m * sine, item["y_m"] + x_m * sine + y_m * cosine)
+        x_m, y_m = glint.turned(along * item["length_m"] / 2, across * item["width_m"] / 2, item["yaw_rad"])
+        yield item["x_m"] + x_m, item["y_m"] + y_m

@@ -1,5 +1,7 @@
 """Figures 3, 7, 8, 11, 12 and 13 of the paper: the model, the sensor and the chain."""
 import math
+import statistics
+from collections import Counter
 
 from glint.drawings.drawing import Drawing, draw_metres
 from glint.drawings.played import at_point, make_frame, outline, thing
@@ -18,7 +20,7 @@ def seen_from(ego, echo):
     return place, math.remainder(bearing + math.pi, 2 * math.pi)
 
 
-def sweep_around_car(bench, distance_m=20):
+def sweep_around_car(bench, distance_m):
     """The cross section of every point of a car by direction, from a sensor led around it."""
     frames = []
     for degree in range(0, 360, 2):
@@ -46,7 +48,7 @@ def fan_outline(place, fan, scale_m):
 
 
 def figure_3(bench, path):
-    car, seen = sweep_around_car(bench)
+    car, seen = sweep_around_car(bench, 20)
     drawing = Drawing((WIDTH, 346), WIDTH / 7, -3.5, 2.55)
     drawing.polygon(list(outline(car))[:4], "body")
     for name, (place, fan) in sorted(seen.items()):
@@ -125,12 +127,8 @@ def figure_8(bench, path):
     frames = bench.run("glint-extract frames.jsonl | glint-ideal --sensors probe | glint-sensor"
                        " | glint-noise", [at_point(i, "point", 12.55, 0) for i in range(1000)])
     readings = [t["range_m"] for frame in frames for t in frame["targets"]]
-    mean = sum(readings) / len(readings)
-    sigma = math.sqrt(sum((r - mean) ** 2 for r in readings) / (len(readings) - 1))
-    bins = {}
-    for reading in readings:
-        centimetre = math.floor(100 * reading)
-        bins[centimetre] = bins.get(centimetre, 0) + 1
+    mean, sigma = statistics.fmean(readings), statistics.stdev(readings)
+    bins = Counter(math.floor(100 * reading) for reading in readings)
     left, bottom, step = 60, 290, 28  # pixels: the axes, and a centimetre; a hit is one pixel
     drawing = Drawing((WIDTH, 340), 1, 0, 0)
     for hits in range(0, 251, 50):

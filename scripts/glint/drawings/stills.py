@@ -197,19 +197,14 @@ def draw_key(drawing, x, y, entries):
 
 # --- the paper's figures ------------------------------------------------------------------------
 
-def draw_beams(drawing, view):
-    """The edges of the sensors' beams."""
-    for name in ("left", "right"):
-        for side in (-1, 1):
-            drawing.line(view.mount(name), view.polar(name, 60, side * BEAM_RAD), f"rate-{name} edge")
-
-
 def draw_scan(frame, scale, x_range, y_range, title, way_s=0.5, extra=None):
     """One scan with its title; of marks, room is left for the key."""
     size = [scale * (high - low) for low, high in (x_range, y_range)]
     drawing = Drawing((round(size[0]), HEAD + round(size[1])), scale, x_range[0], y_range[1] + HEAD / scale)
     view = View(frame)
-    draw_beams(drawing, view)
+    for name in ("left", "right"):
+        for side in (-1, 1):
+            drawing.line(view.mount(name), view.polar(name, 60, side * BEAM_RAD), f"rate-{name} edge")
     draw_bodies(drawing, frame, view, {})
     if extra is not None:
         extra(drawing, view)

@@ -171,8 +171,7 @@ class Source:
             raise Fault(BAD_DATA, f"{self.tables}/{table}.json: {key} {row[key]!r}; expected a token of {key[:-6]}.json") from None
 
     def read(self):
-        progress = Progress("tables")
-        for read in progress.over((self.read_egos, self.read_boxes)):
+        for read in Progress("tables").over((self.read_egos, self.read_boxes)):
             read()
 
     def read_egos(self):

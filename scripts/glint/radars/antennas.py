@@ -95,7 +95,9 @@ def reference_snr(scan):
     snr_db = scan.figures.take("accuracy_snr_db")
     if snr_db is None:
         snr_db = 10 * math.log10(least_snr(scan)) + 20
-        scan.assume_that(f"the accuracy of angles, a standard deviation, holds 20 dB above the threshold, {snr_db:.3g} dB over the noise")
+        sentence = f"the accuracy of angles, a standard deviation, holds 20 dB above the threshold, {snr_db:.3g} dB over the noise"
+        if sentence not in scan.assumed:  # azimuths and elevations need it
+            scan.assumed.append(sentence)
     return 10 ** (snr_db / 10)
 
 

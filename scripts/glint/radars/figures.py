@@ -197,9 +197,3 @@ class Figures:
                    if text.startswith("assumed")]
         told = f"{', '.join(map(self.told, texts))}: {'; '.join(dict.fromkeys(texts.values()))}" if texts else "not stated"
         return f"[{'A' if guesses or not texts else 'F'}] {told}", guesses
-
-    def check_used(self):
-        """Refuses a figure that nothing has read: the script knows no use for it beside the others."""
-        left = sorted(self.values.keys() - self.used)
-        if left:
-            raise Refused(f"{self.scan}: {', '.join(left)}: not used beside the other figures")

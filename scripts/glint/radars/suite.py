@@ -89,11 +89,6 @@ class Scan:
             self.members[member], self.sources[member] = value, f"[A] {reason}"
             self.assumed.append(f"{member} {told(value)}: {reason}")
 
-    def assume_that(self, sentence):
-        """A sentence that several figures need, once."""
-        if sentence not in self.assumed:
-            self.assumed.append(sentence)
-
     def choose(self, member, *given):
         """A member that is the first of some (figure, value); the others that the sheet has must agree. The figure, or None."""
         figure, value = self.figures.agreed(*given)
@@ -358,7 +353,8 @@ def scan_of(name, figures, base):
     tables = accuracy(scan)
     elevation(scan)
     scan.assumed += [sentence for names, sentence in ABSENT.items() if not scan.members.keys() & set(names.split())]
-    figures.check_used()
+    if left := sorted(figures.values.keys() - figures.used):
+        raise Refused(f"{name}: {', '.join(left)}: not used beside the other figures")
     if fault := fault_of(scan.members, SENSOR, name):
         raise Refused(fault)
     return scan, tables

@@ -1,5 +1,4 @@
 """Marginals: single numbers of a recording's scans, and of a chain's lists with the same boxes."""
-import math
 import statistics
 
 from glint.recordings import geometry, statics

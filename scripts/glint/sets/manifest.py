@@ -88,11 +88,6 @@ def manifest_of(package):
     return text + f' "digest": "{digest_of(text.encode())}"}}\n'
 
 
-def documents_of(layout, folder):
-    names = [document["path"] for document in layout["documents"]] + [*schemas_of(layout), README]
-    return described({name: name for name in names}, folder)
-
-
 def finish(layout, folder):
     """Writes README and manifest of a set whose shards are all there."""
     work = os.path.join(folder, WORK)
@@ -103,7 +98,8 @@ def finish(layout, folder):
             write_whole(os.path.join(folder, path), work, json.dumps(fields, indent=1, ensure_ascii=False) + "\n")
         page = readme.readme_of(layout, records, folder, content_hash(resources_of(layout, records)))
         write_whole(os.path.join(folder, README), work, page)
-        package = package_of(layout, records, documents_of(layout, folder))
+        names = [*(document["path"] for document in layout["documents"]), *schemas_of(layout), README]
+        package = package_of(layout, records, described({name: name for name in names}, folder))
         if os.path.exists(os.path.join(folder, pace.PATH)):
             os.remove(os.path.join(folder, pace.PATH))
         remove_temporaries(work, of_all=True)

@@ -85,9 +85,9 @@ def check_source(source, path):
     refuse(kind is None, path, "expected one of random, scenario, recording")
     needed, taken = KINDS[kind]
     for name in sorted(needed - source.keys()):
-        refuse(True, path, f"{name} is missing: a {kind} source needs it")
+        raise Fault(BAD_DATA, f"{path}: {name} is missing: a {kind} source needs it")
     for name in source.keys() - needed - taken - {"program", "options", "split"}:
-        refuse(True, f"{path}/{name}", f"a {kind} source has none")
+        raise Fault(BAD_DATA, f"{path}/{name}: a {kind} source has none")
     for word in words_of(source.get("options", ""), f"{path}/options"):
         refuse(word.split("=")[0] in OWN_OPTIONS or word in "|<>&;", f"{path}/options", f"{word} is the plan's to say")
     for name in ("from_s", "to_s"):
@@ -177,14 +177,10 @@ def check_names(plan):
     for i, source in enumerate(plan["sources"]):
         name = scene_of(source)
         for j, other in enumerate(names):
-            refuse(may_share_names(name, other), f"/sources/{i}",
-                   f"its scenes have the names of those of /sources/{j}; give it a scene")
+            # Names of scenes go on with an ego or a number, and those of blocks with their begin.
+            may_share = f"{name}/".startswith((f"{other}/", f"{other}@")) or f"{other}/".startswith((f"{name}/", f"{name}@"))
+            refuse(may_share, f"/sources/{i}", f"its scenes have the names of those of /sources/{j}; give it a scene")
         names.append(name)
-
-
-def may_share_names(a, b):
-    """Names of scenes go on with an ego or a number, and those of blocks with their begin."""
-    return f"{a}/".startswith((f"{b}/", f"{b}@")) or f"{b}/".startswith((f"{a}/", f"{a}@"))
 
 
 def scene_of(source):
@@ -201,8 +197,7 @@ def read_plan(path):
     try:
         by = plan["splits"]["by"] if isinstance(plan, dict) and isinstance(plan.get("splits"), dict) else None
         refuse(isinstance(by, str) and by in LEAKS, "/splits/by", f'"{by}" {LEAKS.get(by)}')
-        fault = schema.fault_of(plan, schema.PLAN)
-        if fault:
+        if fault := schema.fault_of(plan, schema.PLAN):
             raise Fault(BAD_DATA, fault)
         for i, source in enumerate(plan["sources"]):
             check_source(source, f"/sources/{i}")
