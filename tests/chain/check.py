@@ -222,9 +222,8 @@ def forged(module, folder, package):
              "other rows": [stream, dict(table, rows=table["rows"] + 1), *package["resources"][2:]],
              "another table": [stream, dict(table, path=os.path.dirname(table["path"]) + "/others.csv.gz")]}
     for name, resources in lists.items():
-        sums = {one: sum(entry[one] for entry in resources) for one in module.SUMS}
         frames = sum(entry["rows"] for entry in resources if module.is_stream(entry))
-        forge(folder, {**package, **sums, "frames": frames, "resources": resources, "content_hash": module.content_hash(resources)})
+        forge(folder, {**package, **module.sums_of(resources), "frames": frames, "resources": resources})
         check(module.check(f"{folder}/set")[0], f"{name} passes")
     for text in ('{"a": ' + "[" * 9999 + "]" * 9999 + "\n}", '{"frames": 1' + "0" * 5000 + "\n}", '{"x": NaN\n}', "[1\n}"):
         forge(folder, None, text)
@@ -240,8 +239,7 @@ def agree(module, folder, package, entry, data=None):
         with open(f"{folder}/set/{entry['path']}", "wb") as file:
             file.write(data)
         entry |= {"bytes": len(data), "hash": module.digest_of(data)}
-    package |= {name: sum(one[name] for one in package["resources"]) for name in module.SUMS}
-    package["content_hash"] = module.content_hash(package["resources"])
+    package |= module.sums_of(package["resources"])
     forge(folder, package)
 
 

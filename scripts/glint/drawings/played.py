@@ -46,10 +46,8 @@ class Bench:
         if frames is not None:
             with open(os.path.join(self.folder, "frames.jsonl"), "w", encoding="utf-8") as out:
                 out.writelines(json.dumps(frame) + "\n" for frame in frames)
-        done = subprocess.run([GLINT, "-c", pipeline], cwd=self.folder, check=True,
-                              env={**os.environ, "GLINT_DATA": self.folder},
-                              stdout=subprocess.PIPE)
-        return [glint.name_lost(json.loads(line)) for line in done.stdout.splitlines()]
+        lines = subprocess.check_output([GLINT, "-c", pipeline], cwd=self.folder, env={**os.environ, "GLINT_DATA": self.folder})
+        return [glint.name_lost(json.loads(line)) for line in lines.splitlines()]
 
     def still(self, scenario, time_s, sensor="glint-sensor", noise="glint-noise"):
         """The frame of a scenario nearest to a time, with its target list."""

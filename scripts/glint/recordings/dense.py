@@ -96,11 +96,6 @@ def is_of_mode(target, is_coarse):
     return (target["sensor"] == COARSE) == (is_coarse and target["range_m"] >= NEAR_M)
 
 
-def with_coarse(sensor):
-    """The sensors of a suite: that with fine cells and its twin with coarse ones."""
-    return [sensor, sensor | {"name": COARSE, "cell_range_m": COARSER * sensor["cell_range_m"]}]
-
-
 def peaks(detections, apart_m):
     """The strongest detections, none of which is nearer than so much in range and PEAK_MPS to a stronger one, at any azimuth."""
     kept = []

@@ -240,8 +240,10 @@ def write_suite(of, folder, **changed):
                              ("antenna", "azimuth_rad,sum,delta", ratios)):
         with open(os.path.join(folder, name + ".csv"), "w", encoding="ascii") as out:
             out.write("\n".join([head] + [",".join(map(repr, map(float, row))) for row in rows]) + "\n")
-    sensor = of.sensor | changed
+    sensors = [of.sensor | changed]
+    if of.scale is not COARSE:  # a twin with coarse cells
+        sensors.append(sensors[0] | {"name": dense.COARSE, "cell_range_m": dense.COARSER * sensors[0]["cell_range_m"]})
     place = os.path.join(folder, "-".join(["recorded", *map(str, changed.values())]) + ".json")
     with open(place, "w", encoding="utf-8") as out:
-        json.dump({"origin": "Made by scripts/realism --recordings.", "sensors": dense.with_coarse(sensor) if of.scale is not COARSE else [sensor]}, out, indent=2)
+        json.dump({"origin": "Made by scripts/realism --recordings.", "sensors": sensors}, out, indent=2)
     return place

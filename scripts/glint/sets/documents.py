@@ -14,8 +14,7 @@ FOLDERS = {"recording": "trajectories", "scenario": "scenarios", "suite": "senso
 
 
 def program_version(program=GLINT):
-    done = subprocess.run([program, "--version"], check=True, stdout=subprocess.PIPE, text=True)
-    return done.stdout.strip()
+    return subprocess.check_output([program, "--version"], text=True).strip()
 
 
 def environment(folder):

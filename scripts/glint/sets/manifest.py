@@ -11,6 +11,7 @@ from glint.sets.plan import kind_of, read_json
 from glint.sets.shard import MANIFEST, record_path
 
 README, FRAME, OWN_SCHEMAS = "README.md", "frame", f"{DOCUMENTS}/schemas"
+SUMS = "rows", "bytes", "content_bytes"
 MEDIA = {"jsonl": "application/jsonl", "csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
 
 
@@ -57,6 +58,12 @@ def content_hash(resources):
     return digest_of("".join(lines).encode())
 
 
+def sums_of(resources):
+    """What the manifest says of all resources together."""
+    sums = {name: sum(resource[name] for resource in resources) for name in SUMS}
+    return sums | {"content_hash": content_hash(resources)}
+
+
 def origins_of(sources):
     """Licences and sources of recordings, if there are any, in the words of Frictionless."""
     recorded = [source for source in sources if kind_of(source) == "recording"]
@@ -75,10 +82,7 @@ def package_of(layout, records, documents):
             **origins_of(plan["sources"]),
             "program": layout["program"], "identity": layout["identity"], "plan": plan,
             "frames": sum(record["frames"] for record in records),
-            "rows": sum(resource["rows"] for resource in resources),
-            "bytes": sum(resource["bytes"] for resource in resources),
-            "content_bytes": sum(resource["content_bytes"] for resource in resources),
-            "content_hash": content_hash(resources),
+            **sums_of(resources),
             "inputs": layout["inputs"], "documents": documents, "resources": resources}
 
 
