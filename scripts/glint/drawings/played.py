@@ -16,7 +16,12 @@ class Bench:
         self.folder = folder
         for kind in ("vehicles", "sensors", "scenarios", "antennas"):
             shutil.copytree(os.path.join(DATA, kind), os.path.join(folder, kind))
-        self.write_probe()
+        # The suite "probe": one sensor of the paper's in the middle of a standing observer.
+        with open(self.path("sensors", "srr24-pair"), encoding="utf-8") as file:
+            sensor = json.load(file)["sensors"][0]
+        sensor.update(name="probe", mount_x_m=0, mount_y_m=0)
+        sensor.pop("cycle_s")  # a scan in every frame
+        self.write("sensors", "probe", {"origin": "scripts/figures", "sensors": [sensor]})
 
     def path(self, kind, name):
         return os.path.join(self.folder, kind, name + ".json")
@@ -24,14 +29,6 @@ class Bench:
     def write(self, kind, name, document):
         with open(self.path(kind, name), "w", encoding="utf-8") as out:
             json.dump(document, out)
-
-    def write_probe(self):
-        """The suite "probe": one sensor of the paper's in the middle of a standing observer."""
-        with open(self.path("sensors", "srr24-pair"), encoding="utf-8") as file:
-            sensor = json.load(file)["sensors"][0]
-        sensor.update(name="probe", mount_x_m=0, mount_y_m=0)
-        sensor.pop("cycle_s")  # a scan in every frame
-        self.write("sensors", "probe", {"origin": "scripts/figures", "sensors": [sensor]})
 
     def write_point(self, name, ercs):
         """A class of objects that are one point, seen alike from everywhere."""

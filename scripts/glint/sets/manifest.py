@@ -86,12 +86,6 @@ def package_of(layout, records, documents):
             "inputs": layout["inputs"], "documents": documents, "resources": resources}
 
 
-def manifest_of(package):
-    """The manifest's text. Its last line holds the digest of all bytes before that line."""
-    text = json.dumps(package, indent=1, ensure_ascii=False).removesuffix("\n}") + ",\n"
-    return text + f' "digest": "{digest_of(text.encode())}"}}\n'
-
-
 def finish(layout, folder):
     """Writes README and manifest of a set whose shards are all there."""
     work = os.path.join(folder, WORK)
@@ -108,5 +102,7 @@ def finish(layout, folder):
             os.remove(os.path.join(folder, pace.PATH))
         remove_temporaries(work, of_all=True)
         sync_folder(work)
-        write_whole(os.path.join(folder, MANIFEST), work, manifest_of(package))
+        text = json.dumps(package, indent=1, ensure_ascii=False).removesuffix("\n}") + ",\n"
+        # The last line holds the digest of all bytes before that line.
+        write_whole(os.path.join(folder, MANIFEST), work, text + f' "digest": "{digest_of(text.encode())}"}}\n')
         return package
