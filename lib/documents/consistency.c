@@ -166,8 +166,7 @@ double consistency_fold_mps(const struct sensor *sensor)
     return folds * (double)waveform->repetitions * sensor->cell_range_rate_mps / 2;
 }
 
-/* The mean number of bins in which noise alone passes the waveform's CFAR in a scan (MODEL 11.4).
- */
+/* Mean number of bins in which noise alone passes the waveform's CFAR in a scan (MODEL 11.4). */
 static double signal_alarms(const struct sensor *sensor)
 {
     const struct waveform *waveform = &sensor->waveform;

@@ -35,8 +35,7 @@ static void add_array_noise(const struct effect_scan *scan, struct effect_measur
     measurement->azimuth_rad = elementary_asin(elementary_max(elementary_min(sine, 1), -1));
 }
 
-/* Gaussian noise that no signal-to-noise ratio lessens (MODEL 14.7), independent of the pointers'.
- */
+/* Gaussian noise that no strength of an echo lessens (MODEL 14.7), independent of the pointers'. */
 static bool add_noise_to_azimuth(const struct effect_scan *scan,
                                  struct effect_measurement *measurement)
 {

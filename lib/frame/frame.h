@@ -191,8 +191,7 @@ enum quality_group {
 };
 _Static_assert(QUALITY_ELEVATION < 1U << 31, "a set of groups is an unsigned");
 
-/* Quality of a detection by its report and the sensor's document (MODEL 14.21), and exact labels.
- */
+/* Quality of a detection by its report and the suite (MODEL 14.21), and exact labels. */
 struct quality {
     double snr_db, rcs_dbsm;
     double range_sd_m, range_rate_sd_mps, azimuth_sd_rad, elevation_sd_rad; /* deviations */

@@ -5,8 +5,7 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-/* A curve over the logarithm of the frequency in GHz: a sum of Gaussian bells and a straight line.
- */
+/* A curve over the logarithm of the frequency in GHz: a sum of Gaussian bells and a line. */
 struct curve {
     struct {
         double height, centre, width;

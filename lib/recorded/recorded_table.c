@@ -148,11 +148,11 @@ static int read_header(struct table *table, const char *path, struct diag *diag)
     const struct csv_table *names = csv_table_names(table->lines);
     if (recorded_layouts_find(names, &table->fit, table->arena, diag) != 0)
         return -1;
-    return table->fit.layout->beside.id == NULL ||
-                   (read_beside(table, path, "recordingMeta", take_recording, diag) == 0 &&
-                    read_beside(table, path, "tracksMeta", take_track, diag) == 0)
-               ? 0
-               : -1;
+    if (table->fit.layout->beside.id == NULL)
+        return 0;
+    if (read_beside(table, path, "recordingMeta", take_recording, diag) != 0)
+        return -1;
+    return read_beside(table, path, "tracksMeta", take_track, diag);
 }
 
 /* ---- rows ---- */

@@ -70,8 +70,7 @@ struct track_memory {
     LIST_OF(struct track_pairing) pairings;
 };
 
-/* Records a pair. Returns the track that it replaces, which makes it an identity switch, or NULL.
- */
+/* Records a pair. Returns the track that it replaces (an identity switch), or NULL. */
 const char *track_score_replaced(struct track_memory *memory, const char *scene, const char *object,
                                  const char *track, struct arena *arena);
 

@@ -218,8 +218,7 @@ void resolution_cell_list(struct frame *frame, const char *stage, const struct e
         *list_add(&frame->cells, frame->arena) = *cell;
 }
 
-/* Distance of the other echo beyond the edge of the leader's cell, in half cells; negative inside.
- */
+/* Distance of the other echo from the edge of the leader's cell, in half cells; negative inside. */
 static double beyond_edge(const struct sensor *sensor, const struct received_echo *leader,
                           const struct received_echo *other)
 {
@@ -240,8 +239,7 @@ struct neighbourhood {
     struct margins *margins; /* of each cell */
 };
 
-/* Notes a pair in the cells of both, if the other echo had no cell when the leader opened its own.
- */
+/* Notes a pair in the cells of both, if the other echo had none when the leader opened its own. */
 static void note_pair(const struct neighbourhood *near, size_t leader, size_t other)
 {
     const struct clustered_echoes *all = near->all;

@@ -85,8 +85,7 @@ static void on_cell(void *text, size_t length, void *context)
     text_add(&reader->text, text, length + 1);
 }
 
-/* libcsv reports CR and LF of one line end as the ends of two rows, and the end of the text as -1.
- */
+/* libcsv reports CR and LF of one line end as ends of two rows, and the end of the text as -1. */
 static void on_row(int end, void *context)
 {
     struct reader *reader = context;

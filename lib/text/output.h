@@ -35,12 +35,10 @@ int output_flush(struct output *output, struct diag *diag);
 /* Appends bytes, and writes whole pieces. */
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag);
 
-/* Writes all that is held, then these bytes over the first ones of the file, which must be plain.
- */
+/* Writes all that is held, then these bytes over the first of the file, which must be plain. */
 int output_write_head(struct output *output, const char *bytes, size_t length, struct diag *diag);
 
-/* Writes all that is held, to the disk if it is a file, so that closing it only gives it its name.
- */
+/* Writes all that is held, to the disk if it is a file, so that closing only gives it its name. */
 int output_finish(struct output *output, struct diag *diag);
 
 /* Finishes, closes and names the file; the output is gone afterwards. If whole is false, a file is

@@ -27,8 +27,7 @@ bool packing_may_begin(const unsigned char *bytes, size_t length);
 /* The length of a name without the ending of its packing. */
 size_t packing_plain_length(const char *name);
 
-/* Refuses a packing without its library (DIAG_USAGE). The functions below expect one that has it.
- */
+/* Refuses a packing without its library (DIAG_USAGE). The functions below expect one with it. */
 int packing_check(enum packing packing, struct diag *diag);
 
 struct unpacker;

@@ -375,8 +375,7 @@ static void write_record(const struct record *record, const struct field *first,
     *writer->at++ = '}';
 }
 
-/* Writes a member as a record of its own, {"x":1}, and puts the separator in place of the braces.
- */
+/* Writes a member as a record of its own, {"x":1}, with the separator in place of the braces. */
 static void write_alone(const struct record *record, const struct field *field, const void *base,
                         char separator, struct writer *writer)
 {

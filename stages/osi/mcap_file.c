@@ -7,8 +7,7 @@ enum { CHUNK_SIZE = 1 << 20 };
 
 static const char magic[] = "\x89MCAP0\r\n";
 
-/* A number of so many bytes, lowest first; the length of the bytes behind it unless they are NULL.
- */
+/* A number of so many bytes, lowest first; the length of the bytes behind it, if not NULL. */
 struct part {
     uint64_t number;
     size_t size;
