@@ -21,6 +21,14 @@ def fail(code, text):
     sys.exit(code)
 
 
+def run(main):
+    """Calls the program's main function; who interrupts it gets the exit code of a shell."""
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
 def as_called(text):
     """The text with programs named as they are called here."""
     return re.sub(r"\bscripts/", "glint-", text) if name().startswith("glint-") else text
