@@ -38,8 +38,8 @@ def finish(drawing, path, title, key, metres):
     drawing.save(path, title)
 
 
-def target_of(frame, name, path="direct"):
-    return next(t for t in frame["targets"] if (t["contributors"][0]["object"], t["contributors"][0]["path"]) == (name, path))
+def target_of(frame, name):
+    return next(t for t in frame["targets"] if (t["contributors"][0]["object"], t["contributors"][0]["path"]) == (name, "direct"))
 
 
 def picture_array(bench, path):
