@@ -403,8 +403,7 @@ def check_holds(part, scans):
     """A figure of a sheet or a radar holds for one of its scans or more."""
     for name in part.keys() - ABOUT.keys():
         if all(scan.figures.values.get(name) != part[name] for scan in scans):
-            own = next(scan for scan in scans)
-            raise Refused(f"{name} {told(part[name])} holds for no scan; {own.name} has {own.figures.told(FIRST[name])}")
+            raise Refused(f"{name} {told(part[name])} holds for no scan; {scans[0].name} has {scans[0].figures.told(FIRST[name])}")
 
 
 def suite_of(sheet, beside, out):
