@@ -27,7 +27,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 import glint  # noqa: E402
-from glint.exports import arrays, whole  # noqa: E402
+from glint.exports import arrays, processes, whole  # noqa: E402
 from devkits import FIELDS, Tables, in_box, read_pcd, read_truckscenes  # noqa: E402
 from scripts import in_a_fork, members  # noqa: E402
 
@@ -573,6 +573,27 @@ def a_part_that_fails_ends_all(folder):
     assert "export: -j 0; expected FORMAT --out DIR" in export(folder, "vod", "-j0", "--out", "none", "whole.jsonl", status=64)
 
 
+def a_process_that_is_ended_is_a_fault(folder):
+    """With its exit status. Answers may be long, need no room in TMPDIR, and come in the order of the items, whatever else ends meanwhile."""
+    def work(size):
+        if size < 0:
+            os.kill(os.getpid(), -size)
+        time.sleep(0.2 / (1 + size))
+        return "x" * size
+
+    sizes, tempfile.tempdir = [0, 1 << 20, 5, 1 << 18], folder + "/none"
+    with subprocess.Popen(["sleep", "0.05"]) as other:
+        assert processes.side_by_side(work, sizes, 2) == ["x" * size for size in sizes]
+        assert other.wait() == 0
+    tempfile.tempdir = None
+    for items in (5, -signal.SIGKILL, 5), (-signal.SIGTERM, 5):
+        try:
+            processes.side_by_side(work, items, 2)
+            assert False, items
+        except processes.Fault as fault:
+            assert fault.code == 74 and str(fault) == f"one of its processes ended with exit status {min(items)}", fault
+
+
 def scenes_may_be_played_at_once(folder):
     """Frames of two scenes in turn, as those of two egos, give the bytes of one scene after the other; also without a last frame."""
     objects = [body("ego", vx=1), body("other", x=12)]
@@ -921,7 +942,7 @@ def main():
     chosen = sys.argv[2:]
     for test in (an_approaching_car, an_elevation_is_a_height, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
                  every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
-                 every_option_of_a_source_is_exported, parts_side_by_side_give_the_bytes_of_one, a_part_that_fails_ends_all, scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
+                 every_option_of_a_source_is_exported, parts_side_by_side_give_the_bytes_of_one, a_part_that_fails_ends_all, a_process_that_is_ended_is_a_fault, scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
                  a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
                  lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_nobody_measured_is_said, what_formats_cannot_hold_is_refused,
                  any_member_may_be_wrong, what_arrays_give_is_whole, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,

@@ -1,10 +1,10 @@
 """Work in processes side by side."""
+import contextlib
 import os
-import pickle
 import signal
 import struct
 import sys
-import tempfile
+from multiprocessing import Pipe, connection
 
 import glint
 from glint.progress import Progress
@@ -23,19 +23,25 @@ def fault_of(error):
     return Fault(NO_INPUT if isinstance(error, FileNotFoundError) else IO, text)
 
 
-def begin(work, item, file):
-    """Begins a process that writes what work(item) returns into a file, or code and text of its fault; the process."""
+def answer_of(work, item):
+    """What work(item) returns, or code and text of its fault; the other one is None."""
+    try:
+        return work(item), None
+    except ERRORS as error:
+        fault = fault_of(error)
+        return None, (fault.code, str(fault))
+
+
+def begin(work, item):
+    """Begins a process that sends the answer for an item; the process, and the end of a pipe where its answer comes."""
+    end, own_end = Pipe(duplex=False)
     if process := os.fork():
-        return process
+        own_end.close()
+        return process, end
     code = 1
     try:
-        try:
-            told = work(item), None
-        except ERRORS as error:
-            fault = fault_of(error)
-            told = None, (fault.code, str(fault))
-        pickle.dump(told, file)
-        file.flush()
+        with contextlib.suppress(BrokenPipeError):  # who would take the answer was ended
+            own_end.send(answer_of(work, item))
         code = 0
     except Exception:  # a fault of this program, which says where it is
         sys.excepthook(*sys.exc_info())
@@ -43,31 +49,39 @@ def begin(work, item, file):
         os._exit(code)
 
 
+def received(process, end):
+    """The answer of a process, which then ends; a fault if the process was ended before."""
+    with end, contextlib.suppress(EOFError, OSError):
+        answer = end.recv()
+    status = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+    return (None, (IO, f"one of its processes ended with exit status {status}")) if status else answer
+
+
 def side_by_side(work, items, jobs):
     """work(item) of each item, as many at a time as jobs, each in a process of its own; a single item needs none. The first fault is
     raised when the items that were begun have ended."""
     if len(items) == 1:
         return [work(items[0])]
-    files, running, results, faults = [tempfile.TemporaryFile() for _ in items], {}, {}, {}
+    waiting, running, answers = [*enumerate(items)], {}, {}
     progress = Progress("parts", len(items))
     try:
-        while running or len(results) < len(items) and not faults:
-            number = len(results) + len(running)
-            if number < len(items) and len(running) < jobs and not faults:
-                running[begin(work, items[number], files[number])] = number
-                continue
-            process, status = os.wait()
-            number = running.pop(process)
-            files[number].seek(0)
-            results[number], fault = (None, (IO, "its process was ended")) if status else pickle.load(files[number])
-            if fault:
-                faults[number] = Fault(*fault)
-            progress.step()
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                number, item = waiting.pop(0)
+                process, end = begin(work, item)
+                running[end] = process, number
+            for end in connection.wait(running):
+                process, number = running.pop(end)
+                answers[number] = received(process, end)
+                if answers[number][1]:
+                    waiting.clear()
+                progress.step()
     finally:
         progress.end()
-        for process in running:
+        for process, _ in running.values():
             os.kill(process, signal.SIGTERM)
             os.waitpid(process, 0)
-    if faults:
-        raise faults[min(faults)]
-    return [results[number] for number in range(len(items))]
+    for _, (_, fault) in sorted(answers.items()):
+        if fault:
+            raise Fault(*fault)
+    return [answers[number][0] for number in range(len(items))]
