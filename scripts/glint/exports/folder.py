@@ -37,15 +37,13 @@ class Folder:
             os.close(file)
 
     def join(self, path, parts, head="", rows="", between="", foot=""):
-        """Writes a table: head, rows that no part has, the rows of the parts, and foot; `between` stands between any two of them that are
-        not empty. Files of parts go."""
+        """Writes a table: head, rows that no part has, the rows of the parts, and foot; `between` stands between rows that are not empty.
+        The files of the parts are removed."""
         pieces = [f"{self.place(path)}.{part}" for part in range(parts)]
         with open(self.place(path), "xb") as whole:
             whole.write((head + rows).encode())
-            is_first = not rows
-            for piece in filter(os.path.getsize, pieces):
-                whole.write(b"" if is_first else between.encode())
-                is_first = False
+            for i, piece in enumerate(filter(os.path.getsize, pieces)):
+                whole.write(between.encode() if rows or i > 0 else b"")
                 with open(piece, "rb") as file:
                     shutil.copyfileobj(file, whole)
             whole.write(foot.encode())
@@ -61,7 +59,7 @@ class Part(Folder, contextlib.ExitStack):
         contextlib.ExitStack.__init__(self)
         self.number = number
         self.notes, self.assumed, self.lacking, self.counted = {}, {}, Counter(), Counter()  # dictionaries, as their keys have an order
-        self.classes_of, self.classes = None, {}  # of the objects of a frame
+        self.frame, self.classes = None, {}  # the newest frame, and the class of each of its objects
         self.scans, self.boxes, self.labels = (csv.writer(self.rows(f"glint-{name}.csv"), lineterminator="\n") for name in TABLES)
 
     def rows(self, path):
@@ -84,7 +82,7 @@ class Part(Folder, contextlib.ExitStack):
         if "height_is_assumed" in sensor:
             self.assumed[sensor["name"]] = None
         self.scans.writerow((path, *identity(frame), frame["frame"], float(frame["time_s"]), sensor["name"], len(targets)))
-        if frame is not self.classes_of:
-            self.classes_of, self.classes = frame, {one["id"]: one["class"] for one in frame["objects"]}
+        if frame is not self.frame:
+            self.frame, self.classes = frame, {one["id"]: one["class"] for one in frame["objects"]}
         self.labels.writerows([(path, i, one["object"], self.classes.get(glint.owner(one)), one["reflector"], one["path"], one.get("mirror"),
                                 one.get("number"), float(one["weight"])) for i, target in enumerate(targets) for one in target["contributors"]])

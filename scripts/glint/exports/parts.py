@@ -29,13 +29,13 @@ def parts_of(streams, jobs):
         count = min(len(streams), PARTS_OF_A_JOB * jobs)
         parts = [streams[len(streams) * i // count:len(streams) * (i + 1) // count] for i in range(count)]
         surveys = side_by_side(survey, parts, jobs)
-        if not Scenes.of_several(surveys):
+        if not Scenes.are_shared(surveys):
             return parts, surveys
     return [Progress("streams").over(streams)], [Scenes()]
 
 
-def write_part(work):
-    writer, layout, path, number, streams, start = work
+def write_part(task):
+    writer, layout, path, number, streams, start = task
     scenes = Scenes()
     with Part(path, number) as part:
         written = writer(layout, part, start)
@@ -64,8 +64,8 @@ def write(layout, out, streams, jobs):
     writer = importlib.import_module("glint.exports." + layout["layout"]).Writer
     with new_folder(out, "--out") as path:
         parts, surveys = parts_of(streams, jobs)
-        works = [(writer, layout, path, number, *of) for number, of in enumerate(zip(parts, writer.starts(surveys)))]
-        written = side_by_side(write_part, works, jobs)
+        tasks = [(writer, layout, path, i, part, start) for i, (part, start) in enumerate(zip(parts, writer.starts(surveys)))]
+        written = side_by_side(write_part, tasks, jobs)
         Scenes.tell_of_empty([part.scenes for part in written])
         folder = Folder(path)
         for name, heading in TABLES.items():

@@ -256,7 +256,7 @@ class Scenes:
             self.spans_us[self.now] = first_us, max(last_us, *times_us)
 
     @staticmethod
-    def of_several(parts):
+    def are_shared(parts):
         """Whether a scene has frames in several parts."""
         return sum(len(one.places) for one in parts) > len(set().union(*(one.places for one in parts)))
 
