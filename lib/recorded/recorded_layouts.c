@@ -296,8 +296,8 @@ static void fold(const char *name, char *room)
     room[length] = '\0';
 }
 
-/* Names the places of all columns. */
-static void name_places(struct header *header)
+/* Keeps the place of each column by its name, and by its name in lower case. */
+static void keep_places(struct header *header)
 {
     char room[NAME_ROOM];
     for (size_t i = 0; i < header->names->columns; i++) {
@@ -309,7 +309,7 @@ static void name_places(struct header *header)
     }
 }
 
-/* The place of a column, else of one whose letters differ in case alone. */
+/* The place of the column of this name, else of the first one whose letters differ in case. */
 static int place_of(const struct header *header, const char *name)
 {
     char room[NAME_ROOM];
@@ -364,7 +364,7 @@ static bool is_needed(const struct recorded_part *part, const struct recorded_co
     return column->need == RECORDED_NEEDED || (column->need == RECORDED_TOGETHER && together);
 }
 
-/* Adds the names of columns of which one is lacking. */
+/* Adds the names of columns of which any one would do. */
 static void add_names(const struct recorded_part *part, size_t from, size_t end, struct text *names)
 {
     char room[NAME_ROOM];
@@ -466,13 +466,13 @@ int recorded_layouts_find(const struct csv_table *names, struct recorded_fit *fi
                           struct arena *arena, struct diag *diag)
 {
     struct header header = {.names = names, .arena = arena};
-    name_places(&header);
+    keep_places(&header);
     *fit = fit_of(&header, layouts);
     for (size_t i = 1; i < sizeof layouts / sizeof *layouts; i++) {
         struct recorded_fit other = fit_of(&header, &layouts[i]);
-        size_t own = other.found * (fit->found + fit->lacking);
-        size_t least = fit->found * (other.found + other.lacking);
-        if (own > least || (own == least && other.found > fit->found))
+        size_t share = other.found * (fit->found + fit->lacking);
+        size_t best_share = fit->found * (other.found + other.lacking);
+        if (share > best_share || (share == best_share && other.found > fit->found))
             *fit = other;
     }
     return fit->lacking == 0 ? 0 : refuse_header(names, fit, diag);

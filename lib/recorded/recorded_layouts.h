@@ -75,18 +75,18 @@ struct recorded_part {
     int at[RECORDED_COLUMNS]; /* the places of its columns; RECORDED_ABSENT: not read */
 };
 
-/* A layout, the parts that a table has of it, and the number of needed values that these parts have
- * and lack. */
+/* What a table has of a layout: parts, and how many needed values these have and lack. */
 struct recorded_fit {
     const struct recorded_layout *layout;
     LIST_OF(struct recorded_part) parts;
     size_t found, lacking;
 };
 
-/* Finds the layout of whose needed values a table with this header has the largest share, and of
- * equal shares the most. Refuses (DIAG_DATA) a header that lacks any: the message names the nearest
- * layout with what it lacks, and the header. */
 struct csv_table;
+
+/* Finds the layout of whose needed values a table with these names of columns has the largest
+ * share; of two with the same share that with more values. If the table lacks any of them it is
+ * refused (DIAG_DATA): the message names the layout, what is lacking, and the header. */
 int recorded_layouts_find(const struct csv_table *names, struct recorded_fit *fit,
                           struct arena *arena, struct diag *diag);
 

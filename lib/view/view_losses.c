@@ -155,8 +155,7 @@ void view_losses_add(struct view_losses *losses, struct view_columns *columns,
 {
     struct loss_scan own = {
         .losses = losses, .columns = columns, .frame = frame, .scan = scan, .scene = scene};
-    uint32_t details = 0;
-    uint32_t fates = 0;
+    uint32_t details = 0, fates = 0;
     for (size_t i = 0; i < frame->lost.count; i++)
         if (strcmp(frame->lost.items[i].sensor, sensor) == 0)
             details += collect_losses(&own, &frame->lost.items[i]);

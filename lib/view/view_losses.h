@@ -16,8 +16,9 @@ struct view_losses {
     struct intern own_reasons;  /* of losses, numbered behind those of enum loss */
 };
 
-/* Adds the losses of a sensor in a frame: its scan, and the number of the frame's scene. */
 struct view_scan;
+
+/* Adds the losses of a sensor in a frame: its scan, and the number of the frame's scene. */
 void view_losses_add(struct view_losses *losses, struct view_columns *columns,
                      const struct frame *frame, const struct view_scan *scan, uint32_t scene,
                      const char *sensor);

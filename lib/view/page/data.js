@@ -103,7 +103,7 @@ function rowAt(frames, time) {
     return low;
 }
 
-// The numbers from begin on, without end.
+// The whole numbers from begin to the one before end.
 function numbersIn({begin, end}) {
     return Array.from({length: end - begin}, (_, i) => begin + i);
 }

@@ -1,7 +1,7 @@
 """Writes an export, in parts side by side if the caller has cores for them.
 
 A part is some streams that follow each other, in a process of its own. A survey of all streams comes first, as numbers of scans,
-times and titles follow those of earlier streams. Without it all streams are one part. Both ways write the same bytes.
+times and titles follow those of earlier streams. If streams cannot be parted, they are one part without a survey. The bytes are the same.
 """
 import importlib
 from collections import Counter, namedtuple
@@ -24,7 +24,7 @@ def survey(streams):
 
 
 def parts_of(streams, jobs):
-    """The streams of each part, and its survey."""
+    """The streams of each part, and its survey. All streams are one part if a scene has frames in several, or a stream is a pipe."""
     if jobs > 1 and len(streams) > 1 and all(map(is_read_again, streams)):
         count = min(len(streams), PARTS_OF_A_JOB * jobs)
         parts = [streams[len(streams) * i // count:len(streams) * (i + 1) // count] for i in range(count)]
