@@ -1,10 +1,11 @@
 """Work in processes side by side."""
 import contextlib
 import os
+import pickle
+import select
 import signal
 import struct
 import sys
-from multiprocessing import Pipe, connection
 
 import glint
 from glint.progress import Progress
@@ -34,14 +35,14 @@ def answer_of(work, item):
 
 def begin(work, item):
     """Begins a process that sends the answer for an item; the process, and the end of a pipe where its answer comes."""
-    end, own_end = Pipe(duplex=False)
+    end, own_end = os.pipe()
     if process := os.fork():
-        own_end.close()
-        return process, end
+        os.close(own_end)
+        return process, open(end, "rb")
     code = 1
     try:
-        with contextlib.suppress(BrokenPipeError):  # who would take the answer was ended
-            own_end.send(answer_of(work, item))
+        with contextlib.suppress(BrokenPipeError), open(own_end, "wb") as file:  # who would take the answer may have been ended
+            pickle.dump(answer_of(work, item), file)
         code = 0
     except Exception:  # a fault of this program, which says where it is
         sys.excepthook(*sys.exc_info())
@@ -51,8 +52,8 @@ def begin(work, item):
 
 def received(process, end):
     """The answer of a process, which then ends; a fault if the process was ended before."""
-    with end, contextlib.suppress(EOFError, OSError):
-        answer = end.recv()
+    with end, contextlib.suppress(EOFError, pickle.UnpicklingError):
+        answer = pickle.load(end)
     status = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
     return (None, (IO, f"one of its processes ended with exit status {status}")) if status else answer
 
@@ -70,7 +71,7 @@ def side_by_side(work, items, jobs):
                 number, item = waiting.pop(0)
                 process, end = begin(work, item)
                 running[end] = process, number
-            for end in connection.wait(running):
+            for end in select.select([*running], [], [])[0]:
                 process, number = running.pop(end)
                 answers[number] = received(process, end)
                 if answers[number][1]:
