@@ -574,24 +574,34 @@ def a_part_that_fails_ends_all(folder):
 
 
 def a_process_that_is_ended_is_a_fault(folder):
-    """With its exit status. Answers may be long, need no room in TMPDIR, and come in the order of the items, whatever else ends meanwhile."""
+    """With its exit status. Answers may be long, need no room in TMPDIR, and come in the order of the items, whatever else ends meanwhile.
+    An interrupt ends all processes, and leaves none of their temporary files."""
     def work(size):
-        if size < 0:
-            os.kill(os.getpid(), -size)
         time.sleep(0.2 / (1 + size))
         return "x" * size
 
     sizes, tempfile.tempdir = [0, 1 << 20, 5, 1 << 18], folder + "/none"
-    with subprocess.Popen(["sleep", "0.05"]) as other:
+    with subprocess.Popen(["sleep", "0.05"]):
         assert processes.side_by_side(work, sizes, 2) == ["x" * size for size in sizes]
-        assert other.wait() == 0
     tempfile.tempdir = None
-    for items in (5, -signal.SIGKILL, 5), (-signal.SIGTERM, 5):
-        try:
-            processes.side_by_side(work, items, 2)
-            assert False, items
-        except processes.Fault as fault:
-            assert fault.code == 74 and str(fault) == f"one of its processes ended with exit status {min(items)}", fault
+    try:
+        assert not processes.side_by_side(lambda number: number or os.kill(os.getpid(), signal.SIGKILL), (5, 0, 5), 2)
+    except processes.Fault as fault:
+        assert fault.code == 74 and str(fault) == "one of its processes ended with exit status -9", fault
+
+    def wait(seconds):
+        with tempfile.TemporaryDirectory(dir=folder):
+            time.sleep(seconds)
+
+    signal.signal(signal.SIGALRM, lambda *_: os.killpg(0, signal.SIGINT))
+    signal.setitimer(signal.ITIMER_REAL, 0.5)
+    group = os.getpgrp()
+    os.setpgid(0, 0)
+    try:
+        assert not processes.side_by_side(wait, (60, 60, 60), 2)
+    except KeyboardInterrupt:
+        assert not os.listdir(folder)
+    os.setpgid(0, group)
 
 
 def scenes_may_be_played_at_once(folder):

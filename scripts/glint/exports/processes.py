@@ -41,6 +41,8 @@ def begin(work, item):
         return process, open(end, "rb")
     code = 1
     try:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is for the caller, which then ends this process by SIGTERM
+        signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that temporary files are removed
         with contextlib.suppress(BrokenPipeError), open(own_end, "wb") as file:  # who would take the answer may have been ended
             pickle.dump(answer_of(work, item), file)
         code = 0
