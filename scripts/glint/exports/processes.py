@@ -11,6 +11,7 @@ import glint
 from glint.progress import Progress
 from glint.sets.plan import BAD_DATA, IO, NO_INPUT, Fault
 
+MOST_JOBS = 256  # each has a pipe, and a process has 1,024 files at most
 ERRORS = Fault, OSError, glint.BadFrame, struct.error, OverflowError, UnicodeError  # for which the input or the system is to blame
 
 
@@ -69,7 +70,7 @@ def side_by_side(work, items, jobs):
     progress = Progress("parts", len(items))
     try:
         while waiting or running:
-            while waiting and len(running) < jobs:
+            while waiting and len(running) < min(jobs, MOST_JOBS):
                 number, item = waiting.pop(0)
                 process, end = begin(work, item)
                 running[end] = process, number
