@@ -1,5 +1,6 @@
 #include "recorded/recorded_layouts.h"
 
+#include <assert.h>
 #include <ctype.h>
 #include <stdio.h>
 
@@ -317,8 +318,10 @@ static int place_of(const struct header *header, const char *name)
     if (intern_find(&header->places, name, strlen(name), &place))
         return (int)place;
     fold(name, room);
-    bool known = intern_find(&header->folded, room, strlen(room), &place);
-    return known ? header->folded_places.items[place] : RECORDED_ABSENT;
+    if (!intern_find(&header->folded, room, strlen(room), &place))
+        return RECORDED_ABSENT;
+    assert(place < header->folded_places.count);
+    return header->folded_places.items[place];
 }
 
 /* The name of a column; in a wide table that of a road user. */
@@ -340,6 +343,7 @@ static struct recorded_part part_of(const struct header *header, const struct re
                                     const char *user)
 {
     const struct recorded_column *columns = kind->columns;
+    assert(columns != NULL);
     struct recorded_part part = {.kind = kind, .user = user, .id = RECORDED_ABSENT};
     char room[NAME_ROOM];
     bool found = false;

@@ -15,7 +15,7 @@ sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
-from glint.exports.streams import scans_of, streams_of  # noqa: E402
+from glint.exports.streams import Scenes, frames_of, scans_of, streams_of  # noqa: E402
 from pairs import covering  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
@@ -67,7 +67,7 @@ def exported(folder, case):
     done = subprocess.run(["bash", "-c", f"{SCRIPTS}/dataset plan.json --out set && make -s -C set && {SCRIPTS}/check-set set"], cwd=folder,
                           env=ENVIRONMENT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    frames = [frame for _, found in streams_of(os.path.join(folder, "set")) for frame in found]
+    frames = [frame for _, frame in frames_of(streams_of(os.path.join(folder, "set"), ""), Scenes())]
     scenes = {(frame["scene"], frame["seed"]) for frame in frames}
     egos = len(case["source"].get("egos", "1"))
     assert len(scenes) >= egos * len(case["seeds"].get("seeds", "1")), scenes

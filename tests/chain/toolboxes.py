@@ -226,7 +226,7 @@ def parallel_sides_divide_by_zero(_):
     with open(ROOT + "/data/exports/vod.json", encoding="utf-8") as file:
         layout = json.load(file)
     for angles in [0, 0], layout["turned_rad"]:
-        turned, draw, failed = kitti.Writer(layout | {"turned_rad": angles}, None), numpy.random.default_rng(2), 0
+        turned, draw, failed = kitti.Writer(layout | {"turned_rad": angles}, None, {}), numpy.random.default_rng(2), 0
         for heading, x, y in zip(draw.uniform(-3, 3, 1000), draw.uniform(-20, 20, 1000), draw.uniform(10, 50, 1000)):
             row = [(round(x + 7 * i * math.cos(heading), 6), round(y - 7 * i * math.sin(heading), 6), -0.5, 4.5, 1.8, 1.5,
                     round(heading + turned.turn_rad(i), 9)) for i in range(5)]
