@@ -78,6 +78,11 @@ def titles_of(scene, seed):
     return scene, f"{scene}/{seed}"
 
 
+def free_title(scene, taken):
+    """The first of the names that a scene may have and no earlier one has, or None."""
+    return next((name for name in titles_of(*scene) if name not in taken), None)
+
+
 def path_of(layout, table):
     return f"{layout['version']}/{table}.json"
 
@@ -101,7 +106,7 @@ class Writer:
         for scenes in surveys:
             yield newest_us, titles.intersection(name for scene in scenes.spans_us for name in titles_of(*scene))
             for scene, (first_us, last_us) in scenes.spans_us.items():
-                titles.add(next((name for name in titles_of(*scene) if name not in titles), None))
+                titles.add(free_title(scene, titles))
                 newest_us += GAP_US + last_us - first_us
 
     def __init__(self, layout, output, start):
@@ -146,7 +151,7 @@ class Writer:
 
     def title(self, frame):
         """The scene's name, by which splits know it: with its seed if another seed has the name already."""
-        name = next((name for name in titles_of(*identity(frame)) if name not in self.titles), None)
+        name = free_title(identity(frame), self.titles)
         if name is None:
             raise Fault(BAD_DATA, f"{frame.place}: {'/'.join(identity(frame))} would be the name of two scenes; expected other names, by --scene of "
                                   "their source")
