@@ -99,7 +99,7 @@ int field_set_number(const struct field *field, void *base, double value, struct
     if (!(value >= field->low && value <= field->high))
         return field_out_of_bounds(field, value, diag);
     if (field->kind == FIELD_REAL) {
-        FIELD_STORE(double, field, base, value);
+        FIELD_STORE(double, field, base, field_kept(field, value));
         return 0;
     }
     if (value != floor(value))

@@ -200,6 +200,12 @@ static inline bool field_absent_differs(const struct field *field)
 /* Sets one member of a zeroed struct to its value when absent. */
 void field_set_absent(const struct field *field, void *base);
 
+/* The number that a member keeps: -0 is 0 where bounds begin at 0, as x / -0 is below 0. */
+static inline double field_kept(const struct field *field, double number)
+{
+    return number == field->low ? field->low : number;
+}
+
 /* Sets the member of the struct at base, or refuses the value with "name: value is outside [..]
  * unit", "name: unknown choice ..." and the like. Text is copied into the arena. */
 int field_set_number(const struct field *field, void *base, double value, struct diag *diag);

@@ -179,7 +179,7 @@ static bool take_real(struct json_scan *scan, const struct field *field, void *b
     if (end == NULL || !(number >= field->low && number <= field->high))
         return false;
     scan->at = end;
-    FIELD_STORE(double, field, base, number);
+    FIELD_STORE(double, field, base, field_kept(field, number));
     return true;
 }
 

@@ -29,7 +29,9 @@ sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 import glint  # noqa: E402
 from glint.exports import arrays, processes, whole  # noqa: E402
 from devkits import FIELDS, Tables, in_box, read_pcd, read_truckscenes  # noqa: E402
+import signals  # noqa: E402
 from scripts import in_a_fork, members  # noqa: E402
+from sentences import prove  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 FORMATS = "nuscenes", "truckscenes", "kitti", "vod"
@@ -948,20 +950,14 @@ def pcl_reads_the_radar_files(folder):
         assert len(points) == int(row["points"]) > 1
 
 
-def main():
-    chosen = sys.argv[2:]
-    for test in (an_approaching_car, an_elevation_is_a_height, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408, the_default_filter_keeps_the_valid_ones,
-                 every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan, boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps,
-                 every_option_of_a_source_is_exported, parts_side_by_side_give_the_bytes_of_one, a_part_that_fails_ends_all, a_process_that_is_ended_is_a_fault, scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone, a_seed_makes_another_scene, a_scene_without_a_scan_is_told,
-                 a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
-                 lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_nobody_measured_is_said, what_formats_cannot_hold_is_refused,
-                 any_member_may_be_wrong, what_arrays_give_is_whole, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,
-                 killed_runs_leave_no_folder_of_the_name, pcl_reads_the_radar_files):
-        if chosen and test.__name__ not in chosen:
-            continue
-        with tempfile.TemporaryDirectory() as folder:
-            test(folder)
-        print("ok      ", test.__name__.replace("_", " "), flush=True)
+TESTS = [an_approaching_car, an_elevation_is_a_height, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408,
+         the_default_filter_keeps_the_valid_ones, every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan,
+         boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps, every_option_of_a_source_is_exported, parts_side_by_side_give_the_bytes_of_one,
+         a_part_that_fails_ends_all, a_process_that_is_ended_is_a_fault, scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone,
+         a_seed_makes_another_scene, a_scene_without_a_scan_is_told, a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
+         lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_nobody_measured_is_said, what_formats_cannot_hold_is_refused,
+         any_member_may_be_wrong, what_arrays_give_is_whole, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,
+         killed_runs_leave_no_folder_of_the_name, pcl_reads_the_radar_files]
 
-
-main()
+signals.as_on_a_terminal()
+prove(TESTS, sys.argv[2:])

@@ -7,7 +7,6 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -16,6 +15,7 @@ sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 import glint  # noqa: E402
 from glint.imports import nuscenes  # noqa: E402
 from scripts import in_a_fork  # noqa: E402
+from sentences import prove  # noqa: E402
 
 os.environ.update(PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 CHAIN = "glint-extract | glint-ideal --sections quality --sensors corner77-four | glint-sensor | glint-noise"
@@ -219,14 +219,5 @@ def what_is_no_set_is_refused(folder):
     imported("nuscenes", "--out", out, "--scene", "scene-0061", root + "/v1.0-test")
 
 
-def main():
-    chosen = sys.argv[2:]
-    for test in (an_export_is_read_back, boxes_of_a_real_set_become_traffic, between_key_frames_bodies_move_on_cubics,
-                 velocities_are_slopes_of_parabolas, tables_are_read_in_pieces, what_is_no_set_is_refused):
-        if not chosen or test.__name__ in chosen:
-            with tempfile.TemporaryDirectory() as folder:
-                test(folder)
-            print("ok      ", test.__name__.replace("_", " "), flush=True)
-
-
-main()
+prove((an_export_is_read_back, boxes_of_a_real_set_become_traffic, between_key_frames_bodies_move_on_cubics,
+       velocities_are_slopes_of_parabolas, tables_are_read_in_pieces, what_is_no_set_is_refused), sys.argv[2:])

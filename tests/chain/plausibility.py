@@ -12,7 +12,6 @@ import random
 import struct
 import subprocess
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
 here = os.path.dirname(os.path.abspath(__file__))
@@ -21,6 +20,7 @@ import recorded  # noqa: E402
 import same_motion as motion  # noqa: E402
 from recorded import DATA, check, run  # noqa: E402
 from same_motion import Pose, User, circle, straight  # noqa: E402
+from sentences import prove  # noqa: E402
 
 STATED = [kind for kind in motion.FORMATS if not kind.name.startswith("NGSIM")]  # formats that state speeds
 YAWS = [kind for kind in STATED if kind.name not in ("highD", "SUMO's table", "SUMO's XML")]  # and yaws in any unit
@@ -314,16 +314,9 @@ def real_files_stay_whole():
             check(done.returncode == 0 and b"leaves and comes back" not in done.stderr, f"{path}: {done.stderr.decode()}")
 
 
-def main():
-    for test in (true_recordings_stay_whole, denied_ways_begin_visits, contradictions_are_refused,
-                 yaws_in_degrees_are_refused, yaws_counted_the_other_way_are_refused, parked_vehicles_leave_their_lane,
-                 times_of_their_own_are_judged, a_rare_road_user_is_interpolated, rows_that_stand_twice_are_read_once,
-                 steps_that_stand_twice_are_read_once,
-                 mesoscopic_places_are_refused):
-        with tempfile.TemporaryDirectory() as folder:
-            test(folder)
-    real_files_stay_whole()
-    print(f"plausibility: {recorded.checks} checks hold")
-
-
-main()
+prove((true_recordings_stay_whole, denied_ways_begin_visits, contradictions_are_refused, yaws_in_degrees_are_refused,
+       yaws_counted_the_other_way_are_refused, parked_vehicles_leave_their_lane, times_of_their_own_are_judged,
+       a_rare_road_user_is_interpolated, rows_that_stand_twice_are_read_once, steps_that_stand_twice_are_read_once,
+       mesoscopic_places_are_refused))
+real_files_stay_whole()
+print(f"plausibility: {recorded.checks} checks hold")

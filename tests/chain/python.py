@@ -10,7 +10,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -18,6 +17,7 @@ SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 import glint  # noqa: E402
 from scripts import in_a_fork, members  # noqa: E402
+from sentences import prove  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"],
                    PYTHONPATH=SCRIPTS, PYTHONDONTWRITEBYTECODE="1")
@@ -425,10 +425,7 @@ def main():
         tests += (columns_are_those_of_the_frames,)
     else:
         print("skipped  columns are those of the frames: no numpy")
-    for test in tests:
-        with tempfile.TemporaryDirectory() as folder:
-            test(folder)
-        print("ok      ", test.__name__.replace("_", " "))
+    prove(tests)
 
 
 main()

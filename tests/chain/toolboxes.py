@@ -10,7 +10,6 @@ import math
 import os
 import subprocess
 import sys
-import tempfile
 
 import numpy
 
@@ -20,6 +19,7 @@ SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
 from glint.exports import kitti  # noqa: E402
 from rotated_overlap import LEAST_OVERLAP, average_precision, overlaps  # noqa: E402
+from sentences import prove  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 OFF_M = 0.008, 0.006  # a centimetre, along no side of a box
@@ -263,17 +263,5 @@ def boxes_are_turned_by_different_angles(folder):
         assert all(b - a > 3e-7 for a, b in zip(sorted(turns), sorted(turns)[1:])), turns
 
 
-TESTS = openpcdet_trains_and_evaluates, openpcdet_fails_where_it_is_known_to, stock_loaders_of_kitti_take_four_columns, delft_evaluates, parallel_sides_divide_by_zero, boxes_are_turned_by_different_angles
-
-
-def main():
-    chosen = sys.argv[2:]
-    for test in TESTS:
-        if chosen and test.__name__ not in chosen:
-            continue
-        with tempfile.TemporaryDirectory() as folder:
-            test(folder)
-        print("ok      ", test.__name__.replace("_", " "), flush=True)
-
-
-main()
+prove((openpcdet_trains_and_evaluates, openpcdet_fails_where_it_is_known_to, stock_loaders_of_kitti_take_four_columns, delft_evaluates,
+       parallel_sides_divide_by_zero, boxes_are_turned_by_different_angles), sys.argv[2:])

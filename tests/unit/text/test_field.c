@@ -288,6 +288,26 @@ TEST(numbers_are_taken_between_their_bounds)
     }
 }
 
+TEST(minus_zero_is_zero_where_numbers_begin_at_zero)
+{
+    static const char *const texts[] = {"-0", "-0.0", "-0e3", "-1e-400"};
+    static const struct field signed_fields[] = {
+        {FIELD_REAL_IN(struct part, width_m, -10, 10, "width")}, {0}};
+    static const struct record signed_record = {
+        .name = "part", .size = sizeof(struct part), .fields = signed_fields};
+    for (size_t i = 0; i < COUNT(texts); i++) {
+        struct arena arena = {0};
+        struct part part = {0};
+        char line[32];
+        int length = snprintf(line, sizeof line, "{\"width_m\":%s}", texts[i]);
+        assert_done(record_read, line, (size_t)length, &part_record, &part, &arena, NULL);
+        assert_false(signbit(part.width_m));
+        assert_done(record_read, line, (size_t)length, &signed_record, &part, &arena, NULL);
+        assert_true(signbit(part.width_m));
+        arena_free(&arena);
+    }
+}
+
 static int set_text(int field, struct thing *thing, const char *text, struct arena *arena,
                     struct diag *diag)
 {
