@@ -8,6 +8,7 @@
  *     `extra`, which is passed on unread; RFC 8259 says only that keys should be unique
  *   - jansson takes 2,047 levels, a frame JSON_SCAN_DEPTH of them in `extra`
  *   - a line feed is white space to jansson, the end of a line to us
+ *   - -0 is 0 to us in members that begin at 0
  * Both refuse U+0000 in strings, a byte order mark and numbers beyond the doubles, as they may.
  *
  *     CASES=LINES build/unit/frame test_frame_oracle    mutates so many lines, not 10^5, with the
@@ -151,9 +152,10 @@ static bool same_raw(const char *bytes, json_t *tree)
     return same;
 }
 
-static bool same_double(double a, double b)
+static bool same_number(const struct field *field, double ours, double number)
 {
-    return memcmp(&a, &b, sizeof a) == 0;
+    double expected = number == 0 && field->low == 0 ? 0 : number;
+    return memcmp(&ours, &expected, sizeof ours) == 0;
 }
 
 static bool same_value(const struct field *field, const void *base, json_t *tree)
@@ -161,7 +163,7 @@ static bool same_value(const struct field *field, const void *base, json_t *tree
     const void *member = (const char *)base + field->offset;
     switch (field->kind) {
     case FIELD_REAL:
-        return same_double(LOAD(double, member), json_number_value(tree));
+        return same_number(field, LOAD(double, member), json_number_value(tree));
     case FIELD_INTEGER:
         return LOAD(int64_t, member) == (int64_t)json_number_value(tree);
     case FIELD_FLAG:
