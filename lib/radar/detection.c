@@ -77,10 +77,11 @@ struct power_law {
     double mean_db, sigma_db, most;
 };
 
+/* Less than 1e-15 dB changes an amplitude by less than its rounding does. */
 static bool is_steady(const struct power_law *varying)
 {
     bool normal = varying->law == FLUCTUATION_LOG_NORMAL;
-    return varying->law == FLUCTUATION_NONE || (normal && varying->sigma_db == 0);
+    return varying->law == FLUCTUATION_NONE || (normal && varying->sigma_db < 1e-15);
 }
 
 static double least_db(const struct power_law *varying)
@@ -116,8 +117,7 @@ struct echo_law {
     double amplitude;
 };
 
-/* How far from the final threshold noise decides, in units of its RMS: beyond with less than 1e-15.
- */
+/* So far from the final threshold noise decides, in its RMS; farther away with less than 1e-15. */
 static const double DECIDES = 6;
 
 /* The probability that an echo without variation is detected. */

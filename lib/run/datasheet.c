@@ -79,9 +79,9 @@ static void add_ranges(const struct sensor *sensor, struct datasheet *sheet)
 void datasheet_of(const struct sensor *sensor, struct datasheet *sheet)
 {
     *sheet = (struct datasheet){.echo_dbsm = {0, 10, 20}};
+    double border_rad = elementary_max(antenna_border_rad(sensor->field_of_view_rad), 0);
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++)
-        sheet->azimuth_rad[i] =
-            antenna_border_rad(sensor->field_of_view_rad) * i / (DATASHEET_AZIMUTHS - 1);
+        sheet->azimuth_rad[i] = border_rad * i / (DATASHEET_AZIMUTHS - 1);
     for (int i = 0; i < DATASHEET_LEVELS; i++)
         sheet->accuracy[i] = accuracy_at(
             sensor, sensor->threshold * units_amplitude_from_db(10 * i), sheet->azimuth_rad);

@@ -184,6 +184,20 @@ TEST(a_level_beside_the_fluctuation_spreads_the_echo)
     }
 }
 
+TEST(levels_that_vary_by_less_than_any_rounding_are_steady)
+{
+    static const enum fluctuation_law laws[] = {FLUCTUATION_NONE, FLUCTUATION_LOG_NORMAL,
+                                                FLUCTUATION_SWERLING_1};
+    for (int i = 0; i < 3; i++)
+        for (double sigma_db = 1e-17; sigma_db > 0; sigma_db *= 1e-9) {
+            struct detection_law steady = {.fluctuation = laws[i], .threshold = 2};
+            struct detection_law tiny = steady;
+            tiny.fluctuation_sigma_db = tiny.level_sigma_db = sigma_db;
+            double expected = detection_probability(&steady, 2.5);
+            assert_close(detection_probability(&tiny, 2.5), expected, 1e-6);
+        }
+}
+
 TEST(the_amplitude_of_a_probability_is_detected_with_it)
 {
     struct detection_law detection = {

@@ -241,6 +241,13 @@ TEST(ranges_end_at_the_sensors_own)
     assert_close(sheet.range_m[2][2][0], 32, 1e-6);
 }
 
+TEST(the_azimuths_of_a_view_without_a_width_are_no_less_than_0)
+{
+    struct sensor sensor = quiet_sensor();
+    sensor.field_of_view_rad = 0;
+    assert_close(copysign(1, sheet_of(&sensor).azimuth_rad[DATASHEET_AZIMUTHS - 1]), 1, 0);
+}
+
 /* At 9 in 10, a Swerling 1 echo without noise is stronger by sqrt(-1/ln 0.9). */
 TEST(fluctuation_costs_range)
 {
