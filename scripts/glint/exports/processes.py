@@ -4,25 +4,13 @@ import os
 import pickle
 import select
 import signal
-import struct
 import sys
 
-import glint
+from glint.exports.faults import ERRORS, fault_of
 from glint.progress import Progress
-from glint.sets.plan import BAD_DATA, IO, NO_INPUT, Fault
+from glint.sets.plan import IO, Fault
 
 MOST_JOBS = 256  # each has a pipe, and a process has 1,024 files at most
-ERRORS = Fault, OSError, glint.BadFrame, struct.error, OverflowError, UnicodeError  # for which the input or the system is to blame
-
-
-def fault_of(error):
-    """What one of ERRORS says, with the code that a program ends with."""
-    if isinstance(error, Fault):
-        return error
-    if not isinstance(error, OSError):
-        return Fault(BAD_DATA, str(error))
-    text = ": ".join(filter(None, (error.filename, error.strerror)))
-    return Fault(NO_INPUT if isinstance(error, FileNotFoundError) else IO, text)
 
 
 def answer_of(work, item):
