@@ -6,6 +6,8 @@
 #include "documents/antenna_array.h"
 #include "radar/scan_timing.h"
 
+#define LEAST 1e-100 /* what is divided by less noise or fewer false alarms may be no double */
+
 static const char *const extents[] = {
     [CELL_WIDTH] = "width", [CELL_HALF_WIDTH] = "half_width", NULL};
 static const char *const phases[] = {[CELL_IN_PHASE] = "in_phase",
@@ -326,6 +328,10 @@ static double search_sigma(const struct sensor *sensor)
 
 void suite_derive(struct sensor *sensor)
 {
+    if (sensor->pointer_sigma < LEAST)
+        sensor->pointer_sigma = 0;
+    if (sensor->false_alarms < LEAST)
+        sensor->false_alarms = 0;
     derive_cells(sensor);
     sensor->threshold = units_amplitude_from_db(sensor->threshold_db);
     sensor->lowered_threshold =

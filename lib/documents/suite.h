@@ -121,7 +121,7 @@ extern const struct record sensor_record, suite_record;
 /* The sensor of that name, or NULL. */
 const struct sensor *suite_sensor(const struct suite *suite, const char *name);
 
-/* Sets a sensor's derived members, except the rows of tables. */
+/* Sets derived members but rows of tables. Noise or false alarms below 1e-100 become none. */
 void suite_derive(struct sensor *sensor);
 
 /* The farthest range that the sensor measures at an azimuth: straight between its range_limits and
