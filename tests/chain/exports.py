@@ -559,18 +559,21 @@ def parts_side_by_side_give_the_bytes_of_one(folder):
 
 
 def a_part_that_fails_ends_all(folder):
-    """With the message of the first input that is wrong; a scene that goes on in the next input is no fault."""
+    """With the message of the first frame that is wrong, as without parts; a scene that goes on in the next input is no fault."""
     frames = [frame_of([body("ego"), body("other", x=12)], [target()], i) for i in range(4)]
     other = [frame | {"scene": "other"} for frame in frames]
-    for name, found in (("first", frames[:2]), ("second", frames[2:]), ("whole", frames), ("other", other), ("wrong", [other[0] | {"ego": "nobody"}])):
+    for name, found in (("first", frames[:2]), ("second", frames[2:]), ("whole", frames), ("other", other), ("wrong", [other[0] | {"ego": "nobody"}]),
+                        ("bare", [frames[0] | {"targets": [target() | {"quality": {}}]}]), ("twice", [other[0], other[0]])):
         save(folder, name + ".jsonl", found)
     for form in ALL:
         export(folder, form, "--out", form, "whole.jsonl", "other.jsonl")
         export(folder, form, "-j3", "--out", form + "-parts", "first.jsonl", "second.jsonl", "other.jsonl")
         same(f"{folder}/{form}", f"{folder}/{form}-parts")
         for words, wrong in ((("whole.jsonl", "wrong.jsonl", "other.jsonl", "wrong.jsonl"), "export: wrong.jsonl:1: "),
+                             (("bare.jsonl", "twice.jsonl", "other.jsonl"), "export: bare.jsonl:1: targets[0].quality"),
                              (("whole.jsonl", "other.jsonl", "whole.jsonl"), "export: whole.jsonl:1: frame 0 of by-hand at 0 s; expected each scene once")):
-            assert export(folder, form, "-j2", "--out", "none", *words, status=65).startswith(wrong)
+            said = {export(folder, form, *jobs, "--out", "none", *words, status=65) for jobs in ((), ("-j2",), ("-j9",))}
+            assert len(said) == 1 and said.pop().startswith(wrong), said
         assert "none.jsonl: No such file" in export(folder, form, "-j2", "--out", "none", "whole.jsonl", "none.jsonl", status=66)
         assert not glob.glob(folder + "/none*")
     assert "export: -j 0; expected FORMAT --out DIR" in export(folder, "vod", "-j0", "--out", "none", "whole.jsonl", status=64)

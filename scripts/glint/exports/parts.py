@@ -7,9 +7,10 @@ import importlib
 from collections import Counter, namedtuple
 
 from glint.exports.folder import TABLES, Folder, Part
-from glint.exports.processes import side_by_side
+from glint.exports.processes import answer_of, side_by_side
 from glint.exports.streams import HEIGHT_M, Scenes, frames_of, is_read_again
 from glint.progress import Progress
+from glint.sets.plan import Fault
 from glint.sets.durable import new_folder
 
 PARTS_OF_A_JOB = 4  # so that all jobs end at about the same time
@@ -17,9 +18,14 @@ Written = namedtuple("Written", "scenes notes lacking counted assumed rest")  # 
 
 
 def survey(streams):
+    """The scenes of a part, up to its first fault. That is told when the part is written, as an earlier frame may have another one."""
     scenes = Scenes()
-    for _ in frames_of(streams, scenes, heads=True):
-        pass
+
+    def read(streams):
+        for _ in frames_of(streams, scenes, heads=True):
+            pass
+
+    scenes.fault = answer_of(read, streams)[1]
     return scenes
 
 
@@ -66,6 +72,8 @@ def write(layout, out, streams, jobs):
         parts, surveys = parts_of(streams, jobs)
         tasks = [(writer, layout, path, i, part, start) for i, (part, start) in enumerate(zip(parts, writer.starts(surveys)))]
         written = side_by_side(write_part, tasks, jobs)
+        if wrong := [one.fault for one in surveys if one.fault]:  # of an input that has changed since
+            raise Fault(*wrong[0])
         Scenes.tell_of_empty([part.scenes for part in written])
         folder = Folder(path)
         for name, heading in TABLES.items():

@@ -49,12 +49,22 @@ def received(process, end):
     return (None, (IO, f"one of its processes ended with exit status {status}")) if status else answer
 
 
+def end_after(running, number):
+    """Ends the processes of items after the one of this number."""
+    for end, (process, own) in [*running.items()]:
+        if own > number:
+            del running[end]
+            os.kill(process, signal.SIGTERM)
+            os.waitpid(process, 0)
+            end.close()
+
+
 def side_by_side(work, items, jobs):
-    """work(item) of each item, as many at a time as jobs, each in a process of its own; a single item needs none. The first fault is
-    raised when the items that were begun have ended."""
+    """work(item) of each item, as many at a time as jobs, each in a process of its own; a single item needs none. The fault that is
+    raised is that of the first item that has one: items before it go on to their end, and those after it are ended."""
     if len(items) == 1:
         return [work(items[0])]
-    waiting, running, answers = [*enumerate(items)], {}, {}
+    waiting, running, answers, wrong = [*enumerate(items)], {}, {}, []
     progress = Progress("parts", len(items))
     try:
         while waiting or running:
@@ -65,15 +75,13 @@ def side_by_side(work, items, jobs):
             for end in select.select([*running], [], [])[0]:
                 process, number = running.pop(end)
                 answers[number] = received(process, end)
-                if answers[number][1]:
-                    waiting.clear()
                 progress.step()
+            if wrong := [number for number, (_, fault) in answers.items() if fault]:
+                waiting.clear()
+                end_after(running, min(wrong))
     finally:
         progress.end()
-        for process, _ in running.values():
-            os.kill(process, signal.SIGTERM)
-            os.waitpid(process, 0)
-    for _, (_, fault) in sorted(answers.items()):
-        if fault:
-            raise Fault(*fault)
+        end_after(running, -1)
+    if wrong:
+        raise Fault(*answers[min(wrong)][1])
     return [answers[number][0] for number in range(len(items))]

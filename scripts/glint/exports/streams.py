@@ -238,6 +238,7 @@ class Scenes:
         self.spans_us = {}  # of each scene with scans: the time of its first scan, and of its last
         self.scans = Counter()  # of each radar
         self.now, self.number, self.time_s = None, 0, 0  # of the last frame
+        self.fault = None  # code and text of what ended a survey of them
 
     def add(self, frame):
         """Takes a frame; refuses one that is not the next of its scene, and a scene that is there already."""
