@@ -188,9 +188,9 @@ const struct stage stage_tables = {
         "each part its own. --npy writes arrays of NumPy, in which text is a number: the place of "
         "a name in names.json. schemas/README.md describes the tables. Readers take tables of "
         "CSV plain (.csv) or packed (.csv.gz, .csv.zst), so a folder with tables of CSV of another "
-        "kind is refused; arrays may lie beside them. Old tables go before the first new one "
-        "comes: where a run is killed meanwhile, some "
-        "tables are missing, and none is older than another. Run it again then.",
+        "kind is refused; arrays may lie beside them. Old tables are removed before the first new "
+        "one is written. So some tables are missing if a run is killed then, and none is of an "
+        "earlier run. Run it again then.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,
