@@ -29,5 +29,6 @@ const struct stage stage_extract = {
     .writes = PART_REFLECTORS | PART_VEHICLES,
     .start = extraction_start,
     .step = extract_step,
+    .locate_fault = extraction_locate_fault,
     .release = extraction_release,
 };

@@ -80,5 +80,6 @@ const struct stage stage_extract_contour = {
     .writes = PART_REFLECTORS | PART_VEHICLES,
     .start = extract_contour_start,
     .step = extract_contour_step,
+    .locate_fault = extraction_locate_fault,
     .release = extraction_release,
 };

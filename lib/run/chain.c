@@ -85,8 +85,10 @@ static int write_frame(struct chain *chain)
     if (runner->stage->sink || runner->stage->run != NULL)
         return 0;
     struct output *output = runner->outputs.items[0];
-    if (frame_text_write(&chain->frame, output_text(output), &runner->diag) != 0)
+    if (frame_text_write(&chain->frame, output_text(output), &runner->diag) != 0) {
+        name_place(chain, runner);
         return -1;
+    }
     return output_send(output, &runner->diag);
 }
 

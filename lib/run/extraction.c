@@ -5,6 +5,7 @@
 #include "base/hash.h"
 #include "documents/vehicle_set.h"
 #include "frame/frame_order.h"
+#include "text/record_write.h"
 
 static const struct field extraction_fields[] = {EXTRACTION_OPTIONS, {0}};
 
@@ -22,6 +23,18 @@ void extraction_release(void *state)
 {
     struct extraction *extraction = state;
     arena_free(&extraction->surfaces.arena);
+}
+
+int extraction_locate_fault(void *state, const struct frame *frame, struct runner *runner)
+{
+    (void)state;
+    struct diag *diag = runner_diag(runner);
+    for (size_t i = 0; i < frame->reflectors.count; i++) {
+        const struct reflector_set *set = &frame->reflectors.items[i];
+        if (record_write_check(&reflector_set_record, set, ~0U, diag) != 0)
+            return diag_prefix(diag, "class \"%s\": ", set->model);
+    }
+    return 0;
 }
 
 /* Forgets the surfaces of another scene. */

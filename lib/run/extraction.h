@@ -56,6 +56,9 @@ bool extraction_describe_surface(struct extraction *extraction, const struct sur
 /* Frees the surfaces; state begins with a struct extraction. */
 void extraction_release(void *state);
 
+/* For locate_fault: a contour may have a scatterer that is stronger than frames allow. */
+int extraction_locate_fault(void *state, const struct frame *frame, struct runner *runner);
+
 /* Finds the folder of the set, and refuses one that is not there; state begins with a struct
  * extraction. */
 int extraction_start(void *state, struct runner *runner);
