@@ -793,8 +793,7 @@ def spoil(record, path, value):
 
 
 def any_member_may_be_wrong(folder):
-    """Each member of the second frame is left out or replaced: what is not written is refused in one line, with 65, be the layout
-    that of nuScenes or that of KITTI, in turn."""
+    """Each member of the second frame is left out or replaced, in two layouts in turn: what is not written is refused in one line, with 65."""
     good = [frame_of([body("ego", vx=20), body("other", x=12)], [target(), target()], i, visibility=[
         {"sensor": "front", "object": "other", "reflectors": 2, "in_range": 1, "in_view": 1, "visibility": "v0-40"}]) for i in range(2)]
     os.environ.update(ENVIRONMENT)
