@@ -31,7 +31,8 @@ struct target_cell target_score_cell(const struct sensor_view *view, double azim
 
 bool target_score_has_cells(const struct sensor_view *view)
 {
-    return view->cell_range_m > 0 && view->cell_range_rate_mps > 0 && view->field_of_view_rad > 0;
+    return view->cell_range_m > 0 && view->cell_range_rate_mps > 0 &&
+           view->field_of_view_rad / 20 > 0;
 }
 
 double target_score_distance(const struct target *a, const struct target *b,
