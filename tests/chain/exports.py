@@ -610,6 +610,26 @@ def a_process_that_is_ended_is_a_fault(folder):
     os.setpgid(0, group)
 
 
+def processes_end_when_their_parent_is_killed(folder):
+    """They leave none of their temporary files, and do not work on to the end of their items."""
+    told, own_end = os.pipe()
+
+    def work(_):
+        with tempfile.TemporaryDirectory(dir=folder):
+            os.write(own_end, b"begun ")
+            time.sleep(60)
+        os.write(own_end, b"at the end ")
+
+    if (parent := os.fork()) == 0:
+        processes.side_by_side(work, (0, 0, 0), 2)
+        os._exit(0)
+    os.close(own_end)
+    assert os.read(told, 6) + os.read(told, 6) == b"begun begun "
+    os.kill(parent, signal.SIGKILL)
+    os.waitpid(parent, 0)
+    assert os.read(told, 6) == b"" and not os.listdir(folder), os.listdir(folder)  # nobody holds the other end
+
+
 def scenes_may_be_played_at_once(folder):
     """Frames of two scenes in turn, as those of two egos, give the bytes of one scene after the other; also without a last frame."""
     objects = [body("ego", vx=1), body("other", x=12)]
@@ -956,7 +976,8 @@ def pcl_reads_the_radar_files(folder):
 TESTS = [an_approaching_car, an_elevation_is_a_height, a_mirrored_scene_mirrors, a_turning_ego, codes_are_those_of_the_ars408,
          the_default_filter_keeps_the_valid_ones, every_token_resolves, points_in_boxes_are_counted, a_sample_is_of_its_newest_scan,
          boxes_lie_on_their_detections, labels_survive, cycles_make_sweeps, every_option_of_a_source_is_exported, parts_side_by_side_give_the_bytes_of_one,
-         a_part_that_fails_ends_all, a_process_that_is_ended_is_a_fault, scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone,
+         a_part_that_fails_ends_all, a_process_that_is_ended_is_a_fault, processes_end_when_their_parent_is_killed,
+         scenes_may_be_played_at_once, several_egos_are_exported_as_each_alone,
          a_seed_makes_another_scene, a_scene_without_a_scan_is_told, a_plan_of_several_egos_is_exported, a_plan_that_cannot_be_exported_makes_no_folder,
          lines_tables_and_sets_give_the_same_bytes, a_plan_names_exports, what_nobody_measured_is_said, what_formats_cannot_hold_is_refused,
          any_member_may_be_wrong, what_arrays_give_is_whole, any_member_of_a_layout_may_be_wrong, tables_that_are_no_tables, tables_that_lost_rows,

@@ -5,11 +5,14 @@ import pickle
 import select
 import signal
 import sys
+import threading
+import time
 
 from glint.exports.faults import ERRORS, fault_of
 from glint.progress import Progress
 from glint.sets.plan import IO, Fault
 
+LOOK_S = 0.5  # between two looks at whether the parent lives
 MOST_JOBS = 256  # each has a pipe, and a process has 1,024 files at most
 
 
@@ -22,9 +25,16 @@ def answer_of(work, item):
         return None, (fault.code, str(fault))
 
 
+def end_with(parent):
+    """Ends this process as an interrupt does, once its parent has ended: a parent that was killed could not tell it."""
+    while os.getppid() == parent:
+        time.sleep(LOOK_S)
+    signal.pthread_kill(threading.main_thread().ident, signal.SIGTERM)
+
+
 def begin(work, item):
     """Begins a process that sends the answer for an item; the process, and the end of a pipe where its answer comes."""
-    end, own_end = os.pipe()
+    (end, own_end), parent = os.pipe(), os.getpid()
     if process := os.fork():
         os.close(own_end)
         return process, open(end, "rb")
@@ -32,6 +42,7 @@ def begin(work, item):
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is for the caller, which then ends this process by SIGTERM
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that temporary files are removed
+        threading.Thread(target=end_with, args=(parent,), daemon=True).start()
         with contextlib.suppress(BrokenPipeError), open(own_end, "wb") as file:  # who would take the answer may have been ended
             pickle.dump(answer_of(work, item), file)
         code = 0
