@@ -128,10 +128,10 @@ const struct stage stage_cost = {
     .name = "cost",
     .summary = "Print what accuracy costs on these scenes: chains by time and error.",
     .details =
-        "Measures CPU time and error of chains of stages on a sample of the frames. For each effect "
-        "it prints how many target lists change without it, the time that leaving it out saves "
-        "and the squared error that this adds. The error is the distance of a chain's lists from "
-        "those of a reference, the root of an energy distance, in per cent of the distance of ideal "
+        "Measures CPU time and error of chains of stages on a sample of the frames. For each "
+        "effect it prints how many target lists change without it, the time that leaving it out "
+        "saves and the squared error that this adds. The error is the distance of a chain's lists "
+        "from those of a reference, the root of an energy distance, in per cent of that of ideal "
         "echoes. At 0 %, both have the same distribution of lists. The reference is the signal if "
         "the suite has a waveform and glint-sensor-signal lies beside this program, and otherwise "
         "the chain with all effects that the suite describes. Reflectors in the frames are used as "
