@@ -12,7 +12,7 @@
 struct tables_state {
     const char *folder;
     const char *copy; /* file for a copy of the frames; NULL: no copy */
-    bool plain, zstd, npy, without_objects, counts;
+    bool plain, zstd, npy, without_objects, counts, made; /* made: by this run, the folder */
     int64_t part;
     struct output *outputs[TABLE_COUNT], *copied, *named;
     struct detection_tables tables;
@@ -54,7 +54,8 @@ static int open_names(struct tables_state *own, struct runner *runner)
 
 static int open_outputs(struct tables_state *own, struct runner *runner)
 {
-    if (mkdir(own->folder, 0777) != 0 && errno != EEXIST)
+    own->made = mkdir(own->folder, 0777) == 0;
+    if (!own->made && errno != EEXIST)
         return diag_fail(runner_diag(runner), DIAG_CANNOT_CREATE, "DIR: %s: %s", own->folder,
                          strerror(errno));
     for (int i = 0; i < TABLE_COUNT; i++) {
@@ -67,6 +68,7 @@ static int open_outputs(struct tables_state *own, struct runner *runner)
             return -1;
         own->tables.rows[i] = output_text(own->outputs[i]);
     }
+    detection_tables_begin(&own->tables, own->part * DETECTION_TABLES_KEYS, runner_arena(runner));
     return own->npy ? open_names(own, runner) : 0;
 }
 
@@ -144,9 +146,6 @@ static int tables_run(void *state, struct runner *runner)
     struct tables_state *own = state;
     struct frame *frame;
     int more = open_others(own, runner) == 0 && open_outputs(own, runner) == 0 ? 1 : -1;
-    if (more > 0)
-        detection_tables_begin(&own->tables, own->part * DETECTION_TABLES_KEYS,
-                               runner_arena(runner));
     while (more > 0 && (more = runner_frame_ascending(runner, &frame)) > 0)
         if (add_frame(own, frame, runner) != 0)
             more = -1;
@@ -160,6 +159,8 @@ static void tables_release(void *state)
     struct tables_state *own = state;
     arena_free(&own->counted.open_names);
     npy_columns_end(&own->names);
+    if (own->made)
+        rmdir(own->folder); /* which fails if it has tables */
 }
 
 static const struct field tables_options[] = {
@@ -189,8 +190,7 @@ const struct stage stage_tables = {
         "a name in names.json. schemas/README.md describes the tables. Readers take tables of "
         "CSV plain (.csv) or packed (.csv.gz, .csv.zst), so a folder with tables of CSV of another "
         "kind is refused; arrays may lie beside them. Old tables are removed before the first new "
-        "one is written. So some tables are missing if a run is killed then, and none is of an "
-        "earlier run. Run it again then.",
+        "one is written: a run that is killed then leaves some out. Run it again.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,
