@@ -68,12 +68,13 @@ static int open_outputs(struct tables_state *own, struct runner *runner)
             return -1;
         own->tables.rows[i] = output_text(own->outputs[i]);
     }
+    if (own->npy && open_names(own, runner) != 0)
+        return -1;
     detection_tables_begin(&own->tables, own->part * DETECTION_TABLES_KEYS, runner_arena(runner));
-    return own->npy ? open_names(own, runner) : 0;
+    return 0;
 }
 
-/* Opens the outputs besides the folder: the copy and the counts. */
-static int open_others(struct tables_state *own, struct runner *runner)
+static int open_copy_and_counts(struct tables_state *own, struct runner *runner)
 {
     own->counted.arena = runner_arena(runner);
     if (own->plain + own->zstd + own->npy > 1)
@@ -145,7 +146,7 @@ static int tables_run(void *state, struct runner *runner)
 {
     struct tables_state *own = state;
     struct frame *frame;
-    int more = open_others(own, runner) == 0 && open_outputs(own, runner) == 0 ? 1 : -1;
+    int more = open_copy_and_counts(own, runner) == 0 && open_outputs(own, runner) == 0 ? 1 : -1;
     while (more > 0 && (more = runner_frame_ascending(runner, &frame)) > 0)
         if (add_frame(own, frame, runner) != 0)
             more = -1;
@@ -183,14 +184,14 @@ const struct stage stage_tables = {
     .name = "tables",
     .summary = "Write tables of targets, labels, objects, scans, sightings, losses and frames.",
     .details =
-        "The files are detections.csv.gz, objects.csv.gz and so on. Columns are the members of "
-        "the frame, with the same names and units. Columns that end in _key are whole numbers "
-        "that join the rows of two tables. The parts of one set need different keys: --part gives "
-        "each part its own. --npy writes arrays of NumPy, in which text is a number: the place of "
-        "a name in names.json. schemas/README.md describes the tables. Readers take tables of "
-        "CSV plain (.csv) or packed (.csv.gz, .csv.zst), so a folder with tables of CSV of another "
-        "kind is refused; arrays may lie beside them. Old tables are removed before the first new "
-        "one is written: a run that is killed then leaves some out. Run it again.",
+        "The files are detections.csv.gz, objects.csv.gz and so on; schemas/README.md describes "
+        "them. Columns are the members of the frame, with the same names and units; those that end "
+        "in _key are whole numbers that join the rows of two tables. The parts of a set need "
+        "different keys, by --part. --npy writes arrays of NumPy, in which text is the place of a "
+        "name in names.json. Readers take tables plain and packed (.csv, .csv.gz, .csv.zst), so a "
+        "folder with tables of another kind is refused; arrays may lie beside them. Old tables are "
+        "removed before the first new one is written: a run that is killed then leaves some out. "
+        "Run it again.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,
