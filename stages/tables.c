@@ -190,8 +190,7 @@ const struct stage stage_tables = {
         "different keys, by --part. --npy writes arrays of NumPy, in which text is the place of a "
         "name in names.json. Readers take tables plain and packed (.csv, .csv.gz, .csv.zst), so a "
         "folder with tables of another kind is refused; arrays may lie beside them. Old tables are "
-        "removed before the first new one is written: a run that is killed then leaves some out. "
-        "Run it again.",
+        "removed before the first new one is written; if a run is killed then, run it again.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,
