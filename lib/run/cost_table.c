@@ -238,12 +238,13 @@ void cost_table_write(const struct cost_table *table, const char *mark, uint64_t
                       struct text *text)
 {
     const struct cost_chain *whole = &table->chains.items[table->whole];
-    text_format(text,
-                "%sTimes are medians of %d rounds over %" PRId64 " frames; those of %s lie %.1f %% "
-                "apart.\n%sA time saved with < may be 0; below 0 it is time lost. A chain with ~ may "
-                "take as long as that.\n",
-                mark, TRIAL_ROUNDS, table->timed_frames, whole->chain,
-                100 * (whole->us_most - whole->us_least) / whole->us_per_frame, mark);
+    text_format(
+        text,
+        "%sTimes are medians of %d rounds over %" PRId64 " frames; those of %s lie %.1f %% "
+        "apart.\n%sA time saved with < may be 0; below 0 it is time lost. A chain with ~ may "
+        "take as long as that.\n",
+        mark, TRIAL_ROUNDS, table->timed_frames, whole->chain,
+        100 * (whole->us_most - whole->us_least) / whole->us_per_frame, mark);
     text_format(text, "%.1s\n", mark);
     write_chains(table, mark, text);
     if (table->effects.count == 0 || shown == 0)
