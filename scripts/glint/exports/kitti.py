@@ -10,7 +10,7 @@ WIDTH, HEIGHT = 1936, 1216  # of the camera's picture, as View-of-Delft's
 WIDEST_RAD = math.radians(160)  # field of view of the camera, at most
 NEAR_M = 0.1  # boxes are cut there before they are projected
 GOLDEN = (math.sqrt(5) - 1) / 2  # whose multiples lie far apart in [0, 1)
-UNKNOWN = "occluded is 3, unknown, in {} of {} boxes: --sections visibility tells it of those in view"
+UNKNOWN = "occluded is 3, unknown, in {} of {} boxes: of objects out of view, and without --sections visibility of all"
 OCCLUDED = {None: 3, 0: 2, 1: 1, 2: 1, 3: 0}  # by level of visibility
 
 

@@ -13,7 +13,7 @@ from glint.sets.plan import BAD_DATA, Fault
 
 MOST_POINTS = 1 << 15  # their numbers have 16 bits
 BEGIN_US, GAP_US, END_US = 10 ** 15, 10 ** 6, 2 ** 53  # of the first scene; between scenes; of what all readers of JSON can count
-UNKNOWN = "visibility_token is empty in {} of {} boxes: --sections visibility gives it to those in view"
+UNKNOWN = "visibility_token is empty in {} of {} boxes: of objects out of view, and without --sections visibility of all"
 MOTIONS = "ego_motion_cabin", "ego_motion_chassis"
 
 # An object in the world, and what tells whether a point is in its box: no point is whose square of the distance is above reach2.
