@@ -224,21 +224,21 @@ static void add_programs(struct text *text)
     for (int tool = 0; tool < 2; tool++)
         for (size_t i = 0; stages[i] != NULL; i++)
             if ((stages[i]->run != NULL) == tool)
-                text_format(text, "glint-%-18s %s  %s\n", stages[i]->name, tool ? "tool " : "stage",
-                            stages[i]->summary);
+                text_format(text, "glint-%-17s  %s  %s\n", stages[i]->name,
+                            tool ? "tool " : "stage", stages[i]->summary);
 }
 
 static void add_effects(struct text *text)
 {
     for (int i = 0; i < EFFECT_COUNT; i++)
-        text_format(text, "%-17s %-7s %s\n", effects_names[i], effect_homes[effect_table[i]->home],
+        text_format(text, "%-16s  %-7s %s\n", effects_names[i], effect_homes[effect_table[i]->home],
                     effect_table[i]->summary);
 }
 
 static void add_sections(struct text *text)
 {
     for (int i = 0; sections_names[i] != NULL; i++)
-        text_format(text, "%-11s %s\n", sections_names[i], sections_meanings[i]);
+        text_format(text, "%-10s  %s\n", sections_names[i], sections_meanings[i]);
 }
 
 static void add_effect(const struct effect *effect, struct text *text)
@@ -357,7 +357,7 @@ static int add_files(const struct listed_kind *kind, struct text *text, struct a
     for (size_t i = 0; i < list.names.count; i++) {
         const char *name = list.names.items[i];
         const char *path = document_find(NULL, kind->name, name, kind->ending, arena, diag);
-        text_format(text, "%-22s ", name);
+        text_format(text, "%-21s  ", name);
         if (path != NULL)
             kind->describe(name, path, text, arena);
         text_add_word(text, "\n");

@@ -1,14 +1,15 @@
 # Completions of glint's programs for bash: options from --help, names from `glint --list`.
 
-_glint_names() { # KIND: the first words of `glint --list KIND`
-    glint --list "$1" 2>/dev/null | cut -d ' ' -f 1
+_glint_names() { # KIND: what `glint --list KIND` has before two blanks
+    glint --list "$1" 2>/dev/null | sed 's/  .*//'
 }
 
 _glint_offer() { # BEFORE WORD: the names on standard input that begin with WORD, as a shell reads them; none is expanded
-    local name
+    local name quoted
     COMPREPLY=()
     while read -r name; do
-        [[ -z $name || $name != "$2"* ]] || COMPREPLY+=("$1$(printf %q "$name")")
+        quoted=$(printf %q "$name")
+        [[ -z $name || $name != "$2"* && $quoted != "$2"* ]] || COMPREPLY+=("$1$quoted")
     done
 }
 
@@ -51,4 +52,4 @@ _glint() {
     _glint_offer "" "$word" <<<"$values"
 }
 
-complete -F _glint glint $(glint --list programs 2>/dev/null | cut -d ' ' -f 1)
+complete -F _glint glint $(_glint_names programs)

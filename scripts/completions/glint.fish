@@ -1,7 +1,7 @@
 # Completions of glint's programs for fish: options from --help, names from `glint --list`.
 
-function __glint_names --description 'the first words of glint --list KIND'
-    glint --list $argv[1] 2>/dev/null | string replace -r '\s.*' ''
+function __glint_names --description 'what glint --list KIND has before two blanks'
+    glint --list $argv[1] 2>/dev/null | string replace -r '  .*' ''
 end
 
 function __glint_options --description 'the options of the program of this line'

@@ -1,8 +1,8 @@
 #compdef -P glint(-*)#
 # Completions of glint's programs for zsh: options from --help, names from `glint --list`.
 
-_glint_names() { # KIND: the first words of `glint --list KIND`
-    print -l ${${(f)"$(glint --list $1 2>/dev/null)"}%% *}
+_glint_names() { # KIND: what `glint --list KIND` has before two blanks
+    print -l ${${(f)"$(glint --list $1 2>/dev/null)"}%%  *}
 }
 
 _glint_values() { # OPTION: the names that it takes, or nothing
@@ -33,8 +33,8 @@ elif [[ $word == -* ]]; then
     compadd -- ${values:#*=}
 else
     case ${program:t} in
-        glint) compadd -- $(_glint_names pipelines) ;;
-        glint-traffic) compadd -- $(_glint_names scenarios) ;;
+        glint) compadd -- ${(f)"$(_glint_names pipelines)"} ;;
+        glint-traffic) compadd -- ${(f)"$(_glint_names scenarios)"} ;;
     esac
     _files
 fi

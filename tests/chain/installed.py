@@ -61,16 +61,18 @@ def check_programs():
 def check_completions(folder):
     """bash completes options by --help, and names of documents, effects and sections by `glint --list`, as a shell reads them."""
     os.makedirs(os.path.join(folder, "own/sensors"))
-    shutil.copy(os.path.join(PREFIX, "share/glint/data/sensors/lrr77.json"), os.path.join(folder, "own/sensors/it's.json"))
+    for name in "it's", "my radar", "a radar of a name that is as long as this":
+        shutil.copy(os.path.join(PREFIX, "share/glint/data/sensors/lrr77.json"), os.path.join(folder, f"own/sensors/{name}.json"))
     for words, expected in {"glint-ideal --sen": "--sensors=", "glint-ideal --sensors = lrr77-f": "lrr77-full",
                             "glint-ideal --effects = all,-gho": "all,-ghosts", "glint-noise --sections = none,qua": "none,quality",
                             "glint-extract --vehicles det": "detailed", "glint-traffic cut": "cut-in", "glint two": "two-vehicles",
-                            "glint --list sce": "scenarios", "glint-traffic --eg": "--ego=", "glint-ideal --sensors it": "it\\'s"}.items():
+                            "glint --list sce": "scenarios", "glint-traffic --eg": "--ego=", "glint-ideal --sensors it": "it\\'s", "glint-ideal --sensors my": "my\\ radar",
+                            "glint-ideal --sensors a\\ r": "a\\ radar\\ of\\ a\\ name\\ that\\ is\\ as\\ long\\ as\\ this"}.items():
         name = words.split()[0]
         told = run(f"""compopt() {{ :; }}; export GLINT_DATA=own; . {PREFIX}/share/bash-completion/completions/{name}
             COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1))
             _glint {name} "${{COMP_WORDS[-1]}}" "${{COMP_WORDS[-2]}}"; echo "${{COMPREPLY[@]}}" """, folder)
-        assert told.split() == [expected], f"{words} is completed as {told}"
+        assert told == expected + "\n", f"{words} is completed as {told}"
 
 
 def check_examples(folder):
