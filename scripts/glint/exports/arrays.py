@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 
 import glint
-from glint.exports.whole import NEEDED
+from glint.exports.whole import NEEDED, sensor_of
 from glint.places import BIN
 
 FRAMES_AT_ONCE = 256
@@ -102,9 +102,7 @@ def heads_of(path, tables):
         rows = iter(scans.take(sum(head["scans"] for head in found)))
         for head in found:
             head.place = f"{path}:{next(numbers)}"
-            listed = [*itertools.islice(rows, head["scans"])]
-            for one in listed:
-                one |= {"name": one["sensor"], "age_s": round(head["time_s"] - one["measured_s"], 9)}
+            listed = [sensor_of(one, head["time_s"]) for one in itertools.islice(rows, head["scans"])]
             head["sensors"] = {"suite": head["suite"], "list": listed}
         yield found
 

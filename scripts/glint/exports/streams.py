@@ -17,7 +17,7 @@ from collections import Counter, namedtuple
 import glint
 from glint import command_line
 from glint.exports.arrays import NotWhole, frames_of_arrays, heads_of_arrays
-from glint.exports.whole import checked
+from glint.exports.whole import checked, sensor_of
 from glint.places import DATA, SCHEMAS
 from glint.sets import schema
 from glint.sets.plan import BAD_DATA, NO_INPUT, Fault, read_json
@@ -100,7 +100,7 @@ def of_scans(table, frame, scans, once=()):
 
 def frame_of(row, scans, **members):
     """A frame of a row and of the rows of its scans."""
-    sensors = [one | {"name": one["sensor"], "age_s": round(row["time_s"] - one["measured_s"], 9)} for one in scans]
+    sensors = [sensor_of(one, row["time_s"]) for one in scans]
     known = {name: value for name, value in row.items() if name not in COUNTED}
     frame = glint.Frame(known, version=glint.VERSION, seed=str(row["seed"]), sensors={"suite": row.get("suite"), "list": sensors}, **members)
     frame.place = row.place

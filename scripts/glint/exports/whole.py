@@ -17,6 +17,11 @@ GIVEN_BY = {"quality": "give glint-ideal --sections quality", "objects:": "leave
             "targets:": "expected lists, as glint-noise writes them", "_m:": "glint-extract gives objects the sizes of their class"}
 
 
+def sensor_of(scan, time_s):
+    """The sensor of a frame at this time, as lines have it, by its row of the table of scans."""
+    return scan | {"name": scan["sensor"], "age_s": round(time_s - scan["measured_s"], 9)}
+
+
 def checked(frame):
     """The frame, if it has all that formats need."""
     if fault := glint.fault(frame, glint.FRAME) or glint.unjoined(frame):
