@@ -7,7 +7,7 @@
 # `part` waits for all before it and runs alone; `beside` runs beside others, one a core; `together` waits for all. A
 # command may be a function; any command that fails ends it, and its log says which. A part prints into a log, which is
 # shown when the part ends. After a failure the others run, too, but for `needed`: that part runs alone, and its failure
-# ends the script.
+# ends the script. In a part `place` is a new folder, which is removed when all parts have ended.
 #
 # A line of PARTS_SECONDS (absent: tests/seconds) has the seconds and the title of a part, and + behind the seconds where
 # most of them are for building, which is done once.
@@ -49,6 +49,8 @@ parts_fault() { # CODE COMMAND
 
 parts_start() { # TITLE COMMAND...
     local job title=$1 log=$parts_logs/$((parts_begun += 1))
+    local place=$log.place
+    mkdir "$place"
     shift
     set -m # a process group of its own, so that it can be ended with all that it has started
     (
