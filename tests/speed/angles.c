@@ -8,9 +8,9 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "base/units.h"
+#include "clock.h"
 #include "radar/monopulse.h"
 #include "support/sample.h"
 
@@ -47,13 +47,6 @@ static double azimuth_rad(const struct inverse *inverse, double delta, double su
 {
     return inverse->entries == 0 ? antenna_azimuth_rad(&dipoles, delta, sum)
                                  : by_table(inverse, delta, sum);
-}
-
-static double cpu_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
 }
 
 static double ns_per_call(const struct inverse *inverse, const double *delta, const double *sum)

@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <zlib.h>
 
+#include "clock.h"
 #include "digits.h"
 #include "plain.h"
 #include "support/sample.h"
@@ -117,13 +117,6 @@ static void run_plain_chain(struct bench *bench)
         *at++ = ',';
     }
     put_text(at - 1, "]}\n");
-}
-
-static double cpu_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
 }
 
 static double time_ns(void (*floor)(struct bench *bench), struct bench *bench, int sweeps)

@@ -5,11 +5,11 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "base/elementary.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "clock.h"
 #include "support/sample.h"
 
 enum { CALLS = 4096, SWEEPS = 25 };
@@ -97,13 +97,6 @@ static const struct {
     {"hypot", elementary_hypot, hypot, -200, 200, -200, 200},
     {"4 Gaussian draws", our_gaussians, libm_gaussians, 0, 1e6, 0, 100},
 };
-
-static double cpu_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
-}
 
 static double ns_per_call(double (*function)(double x, double y), const double *x, const double *y)
 {

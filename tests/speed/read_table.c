@@ -4,22 +4,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <csv.h>
 
+#include "clock.h"
 #include "digits.h"
 #include "recorded/recorded_row.h"
 #include "text/input.h"
 
 enum { PIECE = 1 << 16, MOST_COLUMNS = 256, ROW = 10, KEPT_ROWS = 4096 };
-
-static double cpu_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
-}
 
 /* ---- libcsv with from_chars ---- */
 
