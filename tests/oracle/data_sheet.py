@@ -12,10 +12,8 @@ import re
 import statistics
 import subprocess
 import sys
-from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from model import sensor, suite_of, thing  # noqa: E402
 from effects_noise import THRESHOLD, frames_of, listen, rms  # noqa: E402

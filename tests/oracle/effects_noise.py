@@ -10,10 +10,8 @@ import itertools
 import json
 import math
 import sys
-from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from model import ego, sensor, suite_of, thing  # noqa: E402
 from sizes import quick  # noqa: E402

@@ -13,10 +13,8 @@ import random
 import subprocess
 import sys
 import tempfile
-from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 import oracle  # noqa: E402
 import oracle_effects  # noqa: E402

@@ -9,10 +9,8 @@ use fixed seeds and are held to five standard errors.
 import json
 import math
 import sys
-from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from effects_noise import QUIET, THRESHOLD, check_even, check_share, frames_of, targets_of  # noqa: E402
 from model import ego, sensor, suite_of, thing  # noqa: E402

@@ -8,10 +8,8 @@ Statistics use fixed seeds and are held to five standard errors.
 import cmath
 import math
 import sys
-from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from effects_noise import check_even  # noqa: E402
 from model import ROOT, ego, everywhere, full_sensor, sensor, stripped, suite_of, thing  # noqa: E402

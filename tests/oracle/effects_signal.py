@@ -15,7 +15,6 @@ import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 from effects_noise import QUIET, frames_of, rms  # noqa: E402
 from model import ego, sensor, suite_of, thing  # noqa: E402

@@ -17,9 +17,8 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path += [str(Path(__file__).resolve().parents[1] / "support"), str(Path(__file__).resolve().parents[2] / "scripts")]
-import glint  # noqa: E402
 import model  # noqa: E402
+import glint  # noqa: E402
 from glint.recordings import readers  # noqa: E402
 from model import echo, ego, frame, sensor, suite_of, thing  # noqa: E402
 from sizes import quick  # noqa: E402

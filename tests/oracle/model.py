@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True
 import oracle  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "scripts"))
+sys.path += [str(ROOT / "tests/support"), str(ROOT / "scripts")]
 import glint  # noqa: E402
 
 TAU = math.tau

@@ -14,10 +14,8 @@ import random
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import data_sheet  # noqa: E402
 import model  # noqa: E402
 from effects_noise import frames_of, listen, rms  # noqa: E402

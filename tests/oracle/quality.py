@@ -10,10 +10,8 @@ import itertools
 import math
 import random
 import sys
-from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import effects_signal as signal  # noqa: E402
 import model  # noqa: E402
 import suites  # noqa: E402

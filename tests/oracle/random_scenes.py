@@ -10,10 +10,8 @@ import json
 import sys
 import tempfile
 from itertools import combinations
-from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import model  # noqa: E402
 import oracle  # noqa: E402
 from sizes import quick  # noqa: E402
