@@ -17,12 +17,10 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import recorded  # noqa: E402
-from recorded import BIN, check  # noqa: E402
+from recorded import BIN, ENV, ROOT, check  # noqa: E402
 
-ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 SPEED_MPS, SCAN_S = 30, 0.06
 THRESHOLD_DB, STRONG_DB = 14.2, 20.2
 RANGE_M, VIEW_RAD = (13, 179), math.radians(16)

@@ -24,10 +24,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import recorded  # noqa: E402
 import osi_rules  # noqa: E402
 from osi_messages import decode, messages_in, value_of  # noqa: E402
-from recorded import BIN, DATA, check  # noqa: E402
+from recorded import BIN, DATA, ENV, ROOT, check  # noqa: E402
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=os.path.join(ROOT, "data"))
 NAMED = 10**15
 PATHS = ["direct", "wall_object", "object_wall", "wall_object_wall", "wheel", "limb", "clutter", "false_alarm"]
 CLASSES = {"clutter": "OVERDRIVABLE", "false_alarm": "CLUTTER"} | {path: "INVALID" for path in PATHS[1:4]}

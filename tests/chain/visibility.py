@@ -12,15 +12,13 @@ import os
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import recorded  # noqa: E402
+from recorded import BIN, ENV, ROOT, check  # noqa: E402
 sys.path.append(os.path.join(ROOT, "scripts"))
 import glint  # noqa: E402
-import recorded  # noqa: E402
-from recorded import BIN, check  # noqa: E402
 
-ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 SILENT = {"facing_away", "no_specular_point", "switched_off"}
 LEVELS = ((0.4, "v0-40"), (0.6, "v40-60"), (0.8, "v60-80"), (2, "v80-100"))
 SHOWING = {"direct", "wheel", "limb"}
