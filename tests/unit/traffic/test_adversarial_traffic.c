@@ -4,40 +4,22 @@
 #include "documents/suite_file.h"
 #include "soundness/adversarial_traffic.h"
 #include "traffic/scenario.h"
-#include "traffic_models.h"
+#include "traffic_bench.h"
 
 #define SNAPSHOTS 4000
 #define DRAWS 100000
 
 static const struct random_address ADDRESS = {.seed = 1, .scene = 2, .frame = 3, .item = 4};
 
-struct bench {
-    struct arena documents, scratch;
-    struct random_traffic scene;
-    const struct suite *suite;
-    struct frame frame;
-};
-
-static int make_bench(void **state)
+static int make_adversarial_bench(void **state)
 {
-    struct bench *bench = check_make(state, sizeof *bench);
     struct diag diag = {0};
-    bench->frame.arena = &bench->scratch;
-    bench->frame.seed = 1;
+    make_bench(state);
+    struct bench *bench = *state;
     bench->scene.density = &adversarial_traffic_density;
-    load_traffic_models(bench->scene.models, &bench->documents);
     bench->suite = suite_file_load("srr24-pair-every-frame", &bench->documents, &diag);
     if (bench->suite == NULL)
         fail_msg("%s", diag.text);
-    return 0;
-}
-
-static int remove_bench(void **state)
-{
-    struct bench *bench = *state;
-    arena_free(&bench->documents);
-    arena_free(&bench->scratch);
-    free(bench);
     return 0;
 }
 
@@ -229,7 +211,7 @@ static bool starts_case(const struct object *object, const char *name)
            strcmp(object->id + length - 2, "-1") == 0;
 }
 
-FIXTURE(make_bench, remove_bench);
+FIXTURE(make_adversarial_bench, remove_bench);
 
 /* The rounding of places some 500 m from the origin moves every distance by some 1e-13. A few cases
  * have no solution: three points that stay above the threshold up to the largest range. */

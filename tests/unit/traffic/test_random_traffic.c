@@ -6,32 +6,9 @@
 #include "effects/effect.h"
 #include "traffic/random_traffic.h"
 #include "traffic/scenario.h"
-#include "traffic_models.h"
+#include "traffic_bench.h"
 
 #define SNAPSHOTS 400
-
-struct bench {
-    struct arena documents, scratch;
-    struct random_traffic scene;
-    struct frame frame;
-};
-
-static int make_bench(void **state)
-{
-    struct bench *bench = check_make(state, sizeof *bench);
-    bench->frame.arena = &bench->scratch;
-    load_traffic_models(bench->scene.models, &bench->documents);
-    return 0;
-}
-
-static int remove_bench(void **state)
-{
-    struct bench *bench = *state;
-    arena_free(&bench->documents);
-    arena_free(&bench->scratch);
-    free(bench);
-    return 0;
-}
 
 static const struct frame *snapshot(struct bench *bench, int density, uint64_t seed, int64_t number)
 {
