@@ -4,8 +4,6 @@
 #include "sensor/resolution_cell.h"
 #include "sensor_signal/detections.h"
 
-#define PI 3.14159265358979323846
-
 enum { SAMPLES = 32, REPETITIONS = 64 };
 
 /* A spectrum made of point responses, cells of 1 m and 0.25 m/s, a threshold of 2, echoes on

@@ -5,8 +5,6 @@
 #include "support/array_sensor.h"
 #include "support/signal_transform.h"
 
-#define PI 3.14159265358979323846
-
 enum { SAMPLES = 32, REPETITIONS = 32 };
 
 struct bench {
