@@ -113,7 +113,7 @@ TEST(stages_and_tools_have_a_line_each_with_their_sentence)
 {
     char line[512];
     for (size_t i = 0; stages[i] != NULL; i++) {
-        snprintf(line, sizeof line, "glint-%-18s %s  %s\n", stages[i]->name,
+        snprintf(line, sizeof line, "glint-%-17s  %s  %s\n", stages[i]->name,
                  stages[i]->run != NULL ? "tool " : "stage", stages[i]->summary);
         expect_line("programs", line, true);
     }
@@ -124,7 +124,7 @@ TEST(an_effect_is_listed_by_its_name_and_with_the_others)
     char line[512];
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const struct effect *effect = effect_table[i];
-        snprintf(line, sizeof line, "%-17s %-7s %s\n", effects_names[i], effect_homes[effect->home],
+        snprintf(line, sizeof line, "%-16s  %-7s %s\n", effects_names[i], effect_homes[effect->home],
                  effect->summary);
         expect_line("effects", line, true);
         snprintf(line, sizeof line, "described by %s\n", effect->cause);
