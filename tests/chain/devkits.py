@@ -13,13 +13,11 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from scripts import ENVIRONMENT, SCRIPTS  # noqa: E402
 import devkits  # noqa: E402
 from devkits import Tables, as_predictions, in_box, rotated  # noqa: E402
 
-ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 FORMS = "nuscenes", "truckscenes"
 EVERY_CLASS = {"car", "truck", "bus", "motorcycle", "bicycle", "pedestrian"}
 

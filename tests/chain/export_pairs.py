@@ -12,13 +12,11 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from scripts import ENVIRONMENT, ROOT, SCRIPTS  # noqa: E402
 from glint.exports.streams import Scenes, frames_of, scans_of, streams_of  # noqa: E402
 from pairs import covering  # noqa: E402
 
-ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 LAYOUTS = "nuscenes", "truckscenes", "openpcdet", "kitti", "vod"
 RECORDED = {"licence": "MIT", "source": "glint"}
 HIGHWAY = {"recording": ROOT + "/data/trajectories/highway.csv", "from_s": 0, "to_s": 0.6, "rate_hz": 10} | RECORDED

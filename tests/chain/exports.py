@@ -24,27 +24,21 @@ import tempfile
 import time
 
 sys.dont_write_bytecode = True
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from scripts import ENVIRONMENT, ROOT, SCRIPTS, in_a_fork, members, shell  # noqa: E402
 import glint  # noqa: E402
 from glint.exports import arrays, processes, whole  # noqa: E402
 from devkits import FIELDS, Tables, in_box, read_pcd, read_truckscenes  # noqa: E402
 import signals  # noqa: E402
-from scripts import in_a_fork, members  # noqa: E402
 from sentences import prove  # noqa: E402
 
-ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
+os.environ.update(ENVIRONMENT)
 FORMATS = "nuscenes", "truckscenes", "kitti", "vod"
 ALL = *FORMATS, "openpcdet"  # which leaves out scans without a box
 QUALITY = {"snr_db": 20, "rcs_dbsm": 5.5, "range_sd_m": 0.1, "range_rate_sd_mps": 0.05, "azimuth_sd_rad": 0.01, "existence": 0.995,
            "range_rate_interval_mps": 97.3, "ambiguity_number": 0, "range_rate_over_ground_mps": 2.0} | {
                f"{axis}_{origin}_m": place for origin, places in {
                    "sensor": (10, 0), "centre": (12.25, 0), "rear_axle": (13.5, 0), "world": (12.25, 0)}.items() for axis, place in zip("xy", places)}
-
-
-def shell(command, folder):
-    return subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=ENVIRONMENT, check=True, capture_output=True, text=True).stdout
 
 
 def export(folder, *words, status=0, **more):
@@ -507,7 +501,6 @@ SOURCES = {  # options of the sources that make other scenes, seeds or times; ho
 def every_option_of_a_source_is_exported(folder):
     """In every layout, from lines and from tables: all scans of all scenes, with their seeds."""
     shutil.copy(ROOT + "/data/trajectories/highway.csv", folder)
-    os.environ.update(ENVIRONMENT)
     os.chdir(folder)
     for name, (source, scenes) in SOURCES.items():
         shell(f"{source} | glint-extract | glint-ideal --sensors corner77-four --sections quality,visibility | glint-sensor | glint-noise > list.jsonl;"
@@ -816,7 +809,6 @@ def any_member_may_be_wrong(folder):
     """Each member of the second frame is left out or replaced, in two layouts in turn: what is not written is refused in one line, with 65."""
     good = [frame_of([body("ego", vx=20), body("other", x=12)], [target(), target()], i, visibility=[
         {"sensor": "front", "object": "other", "reflectors": 2, "in_range": 1, "in_view": 1, "visibility": "v0-40"}]) for i in range(2)]
-    os.environ.update(ENVIRONMENT)
     os.chdir(folder)
     refused, forms = 0, itertools.cycle(("nuscenes", "kitti"))
     for path in list(members(good[1])):
@@ -864,7 +856,6 @@ def what_arrays_give_is_whole(folder):
 def any_member_of_a_layout_may_be_wrong(folder):
     """Each is left out or replaced: the document is refused, or the export is made."""
     save(folder, "hand.jsonl", [frame_of([body("ego"), body("other", x=12)], [target()])])
-    os.environ.update(ENVIRONMENT)
     os.chdir(folder)
     for form in ("nuscenes", "kitti", "openpcdet"):
         with open(f"{ROOT}/data/exports/{form}.json", encoding="utf-8") as file:
@@ -885,7 +876,6 @@ def each_table(folder):
     """Name, path and text of each table in the folder `good`. Each gets its text back before the next one's turn."""
     shell("glint-traffic two-vehicles | glint-extract | glint-ideal --sensors corner77-four --sections quality,visibility,account | glint-sensor"
           " | glint-noise > list.jsonl; head -3 list.jsonl | glint-tables --plain good", folder)
-    os.environ.update(ENVIRONMENT)
     os.chdir(folder)
     for name in ("frames", "objects", "scans", "detections", "contributors", "sightings", "lost"):
         path = os.path.join("good", name + ".csv")

@@ -5,25 +5,18 @@ import json
 import math
 import os
 import shutil
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from scripts import ENVIRONMENT, SCRIPTS, in_a_fork, shell  # noqa: E402
 import glint  # noqa: E402
 from glint.imports import nuscenes  # noqa: E402
-from scripts import in_a_fork  # noqa: E402
 from sentences import prove  # noqa: E402
 
-os.environ.update(PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
+os.environ.update(ENVIRONMENT)
 CHAIN = "glint-extract | glint-ideal --sections quality --sensors corner77-four | glint-sensor | glint-noise"
 ASSUMED = "import: the ego's box is assumed, as no table has it: car, 4.08 x 1.73 m, its rear axle 1.39 m behind the middle\n"
-
-
-def shell(command, folder):
-    return subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, check=True, capture_output=True, text=True).stdout
 
 
 def frames_of(text):

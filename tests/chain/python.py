@@ -12,11 +12,9 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from scripts import ROOT, SCRIPTS, in_a_fork, members  # noqa: E402
 import glint  # noqa: E402
-from scripts import in_a_fork, members  # noqa: E402
 from sentences import prove  # noqa: E402
 
 ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"],

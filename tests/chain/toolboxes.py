@@ -14,19 +14,13 @@ import sys
 import numpy
 
 sys.dont_write_bytecode = True
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path[:0] = [SCRIPTS, os.path.join(ROOT, "tests", "support")]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from scripts import ENVIRONMENT, ROOT, SCRIPTS, shell  # noqa: E402
 from glint.exports import kitti  # noqa: E402
 from rotated_overlap import LEAST_OVERLAP, average_precision, overlaps  # noqa: E402
 from sentences import prove  # noqa: E402
 
-ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 OFF_M = 0.008, 0.006  # a centimetre, along no side of a box
-
-
-def shell(command, folder):
-    return subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=ENVIRONMENT, check=True, capture_output=True, text=True).stdout
 
 
 def export(folder, *words):

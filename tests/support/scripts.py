@@ -1,11 +1,20 @@
-"""Runs of users' scripts within a test, and the members of what they read."""
+"""Runs of users' scripts within a test, where their package and the programs are, and the members of what they read."""
 import os
 import runpy
+import subprocess
 import sys
 import tempfile
 import traceback
 
-SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SCRIPTS = os.path.join(ROOT, "scripts")
+sys.path.insert(0, SCRIPTS)
+# With the programs of the folder that a test is given, and the shipped documents.
+ENVIRONMENT = dict(os.environ, PATH=os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
+
+
+def shell(command, folder):
+    return subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=ENVIRONMENT, check=True, capture_output=True, text=True).stdout
 
 
 def in_a_fork(name, words):
