@@ -17,9 +17,8 @@ import zlib
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
 import numpy as np  # noqa: E402
-from signal_alone import Program, ROOT, strength  # noqa: E402
+from signal_alone import HEAD, Program, ROOT, strength  # noqa: E402
 from sizes import quick  # noqa: E402
 
 TAPERS = ("rectangular", "hann", "taylor", "chebyshev")
@@ -169,13 +168,9 @@ class Chain(Program):
         are where each has a range and a range rate."""
         suite = self.scratch / "suite.json"
         suite.write_text(json.dumps({"origin": "Made by tests/oracle/arrays.py.", "sensors": [sensor]}))
-        ego = {"id": "ego", "class": "car", "length_m": 4, "width_m": 2, "height_m": 1,
-               **dict.fromkeys(("x_m", "y_m", "yaw_rad", "vx_mps", "vy_mps", "yaw_rate_radps", "travelled_m"), 0)}
-        head = {"version": 1, "scene": "scene", "frame": 0, "time_s": 1, "interval_s": 1, "last": True,
-                "seed": str(SEED), "ego": "ego", "objects": [ego]}
         asked = f"--sections {sections}" if sections else ""
         empty, = self.run(f"glint-extract | glint-ideal {asked} --sensors {suite} --effects {effects}",
-                          json.dumps(head))
+                          json.dumps(HEAD | {"seed": str(SEED)}))
         lines, name = [], zlib.crc32(repr((sensor, cells)).encode())  # other cells meet other draws
         for begin in range(0, len(cells), a_frame):
             echoes = []

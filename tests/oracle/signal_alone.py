@@ -30,6 +30,10 @@ FAST = 4e12  # Hz/s: chirps of 20 us with the cells of lrr77
 # How near the parabola of MODEL 11.3 comes to the summit of a spectrum, in cells and dB; shipped suites have Hann's
 # window.
 NEAR = {"hann": (0.005, 0.05), "rectangular": (0.011, 0.12)}
+EGO = {"id": "ego", "class": "car", "length_m": 4, "width_m": 2, "height_m": 1,
+       **dict.fromkeys(("x_m", "y_m", "yaw_rad", "vx_mps", "vy_mps", "yaw_rate_radps", "travelled_m"), 0)}
+# A frame of the ego alone, but for its seed.
+HEAD = {"version": 1, "scene": "scene", "frame": 0, "time_s": 1, "interval_s": 1, "last": True, "ego": "ego", "objects": [EGO]}
 
 
 # ---- a radar, from its waves ------------------------------------------------------------------
@@ -221,11 +225,7 @@ class Program:
         """The targets of scans, each of which is a list of points (range, rate, ERCS) on boresight."""
         suite = self.scratch / "suite.json"
         suite.write_text(json.dumps({"origin": "Made by tests/oracle/signal_alone.py.", "sensors": [sensor]}))
-        ego = {"id": "ego", "class": "car", "length_m": 4, "width_m": 2, "height_m": 1,
-               **dict.fromkeys(("x_m", "y_m", "yaw_rad", "vx_mps", "vy_mps", "yaw_rate_radps", "travelled_m"), 0)}
-        head = {"version": 1, "scene": "scene", "frame": 0, "time_s": 1, "interval_s": 1, "last": True,
-                "seed": str(SEED), "ego": "ego", "objects": [ego]}
-        empty, = self.run(f"glint-extract | glint-ideal --sensors {suite} --effects {effects}", json.dumps(head))
+        empty, = self.run(f"glint-extract | glint-ideal --sensors {suite} --effects {effects}", json.dumps(HEAD | {"seed": str(SEED)}))
         lines = []
         for number, points in enumerate(scans):
             echoes = [{"sensor": sensor["name"], "object": "point", "reflector": str(n), "path": "direct",
