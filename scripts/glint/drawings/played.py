@@ -7,6 +7,7 @@ import subprocess
 
 import glint
 from glint.places import DATA, GLINT
+from glint.sets.plan import read_json
 
 
 class Bench:
@@ -17,8 +18,7 @@ class Bench:
         for kind in ("vehicles", "sensors", "scenarios", "antennas"):
             shutil.copytree(os.path.join(DATA, kind), os.path.join(folder, kind))
         # The suite "probe": one sensor of the paper's in the middle of a standing observer.
-        with open(self.path("sensors", "srr24-pair"), encoding="utf-8") as file:
-            sensor = json.load(file)["sensors"][0]
+        sensor = read_json(self.path("sensors", "srr24-pair"))["sensors"][0]
         sensor.update(name="probe", mount_x_m=0, mount_y_m=0)
         sensor.pop("cycle_s")  # a scan in every frame
         self.write("sensors", "probe", {"origin": "scripts/figures", "sensors": [sensor]})

@@ -141,9 +141,6 @@ def picture_echoes(bench, path):
     drawing.save(path, "A scene, the targets that two radars list of it, and the echoes that made each target")
 
 
-WALLED = {"ego": "ego", "van": "van"}
-
-
 def picture_ghosts(bench, path):
     """Mirror ghosts of an oncoming car, and the way that the waves of the farthest one took."""
     frame = as_measured(bench.run("glint-traffic walled-road | glint-extract | glint-ideal --sensors lrr77-full"
@@ -160,7 +157,7 @@ def picture_ghosts(bench, path):
     real = (image[0], 2 * foot[1] - image[1])
     near = Drawing((340, 256), 27, image[0] - 5, image[1] + 2.6)
     for canvas in (drawing, near):
-        draw_bodies(canvas, frame, view, WALLED if canvas is drawing else {"oncoming_1": "_oncoming car"})
+        draw_bodies(canvas, frame, view, {"ego": "ego", "van": "van"} if canvas is drawing else {"oncoming_1": "_oncoming car"})
         for start, end in ((view.mount("front"), foot), (foot, real)):
             canvas.line(start, end, "path")
         canvas.line(foot, image, "merged")
@@ -222,12 +219,14 @@ def still(path, frame, x_range, y_range, title, extra=None):
     drawing.save(path, title)
 
 
-def figure_1(bench, path):
-    still(path, bench.still("corner-approach", 3.36), (-2, 17), (-5, 5), "At 11 m the corner alone answers")
+def still_of(scenario, time_s, *view):
+    """What draws a still of a scenario at a time, by the ranges of places and the title."""
+    return lambda bench, path: still(path, bench.still(scenario, time_s), *view)
 
 
-def figure_2(bench, path):
-    still(path, bench.still("corner-approach", 4.64), (-2, 12), (-4.5, 3), "At 5 m the wheel houses answer, too")
+figure_1 = still_of("corner-approach", 3.36, (-2, 17), (-5, 5), "At 11 m the corner alone answers")
+figure_2 = still_of("corner-approach", 4.64, (-2, 12), (-4.5, 3), "At 5 m the wheel houses answer, too")
+figure_10 = still_of("two-vehicles", 0.04, (-2, 22), (-5, 5), "Two cars, one target in the middle")
 
 
 def figure_4(bench, path):
@@ -244,10 +243,6 @@ def figure_4(bench, path):
                     drawing.line(view.mount(target["sensor"]),
                                  view.polar(target["sensor"], part["range_m"], part["azimuth_rad"]), "pointer")
     still(path, frame, (-2, 12), (-4, 4), "The side mirrors: straight ahead, at zero speed", motion)
-
-
-def figure_10(bench, path):
-    still(path, bench.still("two-vehicles", 0.04), (-2, 22), (-5, 5), "Two cars, one target in the middle")
 
 
 def figure_14(bench, path):
