@@ -29,9 +29,7 @@ def shard_of(stretches, split, suite, number, plan, plan_folder):
 
 def shards_of(plan, plan_folder):
     """All shards: of each split all suites, of each suite all seeds, of each seed all sources."""
-    size, by_split = plan["frames_per_shard"], {}
-    for split in plan.get("splits", {}).get("shares", {}):
-        by_split[split] = []
+    size, by_split = plan["frames_per_shard"], {split: [] for split in plan.get("splits", {}).get("shares", {})}
     for seed in plan.get("seeds", [1]):
         for source in plan["sources"]:
             for split, stretches in stretches_of(plan, source, seed, size, plan_folder).items():
