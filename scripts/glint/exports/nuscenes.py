@@ -8,7 +8,7 @@ from collections import namedtuple
 
 import glint
 from glint.exports.radar_files import MOVING_MPS, RadarFiles
-from glint.exports.streams import identity, line, number, scans_of, visibility, word
+from glint.exports.streams import boxes, identity, line, number, scans_of, visibility, word
 from glint.sets.plan import BAD_DATA, Fault
 
 MOST_POINTS = 1 << 15  # their numbers have 16 bits
@@ -42,14 +42,12 @@ def turn(yaw):
 
 
 def moment_of(frame, age_s):
-    origin_x, origin_y, boxes = frame.get("origin_x_m", 0), frame.get("origin_y_m", 0), []
-    for one in frame["objects"]:
-        if one["id"] != frame["ego"]:
-            one = glint.earlier(one, age_s)
-            length, width, yaw = one["length_m"], one["width_m"], one["yaw_rad"]
-            boxes.append(Box(one["id"], one["class"], one["x_m"] + origin_x, one["y_m"] + origin_y, yaw, math.hypot(one["vx_mps"], one["vy_mps"]),
-                             length, width, one["height_m"], math.cos(yaw), math.sin(yaw), (length * length + width * width) / 3.9))
-    return Moment(glint.ego(frame, age_s), boxes)
+    found = []
+    for one in boxes(frame, age_s):
+        length, width, yaw = one["length_m"], one["width_m"], one["yaw_rad"]
+        found.append(Box(one["id"], one["class"], one["x_m"], one["y_m"], yaw, math.hypot(one["vx_mps"], one["vy_mps"]),
+                         length, width, one["height_m"], math.cos(yaw), math.sin(yaw), (length * length + width * width) / 3.9))
+    return Moment(glint.ego(frame, age_s), found)
 
 
 def points_in(boxes, places):
