@@ -10,6 +10,7 @@ from glint.sets.durable import digest_of_file, make_folder, whole_file
 from glint.sets.plan import BAD_DATA, FROM_FILES, NO_INPUT, Fault, is_own, kind_of, read_json, refuse, stages_of
 
 DOCUMENTS = "documents"
+TABLES = "antenna_table", "range_curve", "azimuth_curve", "elevation_curve", "azimuth_floor_curve"  # members of sensors
 FOLDERS = {"recording": "trajectories", "scenario": "scenarios", "suite": "sensors", "export": "exports"}
 
 
@@ -43,9 +44,6 @@ def is_name(word):
 
 def suite_name(word):
     return os.path.splitext(os.path.basename(word))[0]
-
-
-TABLES = "antenna_table", "range_curve", "azimuth_curve", "elevation_curve", "azimuth_floor_curve"
 
 
 def base_of(suite, path, extending):
