@@ -53,8 +53,8 @@ def show(heading, scenes, rows, cells):
         say(f"| `{row}` | " + " | ".join(cells(scene, row) for scene in scenes) + " |")
 
 
-def run(glint, folder):
-    scenes = [Scene(glint, name, folder) for name in SCENES]
+def run(options, folder):
+    scenes = [Scene(options.glint, name, folder) for name in SCENES]
     show("`--sections`", scenes, CHOICES, lambda scene, choice: scene.measure(choice, "lines"))
     say("")
     show("written as", scenes, FORMS, lambda scene, form: scene.measure(DEFAULT, form))

@@ -53,13 +53,13 @@ def sample(glint, path, repeat, folder):
     return samples
 
 
-def lines(glint, repeat, folder):
+def lines(options, folder):
     for scene, source in SCENES.items():
         path = os.path.join(folder, "frames")
-        frames = write_frames(glint, source, path)
+        frames = write_frames(options.glint, source, path)
         counted = counts.available() and dict(zip(EFFECTS, counts.side_by_side(
-            lambda effects: instructions(glint, path, effects), EFFECTS)))
-        samples = sample(glint, path, repeat, folder)
+            lambda effects: instructions(options.glint, path, effects), EFFECTS)))
+        samples = sample(options.glint, path, options.repeat, folder)
         for (effects, part), values in samples.items():
             line = {"scene": scene, "effects": effects, "part": part, "frames": frames}
             if counted:

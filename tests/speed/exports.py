@@ -82,22 +82,22 @@ class Layout:
                 f"{statistics.median(of_bound):6.2f}  {min(of_bound):.2f} to {max(of_bound):.2f}")
 
 
-def run(glint, folder, repeat):
+def run(options, folder):
     frames = os.path.join(folder, "frames.jsonl")
-    os.environ["BUILD"] = os.path.dirname(os.path.dirname(os.path.abspath(glint)))
+    os.environ["BUILD"] = os.path.dirname(os.path.dirname(os.path.abspath(options.glint)))
     os.environ["PYTHONPYCACHEPREFIX"] = os.path.join(folder, "modules")  # compiled once, as where Python may write beside them
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    chain = [glint, "-c", CHAIN.format(SUITE, frames)]
+    chain = [options.glint, "-c", CHAIN.format(SUITE, frames)]
     subprocess.run(chain, check=True)
     found = [Layout(name, [sys.executable, EXPORT, name, "--out", os.path.join(folder, name), frames], folder) for name in layouts()]
     found += [Layout(name, [name, frames, "-o", os.path.join(folder, name)], folder) for name in PROGRAMS if shutil.which(name)]
     for layout in found:
         layout.list_files()
-    for _ in range(repeat):
+    for _ in range(options.repeat):
         chain_ms = cpu_ms(chain)
         for layout in found:
             layout.measure(chain_ms)
-    say(f"{FRAMES} frames of {SUITE}, {repeat} rounds, medians of CPU time; the chain takes "
+    say(f"{FRAMES} frames of {SUITE}, {options.repeat} rounds, medians of CPU time; the chain takes "
         f"{statistics.median(found[0].chains):.0f} ms\n"
         f"layout        files  empty ms  export ms  chains   of its bound (least to most)")
     for layout in found:

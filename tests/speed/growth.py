@@ -215,13 +215,13 @@ def growth(glint, case, size, folder):
     return (many - some) / (some - few)
 
 
-def run(glint, folder):
+def run(options, folder):
     """Prints a line for each case; returns the exit status, which growth alone decides."""
     say("    size   CPU time   growth   of")
     faster = 0
     for case, size, small in Progress("cases").over(CASES, cost=lambda _: 1):
-        measured = growth(glint, case, small, folder) if counts.available() else 0
-        say(f"{size:8,} {cpu_s(glint, case(glint, folder, size)):8.3f} s {measured:8.2f}   {case.__doc__}")
+        measured = growth(options.glint, case, small, folder) if counts.available() else 0
+        say(f"{size:8,} {cpu_s(options.glint, case(options.glint, folder, size)):8.3f} s {measured:8.2f}   {case.__doc__}")
         faster += measured > MOST
     if faster > 0:
         say(f"bench: {faster} grow faster than {MOST}")

@@ -122,7 +122,7 @@ def whole(glint, text):
     return int(re.search(r"I +refs: +([\d,]+)", told)[1].replace(",", ""))
 
 
-def release(glint):
+def release(options, _):
     """Prints what the build of `make release` takes of the instructions of this one, and for labels of those of the
     fixed commit; the exit status is 1 where it takes more than RELEASE_SHARE, or there RELEASE_MOST."""
     if not counts.available():
@@ -131,7 +131,7 @@ def release(glint):
     for scene in RELEASE_CHAINS:
         texts = [" | ".join(scenes.commands(*scene[:3], frames, scene[3])) for frames in (counts.FIRST, counts.FIRST + FRAMES)]
         few, many, fast_few, fast_many = counts.side_by_side(
-            lambda job: whole(*job), [(binary, text) for binary in (glint, RELEASE) for text in texts])
+            lambda job: whole(*job), [(binary, text) for binary in (options.glint, RELEASE) for text in texts])
         shares.append((fast_many - fast_few) / (many - few))
         say("{:16.3f}   {}-{}x{}, {}".format(shares[-1], *scene))
     since = shares[0] * read(RECORD)[KINDS[0]][LABELS] / fixed[KINDS[0]][LABELS]
@@ -213,22 +213,22 @@ def write(record, fixed):
         out.write(page[:start] + "\n".join(printed(record, fixed)) + page[end:])
 
 
-def run(glint, renew, folder):
+def run(options, folder):
     """Runs the guard; returns the exit status."""
     if not counts.available():
         return 0
-    record, fixed, platform = read(RECORD), read(FIXED), counts.platform(glint)
-    found = measure(glint, folder)
+    record, fixed, platform = read(RECORD), read(FIXED), counts.platform(options.glint)
+    found = measure(options.glint, folder)
     say("\n".join(printed(found, fixed)))
-    faults = [*growing(glint, folder), *held_ratios(glint, folder)]
+    faults = [*growing(options.glint, folder), *held_ratios(options.glint, folder)]
     foreign = [key for key, value in platform.items() if fixed[key] != value]
     if foreign:
         say(f"not held to the records, which are of another {', '.join(foreign)}")
     else:
         faults += over_share(found[KINDS[0]], fixed)
-        faults += [] if renew else off_record(found[KINDS[0]], record[KINDS[0]])
+        faults += [] if options.renew else off_record(found[KINDS[0]], record[KINDS[0]])
     for fault in faults:
         say(f"bench: {fault}")
-    if renew:
+    if options.renew:
         write(platform | found, fixed)
     return 1 if faults else 0

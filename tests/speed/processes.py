@@ -49,10 +49,10 @@ def start_commands(glint, folder):
     return found
 
 
-def start_lines(glint, repeat, folder):
+def start_lines(options, folder):
     """Times from start to end over one frame, documents included; `true` is the time of any process."""
-    commands, samples = start_commands(glint, folder), {}
-    for _ in range(4 * repeat):
+    commands, samples = start_commands(options.glint, folder), {}
+    for _ in range(4 * options.repeat):
         for program, (command, _) in commands.items():
             told = timing.spent(command)["spent"]
             samples.setdefault(program, []).append((told["wall_ns"], told["cpu_ns"]))
@@ -62,18 +62,18 @@ def start_lines(glint, repeat, folder):
                | {"cpu_ns": round(statistics.median(cpus))})
 
 
-def shard_lines(glint, repeat, folder, frames=1000, reads=15):
+def shard_lines(options, folder, frames=1000, reads=15):
     """Times of one process over a stream of frames, and of two processes over half of it each."""
     source, *stages = scenes.commands("highway", 20, 1, frames, "default")
     lines = os.path.join(folder, "shards.jsonl")
-    subprocess.run([glint, "-c", f"{source} -o {lines}"], check=True)
+    subprocess.run([options.glint, "-c", f"{source} -o {lines}"], check=True)
 
     def run(times):
         text = " | ".join([" ".join([stages[0]] + [lines] * times)] + stages[1:])
-        return f"{glint} -c '{text}'"
+        return f"{options.glint} -c '{text}'"
     commands = {"one": run(2 * reads), "two": f"{run(reads)} & other=$!; {run(reads)} && wait $other"}
     samples = {"one": [], "two": []}
-    for _ in range(repeat):
+    for _ in range(options.repeat):
         for name, command in commands.items():
             told = timing.spent(["bash", "-c", command])["spent"]
             samples[name].append(told["wall_ns"] / (2 * reads * frames))
@@ -97,19 +97,19 @@ def trips(commands, lines):
     return took
 
 
-def round_trip_lines(glint_program, folder, frames=1000):
+def round_trip_lines(options, folder, frames=1000):
     """Wall times of the way there and back of a simulator in the loop, through processes and through one."""
     source, *stages = scenes.commands("highway", 20, 1, frames, "default")
     path = os.path.join(folder, "trips.jsonl")
-    subprocess.run([glint_program, "-c", f"{source} -o {path}"], check=True)
+    subprocess.run([options.glint, "-c", f"{source} -o {path}"], check=True)
     with open(path, "rb") as file:
         lines = file.readlines()
-    programs = [[os.path.join(os.path.dirname(glint_program), word) if at == 0 else word
+    programs = [[os.path.join(os.path.dirname(options.glint), word) if at == 0 else word
                  for at, word in enumerate(stage.split())] for stage in stages]
-    for mode, commands in (("fused", [[glint_program, "-c", " | ".join(stages)]]), ("piped", programs)):
+    for mode, commands in (("fused", [[options.glint, "-c", " | ".join(stages)]]), ("piped", programs)):
         took = trips(commands, lines)
         yield {"round_trip": mode, "processes": len(commands)} | spread_of(took)
-    yield from loop_lines(glint_program, folder)
+    yield from loop_lines(options.glint, folder)
 
 
 def loop_lines(glint_program, folder, frames=500):
@@ -169,13 +169,13 @@ def pipe(commands, source=subprocess.DEVNULL):
     return processes
 
 
-def stream_lines(glint, frames):
+def stream_lines(options, _):
     """Lines about the platoon, in which everyone has the ego's speed, in so many frames, fused and piped."""
-    commands = scenes.commands("platoon", 20, 1, frames, "default")
-    fused = [subprocess.Popen([glint, "-c", " | ".join(commands)], stdout=subprocess.PIPE)]
+    commands = scenes.commands("platoon", 20, 1, options.stream, "default")
+    fused = [subprocess.Popen([options.glint, "-c", " | ".join(commands)], stdout=subprocess.PIPE)]
     for mode, processes in (("fused", fused), ("piped", None)):
-        found = follow(processes or pipe([command.split() for command in commands]), frames)
+        found = follow(processes or pipe([command.split() for command in commands]), options.stream)
         for tenth in range(1, len(found)):
-            cpu_ns = (found[tenth][0] - found[tenth - 1][0]) / (frames / TENTHS)
-            yield {"stream": frames, "mode": mode, "tenth": tenth, "cpu_ns_per_frame": round(cpu_ns),
+            cpu_ns = (found[tenth][0] - found[tenth - 1][0]) / (options.stream / TENTHS)
+            yield {"stream": options.stream, "mode": mode, "tenth": tenth, "cpu_ns_per_frame": round(cpu_ns),
                    "resident_kB": found[tenth][1]}

@@ -46,16 +46,16 @@ def ways(program, folder):
             "glint.columns(chain=...)": lambda: glint.columns(chain=chain)}
 
 
-def run(program, folder, repeat):
+def run(options, folder):
     """Prints all ways; 1 if the columns take too long."""
     import numpy  # noqa: F401: glint.columns does not wait for it, and other benchmarks do without it
-    spent = {name: [] for name in ways(program, folder)}
-    for _ in range(repeat):
-        for name, way in ways(program, folder).items():
+    spent = {name: [] for name in ways(options.glint, folder)}
+    for _ in range(options.repeat):
+        for name, way in ways(options.glint, folder).items():
             begin = cpu_us()
             way()
             spent[name].append((cpu_us() - begin) / FRAMES)
-    say(f"{FRAMES} frames, {repeat} rounds, medians of CPU time\n\nus a frame   chains (least to most)")
+    say(f"{FRAMES} frames, {options.repeat} rounds, medians of CPU time\n\nus a frame   chains (least to most)")
     made, slow = next(iter(spent.values())), 0
     for name, taken in spent.items():
         ratios = [one / chain for one, chain in zip(taken, made)]

@@ -64,8 +64,8 @@ def peak_line(reader, frames):
     return {"reader": os.path.basename(reader[0]), "frames": frames, "peak_kB": told["peak_kB"]}
 
 
-def lines(glint, folder):
-    reader = [os.path.join(os.path.dirname(glint), "glint-traffic-sumo")]
+def lines(options, folder):
+    reader = [os.path.join(os.path.dirname(options.glint), "glint-traffic-sumo")]
     path = os.path.join(folder, "fcd.xml")
     write_floating_cars(path)
     yield ratio_line(path, PARSE_XML, reader)

@@ -151,8 +151,8 @@ def measure_memory(folder, title, source_of):
         say(f"{kind:16}" + "".join(f"{column.get(kind, 0) / 1e3:10.1f}" for column in columns))
 
 
-def run(glint, folder, repeat):
-    os.environ["BUILD"] = os.path.dirname(os.path.dirname(os.path.abspath(glint)))
-    compare(glint, folder, repeat)
+def run(options, folder):
+    os.environ["BUILD"] = os.path.dirname(os.path.dirname(os.path.abspath(options.glint)))
+    compare(options.glint, folder, options.repeat)
     measure_memory(folder, "in scenes of 100 frames", of_scenes)
     measure_memory(folder, "in snapshots, each of them a scene", of_snapshots)

@@ -122,7 +122,7 @@ def curve(glint, folder):
         say(f"{vehicles:8} {cost / 1e3:12.1f} {text.count(b'length_m') / text.count(b'ego'):15.1f}")
 
 
-def run(glint, folder):
+def run(options, folder):
     reading(folder)
-    all_egos(glint, folder)
-    curve(glint, folder)
+    all_egos(options.glint, folder)
+    curve(options.glint, folder)

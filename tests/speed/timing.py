@@ -39,8 +39,8 @@ def timed(glint, script):
     return spent([os.path.join(os.path.dirname(glint), "..", "tests", "speed", "timed"), script])
 
 
-def function_lines(repeat):
-    done = subprocess.run([os.path.join(TOOLS, "functions"), str(repeat)],
+def function_lines(options, _):
+    done = subprocess.run([os.path.join(TOOLS, "functions"), str(options.repeat)],
                           check=True, stdout=subprocess.PIPE, text=True)
     samples = {}
     for line in done.stdout.splitlines():
