@@ -60,7 +60,7 @@ def peak_line(reader, frames):
             process.stdin.write(step(number, 2).encode())
         process.stdin.write(b"</fcd-export>\n")
         process.stdin.close()
-        told = json.loads(process.stderr.read())
+        told = json.loads(process.stderr.readlines()[-1])  # behind notices
     return {"reader": os.path.basename(reader[0]), "frames": frames, "peak_kB": told["peak_kB"]}
 
 
