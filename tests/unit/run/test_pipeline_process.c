@@ -124,8 +124,8 @@ TEST(an_effect_is_listed_by_its_name_and_with_the_others)
     char line[512];
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const struct effect *effect = effect_table[i];
-        snprintf(line, sizeof line, "%-16s  %-7s %s\n", effects_names[i], effect_homes[effect->home],
-                 effect->summary);
+        snprintf(line, sizeof line, "%-16s  %-7s %s\n", effects_names[i],
+                 effect_homes[effect->home], effect->summary);
         expect_line("effects", line, true);
         snprintf(line, sizeof line, "described by %s\n", effect->cause);
         expect_line(effects_names[i], line, true);
