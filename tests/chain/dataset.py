@@ -1076,8 +1076,8 @@ def use(programs):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("bin")
-    parser.add_argument("--kills", type=int, default=quick(5, 50))
-    parser.add_argument("--scenes", type=int, default=quick(60, 200))
+    parser.add_argument("--kills", type=int, default=quick(5, 20))
+    parser.add_argument("--scenes", type=int, default=quick(60, 100))
     options = parser.parse_args()
     use(options.bin)
     for check in quick(IN_QUICK_RUN, CHECKS):
