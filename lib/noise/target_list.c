@@ -35,9 +35,7 @@ static int compare_range(const void *left, const void *right)
     return compare_strength(left, right);
 }
 
-/* Notes the distance of every measurement to the nearest measurement on the other side of the
- * limit.
- */
+/* Notes the distance of every measurement to the nearest one on the other side of the limit. */
 static void note_limit_margins(struct effect_measurement *measurements, size_t count,
                                enum list_order order, int64_t limit)
 {

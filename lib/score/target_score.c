@@ -31,8 +31,9 @@ struct target_cell target_score_cell(const struct sensor_view *view, double azim
 
 bool target_score_has_cells(const struct sensor_view *view)
 {
-    return view->cell_range_m > 0 && view->cell_range_rate_mps > 0 &&
-           view->field_of_view_rad / 20 > 0;
+    struct target_cell cell = target_score_cell(view, 0);
+    return cell.range_m > 0 && cell.range_rate_mps > 0 && cell.azimuth_rad > 0 &&
+           view->field_of_view_rad > 0;
 }
 
 double target_score_distance(const struct target *a, const struct target *b,
