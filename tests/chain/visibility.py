@@ -16,7 +16,6 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import recorded  # noqa: E402
 from recorded import BIN, ENV, ROOT, check  # noqa: E402
-sys.path.append(os.path.join(ROOT, "scripts"))
 import glint  # noqa: E402
 
 SILENT = {"facing_away", "no_specular_point", "switched_off"}

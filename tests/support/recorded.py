@@ -6,9 +6,9 @@ import select
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from scripts import ENVIRONMENT as ENV, ROOT  # noqa: F401: for the tests
+
 BIN = os.path.abspath(sys.argv[1])
-ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 DATA = os.environ.get("GLINT_TEST_DATA")
 NAME = os.path.basename(sys.argv[0]).removesuffix(".py")
 PATIENCE_S = 300

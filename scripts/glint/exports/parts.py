@@ -10,8 +10,8 @@ from glint.exports.folder import TABLES, Folder, Part
 from glint.exports.processes import answer_of, side_by_side
 from glint.exports.streams import HEIGHT_M, Scenes, frames_of, is_read_again
 from glint.progress import Progress
-from glint.sets.plan import Fault
 from glint.sets.durable import new_folder
+from glint.sets.plan import Fault
 
 PARTS_OF_A_JOB = 4  # so that all jobs end at about the same time
 Written = namedtuple("Written", "scenes notes lacking counted assumed rest")  # what a part has to say, and what its layout needs at the end
